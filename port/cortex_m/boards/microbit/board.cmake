@@ -1,0 +1,2 @@
+set(board_processor cortex-m0)
+set(board_timer nrf51)

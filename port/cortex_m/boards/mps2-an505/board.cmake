@@ -1,0 +1,2 @@
+set(board_processor cortex-m33)
+set(board_timer cmsdk_dual)

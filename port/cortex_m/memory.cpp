@@ -1,0 +1,86 @@
+// The four functions a freestanding compiler may call without being asked. Words where both ends
+// are aligned alike, bytes elsewhere.
+#include <cstddef>
+#include <cstdint>
+
+namespace {
+
+using Word = std::uint32_t;
+// Bytes are read as words here, which only a type that may alias anything is allowed to do.
+using AliasWord [[gnu::may_alias]] = Word;
+
+bool aligned(const void* a, const void* b) {
+  return ((reinterpret_cast<std::uintptr_t>(a) | reinterpret_cast<std::uintptr_t>(b)) &
+          (sizeof(Word) - 1)) == 0;
+}
+
+/// In ascending order, and four words are read before any of them is written: right also for
+/// regions that overlap, if `out` is below `in`. (So no __restrict here.)
+void copy_forwards(unsigned char* out, const unsigned char* in, std::size_t bytes) {
+  if (aligned(out, in)) {
+    auto* out_word = reinterpret_cast<AliasWord*>(out);
+    auto* in_word = reinterpret_cast<const AliasWord*>(in);
+    for (; bytes >= 4 * sizeof(Word); bytes -= 4 * sizeof(Word), out_word += 4, in_word += 4) {
+      const Word a = in_word[0], b = in_word[1], c = in_word[2], d = in_word[3];
+      out_word[0] = a;
+      out_word[1] = b;
+      out_word[2] = c;
+      out_word[3] = d;
+    }
+    for (; bytes >= sizeof(Word); bytes -= sizeof(Word)) *out_word++ = *in_word++;
+    out = reinterpret_cast<unsigned char*>(out_word);
+    in = reinterpret_cast<const unsigned char*>(in_word);
+  }
+  for (; bytes > 0; --bytes) *out++ = *in++;
+}
+
+}  // namespace
+
+extern "C" {
+
+void* memcpy(void* __restrict to, const void* __restrict from, std::size_t bytes) {
+  copy_forwards(static_cast<unsigned char*>(to), static_cast<const unsigned char*>(from), bytes);
+  return to;
+}
+
+void* memmove(void* to, const void* from, std::size_t bytes) {
+  auto* out = static_cast<unsigned char*>(to);
+  auto* in = static_cast<const unsigned char*>(from);
+  // One unsigned comparison for "out starts inside [in, in + bytes)": then copy from the end.
+  if (reinterpret_cast<std::uintptr_t>(out) - reinterpret_cast<std::uintptr_t>(in) < bytes) {
+    for (std::size_t i = bytes; i-- > 0;) out[i] = in[i];
+  } else {
+    copy_forwards(out, in, bytes);
+  }
+  return to;
+}
+
+void* memset(void* to, int value, std::size_t bytes) {
+  auto* out = static_cast<unsigned char*>(to);
+  const auto byte = static_cast<unsigned char>(value);
+  if (aligned(out, out)) {
+    const Word pattern = byte * Word{0x01010101u};
+    auto* out_word = reinterpret_cast<AliasWord*>(out);
+    for (; bytes >= 4 * sizeof(Word); bytes -= 4 * sizeof(Word), out_word += 4) {
+      out_word[0] = pattern;
+      out_word[1] = pattern;
+      out_word[2] = pattern;
+      out_word[3] = pattern;
+    }
+    for (; bytes >= sizeof(Word); bytes -= sizeof(Word)) *out_word++ = pattern;
+    out = reinterpret_cast<unsigned char*>(out_word);
+  }
+  for (; bytes > 0; --bytes) *out++ = byte;
+  return to;
+}
+
+int memcmp(const void* left, const void* right, std::size_t bytes) {
+  auto* a = static_cast<const unsigned char*>(left);
+  auto* b = static_cast<const unsigned char*>(right);
+  for (; bytes > 0; --bytes, ++a, ++b) {
+    if (*a != *b) return *a < *b ? -1 : 1;
+  }
+  return 0;
+}
+
+}  // extern "C"

@@ -1,0 +1,90 @@
+// port.hpp on a Cortex-M with a debugger or emulator that answers semihosting.
+#include "port/port.hpp"
+
+#include "board.hpp"
+#include "semihosting.hpp"
+#include "symbols.hpp"
+#include "timer.hpp"
+
+namespace port {
+namespace {
+
+int g_console = -1;
+
+/// Not on the stack, where it would be the high-water mark of small programs.
+char g_command_line[512];
+
+/// The value's first character if `word` reads `key=...`, else null.
+const char* value_if(const char* word, const char* key) {
+  while (*key != '\0' && *word == *key) ++word, ++key;
+  return *key == '\0' && *word == '=' ? word + 1 : nullptr;
+}
+
+bool in_word(char character) { return character != '\0' && character != ' '; }
+
+}  // namespace
+
+void init() {}  // the start-up code has done it
+
+void write(const char* text, std::size_t bytes) {
+  if (g_console < 0) g_console = semihosting::open(":tt", semihosting::Mode::kConsoleWrite);
+  semihosting::write(g_console, text, bytes);
+}
+
+void exit(int code) { semihosting::exit(code); }
+
+std::uint64_t ticks() {
+  const std::uint32_t fine = timer_fine();
+  const std::uint64_t coarse = timer_coarse();
+  const auto correction = static_cast<std::int32_t>(fine - static_cast<std::uint32_t>(coarse));
+  const std::uint64_t count = coarse + static_cast<std::uint64_t>(std::int64_t{correction});
+  return (count * board::kTickFactor + board::kTickRounding) >> board::kTickShift;
+}
+
+const char* tick_unit() { return board::kTickUnit; }
+
+void wait_for_tick() {}
+
+std::size_t stack_bytes() { return value_of(port_stack_top) - value_of(port_stack_bottom); }
+
+std::size_t stack_high_water() {
+  const std::uint32_t* word = port_stack_bottom;
+  while (word != port_stack_top && *word == kStackPaint) ++word;
+  return value_of(port_stack_top) - value_of(word);
+}
+
+std::size_t code_bytes() { return value_of(::port_code_bytes); }
+std::size_t ram_bytes() { return value_of(::port_ram_bytes); }
+
+std::size_t argument(const char* key, char* out, std::size_t size) {
+  if (size > 0) out[0] = '\0';
+  if (!semihosting::command_line(g_command_line, sizeof g_command_line)) {
+    weir_fault("command line shorter than 512 bytes", __FILE__, __LINE__);
+  }
+  const char* word = g_command_line;
+  while (*word != '\0') {
+    const char* value = value_if(word, key);
+    if (value != nullptr) {
+      std::size_t length = 0;
+      for (; in_word(value[length]); ++length) {
+        if (length + 1 < size) out[length] = value[length], out[length + 1] = '\0';
+      }
+      return length;
+    }
+    while (in_word(*word)) ++word;
+    while (*word == ' ') ++word;
+  }
+  return 0;
+}
+
+bool file_write(const char* name, const void* data, std::size_t bytes, bool append) {
+  const int handle = semihosting::open(
+      name, append ? semihosting::Mode::kAppendBinary : semihosting::Mode::kWriteBinary);
+  if (handle < 0) return false;
+  // Some emulators (QEMU 7.2) open for appending and then write from the start.
+  const bool placed = !append || semihosting::seek_end(handle);
+  const bool whole = placed && semihosting::write(handle, data, bytes) == 0;
+  return semihosting::close(handle) && whole;
+}
+
+}  // namespace port
