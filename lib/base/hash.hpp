@@ -1,0 +1,37 @@
+// FNV-1a, 64 bit (Fowler, Noll, Vo 1991), over 32-bit words in a stated order.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace weir {
+
+class Hash {
+public:
+    void add(std::uint32_t word) {
+        for (int byte = 0; byte < 4; ++byte) {
+            value_ = (value_ ^ ((word >> (8 * byte)) & 0xFFU)) * 0x100000001B3ULL;
+        }
+    }
+    void add(std::int32_t word) { add(static_cast<std::uint32_t>(word)); }
+    /// -0 and +0 compare equal, so they hash equal. The state never holds a NaN.
+    void add(float number) {
+        std::uint32_t bits = 0;
+        const float canonical = number == 0.0F ? 0.0F : number;
+        std::memcpy(&bits, &canonical, sizeof bits);
+        add(bits);
+    }
+    void add(double number) {
+        std::uint64_t bits = 0;
+        const double canonical = number == 0.0 ? 0.0 : number;
+        std::memcpy(&bits, &canonical, sizeof bits);
+        add(static_cast<std::uint32_t>(bits));
+        add(static_cast<std::uint32_t>(bits >> 32U));
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xCBF29CE484222325ULL;
+};
+
+}  // namespace weir

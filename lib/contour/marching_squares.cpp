@@ -1,0 +1,226 @@
+// Marching squares by table: each case names the cell edges that its lines cross.
+#include "contour/marching_squares.hpp"
+
+namespace weir {
+
+namespace {
+
+enum Edge : std::uint8_t { kBottom, kRight, kTop, kLeft };
+
+/// The two nodes of each edge, from lower to higher coordinate in every cell, so that the two
+/// cells at an edge compute the same crossing.
+struct EdgeNodes {
+    std::uint8_t low;
+    std::uint8_t high;
+};
+constexpr EdgeNodes kEdgeNodes[4] = {{0, 1}, {1, 2}, {3, 2}, {0, 3}};
+
+/// The horizontal and the vertical edge that meet at each node.
+struct NodeEdges {
+    Edge horizontal;
+    Edge vertical;
+};
+constexpr NodeEdges kNodeEdges[4] = {
+    {kBottom, kLeft}, {kBottom, kRight}, {kTop, kRight}, {kTop, kLeft}};
+
+struct Crossing {
+    Edge from;
+    Edge to;
+};
+struct CaseLines {
+    std::uint8_t lines;
+    Crossing crossing[2];
+};
+
+// Solid on the right of from → to. Saddles stand here with separate solids.
+constexpr CaseLines kCases[16] = {
+    {0, {}},
+    {1, {{kLeft, kBottom}}},
+    {1, {{kBottom, kRight}}},
+    {1, {{kLeft, kRight}}},
+    {1, {{kRight, kTop}}},
+    {2, {{kLeft, kBottom}, {kRight, kTop}}},
+    {1, {{kBottom, kTop}}},
+    {1, {{kLeft, kTop}}},
+    {1, {{kTop, kLeft}}},
+    {1, {{kTop, kBottom}}},
+    {2, {{kBottom, kRight}, {kTop, kLeft}}},
+    {1, {{kTop, kRight}}},
+    {1, {{kRight, kLeft}}},
+    {1, {{kRight, kBottom}}},
+    {1, {{kBottom, kLeft}}},
+    {0, {}},
+};
+// Joined solids: the lines cut off the two open corners.
+constexpr CaseLines kJoined5 = {2, {{kRight, kBottom}, {kLeft, kTop}}};
+constexpr CaseLines kJoined10 = {2, {{kBottom, kLeft}, {kTop, kRight}}};
+
+template <class Real>
+bool solids_joined(const Real distance[4]) {
+    return (distance[0] + distance[2]) + (distance[1] + distance[3]) <= Real(0);
+}
+
+const CaseLines& lines_of(std::uint8_t solid_nodes, bool joined) {
+    if (joined && solid_nodes == 5) {
+        return kJoined5;
+    }
+    return joined && solid_nodes == 10 ? kJoined10 : kCases[solid_nodes];
+}
+
+/// Where the contour crosses an edge whose nodes are on different sides: one distance is positive
+/// and the other is not, so the divisor is never 0 and the quotient never beyond 0 … 1.
+template <class Real>
+Vec2<Real> crossing_point(const Real distance[4], Edge edge) {
+    const Real low = distance[kEdgeNodes[edge].low];
+    const Real high = distance[kEdgeNodes[edge].high];
+    const Real at = low / (low - high);
+    switch (edge) {
+        case kBottom: return {at, Real(0)};
+        case kRight: return {Real(1), at};
+        case kTop: return {at, Real(1)};
+        default: return {Real(0), at};
+    }
+}
+
+template <class Real>
+Real slope(const Real distance[4], Edge edge) {
+    return distance[kEdgeNodes[edge].high] - distance[kEdgeNodes[edge].low];
+}
+
+/// Scaled by the larger part first: the squares of tiny distances would vanish.
+template <class Real>
+Vec2<Real> unit(Vec2<Real> v) {
+    const Real larger = maximum(absolute(v.x), absolute(v.y));
+    const Vec2<Real> scaled{v.x / larger, v.y / larger};
+    const Real size = length(scaled);
+    return {scaled.x / size, scaled.y / size};
+}
+
+constexpr bool is_horizontal(Edge edge) { return edge == kBottom || edge == kTop; }
+
+template <class Real>
+ContourLine<Real> contour_line(const Real distance[4], Crossing crossing) {
+    ContourLine<Real> line;
+    line.from = crossing_point(distance, crossing.from);
+    line.to = crossing_point(distance, crossing.to);
+    const Vec2<Real> along = line.to - line.from;
+    if (is_horizontal(crossing.from) == is_horizontal(crossing.to)) {
+        line.normal = unit(Vec2<Real>{-along.y, along.x});
+        return line;
+    }
+    // Across a corner the line is as short as it likes, down to a point when the node is at 0. The
+    // slopes of the distance along the two crossed edges are perpendicular to the same line
+    // (similar triangles), point into the liquid, and are never 0.
+    const bool horizontal_first = is_horizontal(crossing.from);
+    line.normal = unit(
+        Vec2<Real>{slope(distance, horizontal_first ? crossing.from : crossing.to),
+                   slope(distance, horizontal_first ? crossing.to : crossing.from)});
+    return line;
+}
+
+/// Open area where every line cuts off a corner: triangles of solid off a full cell, or, with
+/// three solid nodes or joined solids, triangles of liquid alone.
+template <class Real>
+Real corner_area(const Real open[4], std::uint32_t solid_nodes, bool joined) {
+    const bool saddle = solid_nodes == 5 || solid_nodes == 10;
+    const bool one_solid = (solid_nodes & (solid_nodes - 1U)) == 0;
+    const bool open_corners = saddle ? joined : !one_solid;
+    Real area = open_corners ? Real(0) : Real(1);
+    for (std::uint32_t node = 0; node < 4; ++node) {
+        const bool solid = ((solid_nodes >> node) & 1U) != 0;
+        const Real across = open[kNodeEdges[node].horizontal];
+        const Real up = open[kNodeEdges[node].vertical];
+        if (open_corners && !solid) {
+            area = area + Real(0.5) * (across * up);
+        } else if (!open_corners && solid) {
+            area = area - Real(0.5) * ((Real(1) - across) * (Real(1) - up));
+        }
+    }
+    return area;
+}
+
+}  // namespace
+
+template <class Real>
+std::uint8_t contour_case(const Real distance[4]) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t node = 0; node < 4; ++node) {
+        bits |= (distance[node] <= Real(0) ? 1U : 0U) << node;
+    }
+    return static_cast<std::uint8_t>(bits);
+}
+
+template <class Real>
+ContourCell<Real> contour_cell(const Real distance[4]) {
+    const std::uint8_t solid_nodes = contour_case(distance);
+    const bool joined = solids_joined(distance);
+    const CaseLines& table = lines_of(solid_nodes, joined);
+    ContourCell<Real> cell;
+    cell.lines = table.lines;
+    cell.both_needed = table.lines == 2 ? joined : solid_nodes == 15;
+    for (std::int32_t i = 0; i < cell.lines; ++i) {
+        cell.line[i] = contour_line(distance, table.crossing[i]);
+    }
+    return cell;
+}
+
+template <class Real>
+ContourHit<Real> contour_distance(const ContourCell<Real>& cell, Vec2<Real> p) {
+    if (cell.lines == 0) {
+        return {cell.both_needed ? Real(-1) : Real(1), {}};
+    }
+    ContourHit<Real> hit{dot(p - cell.line[0].from, cell.line[0].normal), cell.line[0].normal};
+    if (cell.lines == 2) {
+        const Real other = dot(p - cell.line[1].from, cell.line[1].normal);
+        // Behind both: the shallower line is the way out. Behind any: the deeper one is.
+        if (cell.both_needed ? other > hit.distance : other < hit.distance) {
+            hit = {other, cell.line[1].normal};
+        }
+    }
+    return hit;
+}
+
+template <class Real>
+Real open_fraction(Real distance_0, Real distance_1) {
+    const bool solid_0 = distance_0 <= Real(0);
+    const bool solid_1 = distance_1 <= Real(0);
+    if (solid_0 == solid_1) {
+        return solid_0 ? Real(0) : Real(1);
+    }
+    const Real outside = solid_0 ? distance_1 : distance_0;
+    const Real inside = solid_0 ? distance_0 : distance_1;
+    return outside / (outside - inside);
+}
+
+template <class Real>
+Real open_area(const Real distance[4]) {
+    Real open[4];
+    for (std::int32_t edge = 0; edge < 4; ++edge) {
+        const EdgeNodes nodes = kEdgeNodes[edge];
+        open[edge] = open_fraction(distance[nodes.low], distance[nodes.high]);
+    }
+    const Real half = Real(0.5);
+    const std::uint8_t solid_nodes = contour_case(distance);
+    switch (solid_nodes) {
+        case 0: return Real(1);
+        case 15: return Real(0);
+        case 3:
+        case 12: return half * (open[kLeft] + open[kRight]);
+        case 6:
+        case 9: return half * (open[kBottom] + open[kTop]);
+        default: return corner_area(open, solid_nodes, solids_joined(distance));
+    }
+}
+
+template std::uint8_t contour_case(const float*);
+template std::uint8_t contour_case(const double*);
+template ContourCell<float> contour_cell(const float*);
+template ContourCell<double> contour_cell(const double*);
+template ContourHit<float> contour_distance(const ContourCell<float>&, Vec2<float>);
+template ContourHit<double> contour_distance(const ContourCell<double>&, Vec2<double>);
+template float open_fraction(float, float);
+template double open_fraction(double, double);
+template float open_area(const float*);
+template double open_area(const double*);
+
+}  // namespace weir

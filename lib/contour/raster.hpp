@@ -1,0 +1,50 @@
+// Polygon rasterization: which grid nodes lie inside a polygon, and how far they are from it.
+#pragma once
+
+#include "math/vec2.hpp"
+
+namespace weir {
+
+/// Grid nodes i0 … i1, j0 … j1, ends included; empty when i1 < i0 or j1 < j0.
+struct NodeBox {
+    std::int32_t i0 = 0;
+    std::int32_t j0 = 0;
+    std::int32_t i1 = -1;
+    std::int32_t j1 = -1;
+
+    bool empty() const { return i1 < i0 || j1 < j0; }
+};
+
+/// A placed polygon and its convex pieces, in cells.
+template <class Real>
+struct RasterPolygon {
+    const Vec2<Real>* ring = nullptr;
+    std::int32_t count = 0;
+    const std::uint16_t* pieces = nullptr;
+    std::int32_t piece_length = 0;
+    std::uint16_t name = 0;  ///< written to the nodes of which it is the nearest
+};
+
+/// A field of nodes: node (i, j) stands at origin + j · stride + i.
+template <class Real>
+struct NodeField {
+    Real* distance = nullptr;
+    std::uint16_t* nearest = nullptr;
+    std::int32_t origin = 0;
+    std::int32_t stride = 0;
+};
+
+/// Nodes at most `margin` cells away from the polygon's bounding box, within 0 … last.
+template <class Real>
+NodeBox nodes_near(const Vec2<Real>* ring, std::int32_t count, Real margin, std::int32_t last_i,
+                   std::int32_t last_j);
+
+/// Merges a polygon into the field: a node takes the smaller of its distance and the polygon's,
+/// so that overlapping polygons become their union. `binary` writes −½ and +½ instead of the
+/// distance, which is the binary matrix of the paper: contour lines then run through mid-edges.
+/// Returns the number of nodes computed. Cost: nodes × edges.
+template <class Real>
+std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, bool binary,
+                       Real far, const NodeField<Real>& field);
+
+}  // namespace weir

@@ -1,0 +1,33 @@
+// The particle pool: positions in cells, velocities in cells per second.
+#pragma once
+
+#include "math/vec2.hpp"
+
+namespace weir {
+
+template <class Real>
+struct Particles {
+    Vec2<Real>* position = nullptr;
+    Vec2<Real>* velocity = nullptr;
+    std::int32_t count = 0;
+    std::int32_t capacity = 0;
+
+    bool full() const { return count == capacity; }
+    void add(Vec2<Real> at, Vec2<Real> moving) {
+        position[count] = at;
+        velocity[count] = moving;
+        ++count;
+    }
+    /// The last particle takes the removed one's place.
+    void remove(std::int32_t index) {
+        --count;
+        position[index] = position[count];
+        velocity[index] = velocity[count];
+    }
+};
+
+/// Particles stay this far inside the tank, cells: every stencil then lies within the arrays.
+template <class Real>
+inline constexpr Real kWallGap = Real(1.0 / 64.0);
+
+}  // namespace weir

@@ -1,0 +1,55 @@
+// Polygons: what a body's outline must be, its area, and the inside test by left turns.
+// A ring is the list of a polygon's vertices, counter-clockwise; its last edge closes it.
+#pragma once
+
+#include <cstdint>
+
+#include "math/vec2.hpp"
+#include "weir/status.hpp"
+#include "weir/types.hpp"
+
+namespace weir {
+
+/// Smallest area of a body over the square of its bounding box's diagonal. A float coordinate is
+/// good to 6e-8 of the diagonal, so a sliver thinner than this has a width made of rounding; a
+/// wall of 1 mm by 100 m still passes.
+inline constexpr double kMinRelativeArea = 1e-6;
+
+/// Set-up: whether a body may have that outline. Total for every bit pattern of its floats.
+/// Names the first defect in this order: polygon_missing, _too_few_vertices, _too_many_vertices,
+/// _not_finite, _repeats_a_vertex (neighbours on the outline), _zero_area, _crosses_itself
+/// (also touches itself, or goes back over its own edge), _clockwise.
+/// Cost: one box test for each pair of edges.
+Status check_polygon(View<Vec2f> polygon);
+
+/// Twice the area of the triangle a b c: positive where the way a → b → c turns left.
+template <class Real>
+constexpr Real turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
+    return cross(b - a, c - a);
+}
+
+/// Whether c lies to the left of the line from a to b, or on it.
+template <class Real>
+constexpr bool is_left_turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
+    return turn(a, b, c) >= Real(0);
+}
+
+/// Twice the enclosed area, in squares of the ring's unit; positive if counter-clockwise.
+template <class Real>
+Real twice_signed_area(const Vec2<Real>* ring, std::int32_t count);
+
+/// Whether a point is in a convex piece of a ring, its edge included: it lies to the left of
+/// every edge (the paper's test). A piece without area holds no point.
+/// @param piece vertex numbers of the ring, counter-clockwise.
+template <class Real>
+bool inside_convex(const Vec2<Real>* ring, const std::uint16_t* piece, std::int32_t count,
+                   Vec2<Real> point);
+
+extern template float twice_signed_area(const Vec2<float>*, std::int32_t);
+extern template double twice_signed_area(const Vec2<double>*, std::int32_t);
+extern template bool inside_convex(const Vec2<float>*, const std::uint16_t*, std::int32_t,
+                                   Vec2<float>);
+extern template bool inside_convex(const Vec2<double>*, const std::uint16_t*, std::int32_t,
+                                   Vec2<double>);
+
+}  // namespace weir

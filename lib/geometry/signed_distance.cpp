@@ -1,0 +1,78 @@
+// Point to polygon by point to segment; the sign from the inside test of the convex pieces.
+#include "geometry/signed_distance.hpp"
+
+namespace weir {
+
+namespace {
+
+/// How far a coordinate is outside the interval of two others; not positive within it.
+template <class Real>
+Real gap(Real value, Real end, Real other_end) {
+    return end < other_end ? maximum(end - value, value - other_end)
+                           : maximum(other_end - value, value - end);
+}
+
+template <class Real>
+bool inside_any_piece(const Vec2<Real>* ring, const std::uint16_t* pieces,
+                      std::int32_t piece_length, Vec2<Real> p) {
+    std::int32_t at = 0;
+    while (at < piece_length) {
+        const std::int32_t count = pieces[at];
+        if (inside_convex(ring, pieces + at + 1, count, p)) {
+            return true;
+        }
+        at += 1 + count;
+    }
+    return false;
+}
+
+}  // namespace
+
+template <class Real>
+Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b) {
+    const Vec2<Real> edge = b - a;
+    const Vec2<Real> arm = p - a;
+    const Real along = dot(arm, edge);
+    const Real squared_length = dot(edge, edge);
+    if (along <= Real(0)) {
+        return length(arm);
+    }
+    if (along >= squared_length) {
+        return length(p - b);
+    }
+    // Not |p - foot|: the foot is rounded, and a point on a wall would be a hair away from it.
+    return absolute(cross(edge, arm)) / square_root(squared_length);
+}
+
+template <class Real>
+Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far) {
+    Real nearest = far;
+    Vec2<Real> from = ring[count - 1];
+    for (std::int32_t i = 0; i < count; ++i) {
+        const Vec2<Real> to = ring[i];
+        if (gap(p.x, from.x, to.x) < nearest && gap(p.y, from.y, to.y) < nearest) {
+            nearest = minimum(nearest, distance_to_segment(p, from, to));
+        }
+        from = to;
+    }
+    return nearest;
+}
+
+template <class Real>
+Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,
+                     std::int32_t piece_length, Vec2<Real> p, Real far) {
+    const Real distance = distance_to_ring(ring, count, p, far);
+    // 0 - d, because -d would make a negative zero on the ring.
+    return inside_any_piece(ring, pieces, piece_length, p) ? Real(0) - distance : distance;
+}
+
+template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
+template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
+template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float);
+template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double);
+template float signed_distance(const Vec2<float>*, std::int32_t, const std::uint16_t*,
+                               std::int32_t, Vec2<float>, float);
+template double signed_distance(const Vec2<double>*, std::int32_t, const std::uint16_t*,
+                                std::int32_t, Vec2<double>, double);
+
+}  // namespace weir

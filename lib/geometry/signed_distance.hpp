@@ -1,0 +1,36 @@
+// Distance from a point to a polygon: negative inside, exact up to rounding, cut off at `far`.
+// Coordinates are cells, |x| ≤ 1e6.
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/polygon.hpp"
+#include "math/vec2.hpp"
+
+namespace weir {
+
+/// Distance to the segment a b, never negative; exactly 0 for a point that rounding sees on it.
+template <class Real>
+Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b);
+
+/// Distance to the nearest edge of a ring, inside or outside, at most `far`.
+/// Cost: a box test an edge, and a square root and a division for those that come nearer.
+template <class Real>
+Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far);
+
+/// Distance to the ring, -far … far: negative in any of its convex pieces, 0 on the ring.
+/// @param pieces what `decompose` wrote for that ring.
+template <class Real>
+Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,
+                     std::int32_t piece_length, Vec2<Real> p, Real far);
+
+extern template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
+extern template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
+extern template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float);
+extern template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double);
+extern template float signed_distance(const Vec2<float>*, std::int32_t, const std::uint16_t*,
+                                      std::int32_t, Vec2<float>, float);
+extern template double signed_distance(const Vec2<double>*, std::int32_t, const std::uint16_t*,
+                                       std::int32_t, Vec2<double>, double);
+
+}  // namespace weir

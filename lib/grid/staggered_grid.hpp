@@ -1,0 +1,67 @@
+// The staggered (MAC) grid (Harlow & Welch 1965), in cells: cell (i, j) covers [i, i+1] × [j, j+1].
+//
+//   u on the left face of a cell, at (i, j + ½);  v on its lower face, at (i + ½, j);
+//   pressure, density and level at its centre;  signed distance at its lower left node (i, j).
+//
+// All arrays share one numbering with a ring of ghost cells, i = −1 … nx, j = −1 … ny.
+#pragma once
+
+#include "math/vec2.hpp"
+
+namespace weir {
+
+struct GridShape {
+    std::int32_t nx = 0;
+    std::int32_t ny = 0;
+    std::int32_t stride = 0;  ///< nx + 2: from a cell to the one above it
+
+    std::int32_t size() const { return stride * (ny + 2); }
+    std::int32_t index(std::int32_t i, std::int32_t j) const { return (j + 1) * stride + i + 1; }
+};
+
+template <class Real>
+struct StaggeredGrid {
+    GridShape shape;
+    Real* u = nullptr;       ///< momentum, then velocity, cells/s
+    Real* v = nullptr;
+    Real* mass_u = nullptr;  ///< in particles; free for reuse once velocity is known
+    Real* mass_v = nullptr;
+};
+
+/// The four nodes around a point and its weights: bilinear.
+template <class Real>
+struct Stencil {
+    std::int32_t base;  ///< lower left; the others are at +1, +stride, +stride+1
+    Real fx;            ///< 0 … 1, weight of the right hand nodes
+    Real fy;            ///< 0 … 1, weight of the upper nodes
+};
+
+/// Around a point, on the u faces; 0 ≤ x < nx, 0 ≤ y < ny.
+template <class Real>
+inline Stencil<Real> stencil_u(const GridShape& shape, Vec2<Real> point) {
+    const std::int32_t i = static_cast<std::int32_t>(point.x);
+    const Real shifted = point.y + Real(0.5);
+    const std::int32_t j = static_cast<std::int32_t>(shifted);
+    return {j * shape.stride + i + 1, point.x - static_cast<Real>(i),
+            shifted - static_cast<Real>(j)};
+}
+
+/// Around a point, on the v faces.
+template <class Real>
+inline Stencil<Real> stencil_v(const GridShape& shape, Vec2<Real> point) {
+    const Real shifted = point.x + Real(0.5);
+    const std::int32_t i = static_cast<std::int32_t>(shifted);
+    const std::int32_t j = static_cast<std::int32_t>(point.y);
+    return {(j + 1) * shape.stride + i, shifted - static_cast<Real>(i),
+            point.y - static_cast<Real>(j)};
+}
+
+template <class Real>
+inline Real interpolate(const Real* field, std::int32_t stride, const Stencil<Real>& at) {
+    const Real* p = field + at.base;
+    const Real low = p[0] + at.fx * (p[1] - p[0]);
+    const Real high = p[stride] + at.fx * (p[stride + 1] - p[stride]);
+    return low + at.fy * (high - low);
+}
+
+}  // namespace weir

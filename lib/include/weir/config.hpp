@@ -1,0 +1,99 @@
+// What a world is made of. Each field: meaning, unit, range, and why the default is what it is.
+#pragma once
+
+#include <cstdint>
+
+#include "weir/types.hpp"
+
+namespace weir {
+
+/// Limits of the smallest and the largest world. They keep every index within 32 bits.
+inline constexpr std::int32_t kMinCells = 4;
+inline constexpr std::int32_t kMaxCells = 8192;
+inline constexpr std::int32_t kMaxParticles = 16 * 1024 * 1024;
+inline constexpr std::int32_t kMaxBodies = 4096;
+inline constexpr std::int32_t kMaxVertices = 1024 * 1024;
+inline constexpr std::int32_t kMaxBodyVertices = 16 * 1024;
+
+/// Stronger gravity than this is limited, m/s²: no sensor on a device feels more than 100 g.
+inline constexpr float kMaxGravity = 1000.0F;
+/// Faster liquid or bodies than this are refused, cells/s.
+inline constexpr float kMaxSpeed = 1.0e6F;
+
+/// How much of everything a world can ever hold. Memory is a function of this alone.
+struct Capacity {
+    std::int32_t particles = 1000;  ///< 1 … kMaxParticles
+    std::int32_t cells_x = 32;      ///< kMinCells … kMaxCells; the tank is cells_x × cells_y cells
+    std::int32_t cells_y = 32;      ///< kMinCells … kMaxCells
+    std::int32_t bodies = 0;        ///< 0 … kMaxBodies, static and moving together
+    std::int32_t vertices = 0;      ///< 0 … kMaxVertices, summed over all bodies
+};
+
+/// How the liquid keeps its volume within a substep.
+enum class Pressure : std::uint8_t {
+    projection,         ///< implicit, incompressible: the default, large steps, quiet at rest
+    equation_of_state,  ///< explicit, weakly compressible: simple, small steps
+};
+
+/// Where a solid's contour line runs within a cell.
+enum class Contour : std::uint8_t {
+    interpolated,  ///< where the exact signed distance is zero: straight walls are exact
+    mid_edge,      ///< through the middle of cell edges, from the binary matrix: as in the paper
+};
+
+/// A free-running counter, any unit, never decreasing. Null: the report's ticks stay 0.
+using TickFunction = std::uint64_t (*)();
+
+/// Everything that `World::init` wants to know. The defaults work for water in a tank.
+struct WorldDef {
+    Capacity capacity;
+
+    float cell_m = 0.02F;               ///< edge of a cell, m; 1e-6 … 1e3
+    Vec2f gravity_mps2{0.0F, -9.81F};   ///< each part at most kMaxGravity
+    std::int32_t particles_per_cell = 4;  ///< at rest: 1, 4, 9 or 16. 4 is a 2×2 lattice
+
+    Pressure pressure = Pressure::projection;
+    Contour contour = Contour::interpolated;
+
+    /// Red-black relaxation sweeps per substep; 1 … 1000. Deeper liquid wants more: 16 carry the
+    /// pressure over about 32 cells of depth, since each step starts from the last one's pressure.
+    std::int32_t pressure_sweeps = 16;
+
+    /// Longest way of a particle within one substep, cells; 0.1 … 2. The step is cut accordingly.
+    float cfl = 1.0F;
+    /// Most substeps per step; 1 … 1000. Beyond it speeds are limited, and the report says so.
+    std::int32_t max_substeps = 16;
+
+    /// Share of the particle's own velocity kept, against the grid's; 0 (PIC: viscous, smooth)
+    /// … 1 (FLIP: lively, noisy). 0.97 loses about 1 % of a wave per period.
+    float flip_ratio = 0.97F;
+
+    /// Strength of the drift towards uniform particle density; 0 (off) … 1.
+    float volume_gain = 0.25F;
+
+    /// Equation of state only: speed of sound, m/s; 0 = 10 times the speed of a fall through the
+    /// whole tank, which keeps the density within about 1 %.
+    float sound_speed_mps = 0.0F;
+
+    /// Normal velocity that the tank's walls give back; 0 (slide along) … 1 (mirror).
+    float wall_restitution = 0.0F;
+
+    TickFunction ticks = nullptr;
+};
+
+/// Where a body is and how it moves. Set once, it goes on: each step adds velocity and spin.
+struct Motion {
+    Vec2f position_m;          ///< of the body's own origin, in the tank
+    float angle_rad = 0.0F;    ///< counter-clockwise; |angle| ≤ 1e4
+    Vec2f velocity_mps;        ///< of the body's own origin
+    float spin_radps = 0.0F;   ///< counter-clockwise
+};
+
+/// A solid. The polygon is simple, counter-clockwise, given in the body's own frame.
+struct BodyDef {
+    View<Vec2f> polygon;       ///< m; 3 … kMaxBodyVertices; copied
+    Motion motion;             ///< a static body takes only position and angle
+    float restitution = 0.0F;  ///< 0 (liquid slides along it) … 1 (mirror)
+};
+
+}  // namespace weir

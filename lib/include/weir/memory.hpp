@@ -1,0 +1,142 @@
+// The memory of a world: a sum of blocks, each with an owner, known at compile time.
+//
+// `layout` is the only place that says what is stored: `world_bytes` adds it up, `World::init`
+// carves along it, and the tables that people read are printed from it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "weir/config.hpp"
+
+namespace weir {
+
+/// Who uses a block, for the table of memory by owner.
+enum class Owner : std::uint8_t {
+    world,      ///< the world's own state and the step's report
+    particles,  ///< positions and velocities
+    bodies,     ///< body table
+    vertices,   ///< polygons, their pose in the tank, their convex pieces
+    contour,    ///< signed distance at nodes (static and merged), contour matrix
+    cut_cells,  ///< open fractions of faces and cells
+    grid,       ///< staggered momentum, velocity and mass
+    pressure,   ///< pressure, its right-hand side and diagonal, surface level
+    count
+};
+inline constexpr std::int32_t kOwnerCount = static_cast<std::int32_t>(Owner::count);
+
+/// Name of an owner as printed in tables. Never null.
+const char* owner_name(Owner owner);
+
+/// One array in the caller's memory.
+enum class Block : std::uint8_t {
+    world_state,
+    particle_position,
+    particle_velocity,
+    body_table,
+    vertex_local,
+    vertex_placed,
+    piece_index,
+    triangulation_links,
+    static_distance,
+    static_body,
+    merged_distance,
+    merged_body,
+    contour_case,
+    open_u,
+    open_v,
+    full_density,
+    velocity_u,
+    velocity_v,
+    mass_u,  ///< then, once velocity is known, the velocity before the pressure
+    mass_v,
+    pressure,
+    divergence,
+    inverse_diagonal,
+    density,
+    level,
+    count
+};
+inline constexpr std::int32_t kBlockCount = static_cast<std::int32_t>(Block::count);
+
+/// The caller's memory must start at a multiple of this.
+inline constexpr std::size_t world_alignment = 16;
+
+/// Room for records whose types are private; checked by static_assert where they are defined.
+inline constexpr std::size_t kWorldStateBytes = 1024;
+inline constexpr std::size_t kBodyBytes = 128;
+
+/// Largest index of a piece list: a triangle per vertex, each a count and three vertex numbers.
+inline constexpr std::size_t kPieceIndicesPerVertex = 4;
+
+struct Layout {
+    std::size_t offset[kBlockCount] = {};
+    std::size_t bytes[kBlockCount] = {};
+    std::size_t owner_bytes[kOwnerCount] = {};
+    std::size_t total_bytes = 0;
+};
+
+/// Places every block of a world of that capacity. Pure; the same on every machine.
+template <class Real>
+constexpr Layout layout(const Capacity& capacity) {
+    struct Row {
+        Block block;
+        Owner owner;
+        std::size_t element_bytes;
+        std::size_t elements;
+    };
+    const auto count = [](std::int32_t value) { return static_cast<std::size_t>(value); };
+    const std::size_t particles = count(capacity.particles);
+    const std::size_t vertices = count(capacity.vertices);
+    // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
+    const std::size_t cells = (count(capacity.cells_x) + 2) * (count(capacity.cells_y) + 2);
+    const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
+    const std::size_t point = 2 * sizeof(Real);
+    const std::size_t index = sizeof(std::uint16_t);
+    const Row rows[] = {
+        {Block::world_state, Owner::world, kWorldStateBytes, 1},
+        {Block::particle_position, Owner::particles, point, particles},
+        {Block::particle_velocity, Owner::particles, point, particles},
+        {Block::body_table, Owner::bodies, kBodyBytes, count(capacity.bodies)},
+        {Block::vertex_local, Owner::vertices, point, vertices},
+        {Block::vertex_placed, Owner::vertices, point, vertices},
+        {Block::piece_index, Owner::vertices, index, kPieceIndicesPerVertex * vertices},
+        {Block::triangulation_links, Owner::vertices, index, 2 * vertices},
+        {Block::static_distance, Owner::contour, sizeof(Real), solid_cells},
+        {Block::static_body, Owner::contour, index, solid_cells},
+        {Block::merged_distance, Owner::contour, sizeof(Real), solid_cells},
+        {Block::merged_body, Owner::contour, index, solid_cells},
+        {Block::contour_case, Owner::contour, 1, solid_cells},
+        {Block::open_u, Owner::cut_cells, sizeof(Real), solid_cells},
+        {Block::open_v, Owner::cut_cells, sizeof(Real), solid_cells},
+        {Block::full_density, Owner::cut_cells, sizeof(Real), solid_cells},
+        {Block::velocity_u, Owner::grid, sizeof(Real), cells},
+        {Block::velocity_v, Owner::grid, sizeof(Real), cells},
+        {Block::mass_u, Owner::grid, sizeof(Real), cells},
+        {Block::mass_v, Owner::grid, sizeof(Real), cells},
+        {Block::pressure, Owner::pressure, sizeof(Real), cells},
+        {Block::divergence, Owner::pressure, sizeof(Real), cells},
+        {Block::inverse_diagonal, Owner::pressure, sizeof(Real), cells},
+        {Block::density, Owner::pressure, sizeof(Real), cells},
+        {Block::level, Owner::pressure, sizeof(Real), cells},
+    };
+    Layout result;
+    for (const Row& row : rows) {
+        const std::size_t bytes = (row.element_bytes * row.elements + world_alignment - 1) /
+                                  world_alignment * world_alignment;
+        const auto slot = static_cast<std::size_t>(row.block);
+        result.offset[slot] = result.total_bytes;
+        result.bytes[slot] = bytes;
+        result.owner_bytes[static_cast<std::size_t>(row.owner)] += bytes;
+        result.total_bytes += bytes;
+    }
+    return result;
+}
+
+/// Bytes that `World<Real>::init` needs for that capacity.
+template <class Real>
+constexpr std::size_t world_bytes(const Capacity& capacity) {
+    return layout<Real>(capacity).total_bytes;
+}
+
+}  // namespace weir

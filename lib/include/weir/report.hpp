@@ -1,0 +1,53 @@
+// What a step did. A step may not fail; what it had to clamp, refuse or remove stands here.
+#pragma once
+
+#include <cstdint>
+
+namespace weir {
+
+/// The stages of a substep, in the order in which they run.
+enum class Stage : std::uint8_t {
+    contour,           ///< polygon rasterization and contour matrix
+    particle_to_grid,  ///< scatter of mass and momentum
+    grid_update,       ///< velocity = momentum / mass, gravity, tank walls, solid faces
+    pressure,          ///< projection or equation of state
+    volume,            ///< displacement towards uniform density
+    grid_to_particle,  ///< gather of velocity, advection
+    collide,           ///< inside test against the contour line, reflection
+    count
+};
+inline constexpr std::int32_t kStageCount = static_cast<std::int32_t>(Stage::count);
+
+/// Name of a stage as printed in tables. Never null.
+const char* stage_name(Stage stage);
+
+/// What was clamped. Bits, so that several can hold at once.
+enum class Clamped : std::uint32_t {
+    nothing = 0,
+    time_step = 1U << 0U,      ///< dt was not finite, negative or too long for max_substeps
+    gravity = 1U << 1U,        ///< gravity was not finite (kept the last) or too strong (limited)
+    speed = 1U << 2U,          ///< particles were limited to `cfl` cells a substep
+    sound_speed = 1U << 3U,    ///< the equation of state was softened to fit max_substeps
+    not_finite = 1U << 4U,     ///< particles with a non-finite state were put to rest
+    not_initialised = 1U << 5U,  ///< there is no world: nothing was done
+};
+
+struct StepReport {
+    std::uint64_t ticks[kStageCount] = {};  ///< per stage, summed over substeps; 0 without a counter
+    std::int32_t substeps = 0;
+    std::uint32_t clamped = 0;        ///< set of Clamped bits
+    float dt_s = 0.0F;                ///< time that was simulated
+    float max_speed_mps = 0.0F;       ///< of any particle, at the end
+    std::int32_t particles = 0;       ///< alive at the end
+    std::int32_t nodes_rasterized = 0;  ///< contour nodes that were computed anew; 0 if nothing moved
+    std::int32_t particles_tested = 0;     ///< in a cell that a contour line crosses or fills
+    std::int32_t particles_reflected = 0;  ///< found behind a contour line and turned back
+    std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
+    std::int32_t particles_slowed = 0;     ///< limited to `cfl` cells a substep
+
+    constexpr bool has(Clamped what) const {
+        return (clamped & static_cast<std::uint32_t>(what)) != 0U;
+    }
+};
+
+}  // namespace weir

@@ -1,0 +1,66 @@
+// What a set-up call answers. Every way to be refused has a name of its own, and the name's text
+// says the remedy.
+#pragma once
+
+#include <cstdint>
+
+namespace weir {
+
+enum class [[nodiscard]] Status : std::uint8_t {
+    ok = 0,
+    // init
+    cells_out_of_range,
+    particle_capacity_out_of_range,
+    body_capacity_out_of_range,
+    vertex_capacity_out_of_range,
+    cell_size_out_of_range,
+    gravity_not_finite,
+    gravity_out_of_range,
+    particles_per_cell_out_of_range,
+    sweeps_out_of_range,
+    substeps_out_of_range,
+    cfl_out_of_range,
+    flip_ratio_out_of_range,
+    volume_gain_out_of_range,
+    sound_speed_out_of_range,
+    restitution_out_of_range,
+    unknown_option,
+    memory_missing,
+    memory_misaligned,
+    memory_too_small,
+    not_initialised,
+    // bodies
+    no_free_body,
+    no_free_vertex,
+    stale_body,
+    body_is_static,
+    polygon_missing,
+    polygon_too_few_vertices,
+    polygon_too_many_vertices,
+    polygon_not_finite,
+    polygon_repeats_a_vertex,
+    polygon_clockwise,
+    polygon_zero_area,
+    polygon_crosses_itself,
+    polygon_outside_domain,
+    position_out_of_range,
+    motion_not_finite,
+    motion_out_of_range,
+    output_missing,
+    // particles
+    no_free_particle,
+    no_such_particle,
+    particle_not_finite,
+    particle_outside_domain,
+    particle_inside_solid,
+    velocity_out_of_range,
+    box_not_finite,
+    box_is_empty,
+    box_outside_domain,
+    count
+};
+
+/// One sentence for people: what was wrong and what to do. Never null.
+const char* status_text(Status status);
+
+}  // namespace weir

@@ -1,0 +1,55 @@
+// Plain values that cross the public face. Data only: no float arithmetic here, because a user's
+// compiler flags apply to what a header computes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace weir {
+
+/// A point or a vector. Metres or metres per second at the edge of the library, cells inside it.
+template <class Real>
+struct Vec2 {
+    Real x{};
+    Real y{};
+};
+using Vec2f = Vec2<float>;
+
+/// An axis-aligned rectangle in metres, origin at the lower left corner of the tank.
+struct Box {
+    Vec2f min_m;
+    Vec2f max_m;
+};
+
+/// A body's name: a slot in the body table and the generation that the slot had when the body was
+/// added, so that the name of a removed body is refused and never reaches its successor; and the
+/// world's own tag, so that one world refuses another's names.
+struct BodyId {
+    std::uint16_t slot = 0xFFFF;
+    std::uint16_t generation = 0;
+    std::uint16_t world = 0;
+};
+
+/// A read-only window into memory that somebody else owns.
+template <class T>
+struct View {
+    const T* data = nullptr;
+    std::int32_t size = 0;
+
+    constexpr const T* begin() const { return data; }
+    constexpr const T* end() const { return data + size; }
+    constexpr const T& operator[](std::int32_t index) const { return data[index]; }
+};
+
+/// Rows of a cell or node field: value(i, j) = data[j * stride + i].
+template <class T>
+struct FieldView {
+    const T* data = nullptr;
+    std::int32_t columns = 0;
+    std::int32_t rows = 0;
+    std::int32_t stride = 0;
+
+    constexpr const T& at(std::int32_t i, std::int32_t j) const { return data[j * stride + i]; }
+};
+
+}  // namespace weir

@@ -1,0 +1,10 @@
+// Weir: real-time 2D liquid that meets solid bodies. This header is all that a program includes.
+#pragma once
+
+#include "weir/config.hpp"
+#include "weir/fault.hpp"
+#include "weir/memory.hpp"
+#include "weir/report.hpp"
+#include "weir/status.hpp"
+#include "weir/types.hpp"
+#include "weir/world.hpp"

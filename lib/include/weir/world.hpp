@@ -1,0 +1,94 @@
+// The world: liquid, solids and the tank around them, in memory that the caller hands over.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "weir/config.hpp"
+#include "weir/memory.hpp"
+#include "weir/report.hpp"
+#include "weir/status.hpp"
+#include "weir/types.hpp"
+
+namespace weir {
+
+namespace detail {
+template <class Real>
+struct WorldState;
+}
+
+/// A tank of liquid and solids. `Real` is the arithmetic inside; the face is the same for each.
+///
+/// A zero-initialised World is not a world yet: until `init` succeeds every call answers
+/// `Status::not_initialised` and a step does nothing. A World never allocates and owns no
+/// resource: it may be thrown away at any time.
+///
+/// Set-up calls check everything first and change nothing when they refuse.
+template <class Real>
+class World {
+public:
+    /// Takes the caller's memory, which must outlive the world, and lays an empty tank in it.
+    /// @param bytes at least `world_bytes<Real>(def.capacity)`, at a multiple of `world_alignment`.
+    Status init(const WorldDef& def, void* memory, std::size_t bytes);
+
+    template <std::size_t Bytes>
+    Status init(const WorldDef& def, std::byte (&memory)[Bytes]) {
+        return init(def, memory, Bytes);
+    }
+
+    /// A solid that never moves; it is rasterized once. Liquid found inside it is pushed out.
+    Status add_static_body(const BodyDef& def, BodyId* id);
+    /// A solid that moves as told; it is rasterized again in each step in which it moved.
+    Status add_moving_body(const BodyDef& def, BodyId* id);
+    /// Places a moving body and sets its velocity and spin, which it keeps until told otherwise.
+    Status set_motion(BodyId id, const Motion& motion);
+    /// Where a body is now, after the steps that were taken.
+    Status motion(BodyId id, Motion* motion) const;
+    Status remove_body(BodyId id);
+
+    /// Fills a box with particles on a lattice, leaving out what is inside solids.
+    /// All or nothing: refuses if not every particle has room.
+    /// @param added number of particles, may be null.
+    Status fill(const Box& box_m, std::int32_t* added = nullptr);
+    Status add_particle(Vec2f position_m, Vec2f velocity_mps);
+    /// Removes the particle at that place in the views; the last particle takes its place.
+    Status remove_particle(std::int32_t index);
+
+    Status set_gravity(Vec2f gravity_mps2);
+
+    /// Simulates dt seconds. Never fails: see StepReport for what was clamped.
+    StepReport step(float dt_s);
+
+    /// Where the particles are, in cells: multiply by `cell_m`. Valid until the next call that
+    /// adds, removes or steps. Empty before init.
+    View<Vec2<Real>> particle_positions() const;
+    /// Their velocities, cells per second.
+    View<Vec2<Real>> particle_velocities() const;
+    /// Pressure at cell centres from the last substep, in the solver's own unit: multiply by
+    /// `pressure_scale()` for p / ρ in m²/s². Columns and rows are cells.
+    FieldView<Real> pressure() const;
+    float pressure_scale() const;
+    /// Signed distance to the nearest solid at the grid's nodes, cells; negative inside, exact
+    /// near a wall, at most `kFarFromSolids` away from it. Empty without bodies.
+    FieldView<Real> signed_distance() const;
+
+    float cell_m() const;
+    std::int32_t cells_x() const;
+    std::int32_t cells_y() const;
+
+    /// 64-bit hash of everything that decides the future: equal states, equal hashes, on every
+    /// machine. 0 before init.
+    std::uint64_t state_hash() const;
+
+private:
+    using State = detail::WorldState<Real>;
+    State* state_ = nullptr;  // at the head of the caller's memory
+};
+
+/// Value of `signed_distance` where no solid is near, cells.
+inline constexpr float kFarFromSolids = 2.0F;
+
+extern template class World<float>;
+extern template class World<double>;
+
+}  // namespace weir

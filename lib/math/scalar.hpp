@@ -1,0 +1,76 @@
+// The arithmetic that the library is allowed: + − × ÷ √ and comparisons, the same bits on every
+// machine. Everything else (rotation, floor) is built from these.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#if defined(__FAST_MATH__)
+#error "weir needs strict floating point: remove -ffast-math (or -Ofast) for its sources"
+#endif
+
+namespace weir {
+
+template <class T>
+constexpr T minimum(T a, T b) {
+    return b < a ? b : a;
+}
+template <class T>
+constexpr T maximum(T a, T b) {
+    return a < b ? b : a;
+}
+template <class T>
+constexpr T clamp(T value, T low, T high) {
+    return value < low ? low : (high < value ? high : value);
+}
+template <class T>
+constexpr T absolute(T value) {
+    return value < T(0) ? -value : value;
+}
+
+/// Comparing the exponent bits survives every compiler flag, unlike x == x.
+inline bool is_finite(float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return (bits & 0x7F800000U) != 0x7F800000U;
+}
+inline bool is_finite(double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return (bits & 0x7FF0000000000000ULL) != 0x7FF0000000000000ULL;
+}
+
+/// Largest integer not above the value; |value| < 2^31.
+template <class Real>
+inline std::int32_t floor_to_int(Real value) {
+    const std::int32_t whole = static_cast<std::int32_t>(value);
+    return static_cast<Real>(whole) > value ? whole - 1 : whole;
+}
+
+/// Smallest integer not below the value; |value| < 2^31.
+template <class Real>
+inline std::int32_t ceil_to_int(Real value) {
+    return -floor_to_int(-value);
+}
+
+/// Correctly rounded square root; the argument is not negative. On processors without one it is
+/// computed in integers, to the same bits (square_root.cpp).
+float square_root_in_integers(float value);
+double square_root_in_integers(double value);
+
+inline float square_root(float value) {
+#if defined(__SSE2__) || defined(__aarch64__) || (defined(__ARM_FP) && (__ARM_FP & 4))
+    return __builtin_sqrtf(value);
+#else
+    return square_root_in_integers(value);
+#endif
+}
+inline double square_root(double value) {
+#if defined(__SSE2__) || defined(__aarch64__) || (defined(__ARM_FP) && (__ARM_FP & 8))
+    return __builtin_sqrt(value);
+#else
+    return square_root_in_integers(value);
+#endif
+}
+
+}  // namespace weir

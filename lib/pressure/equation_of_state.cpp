@@ -1,0 +1,51 @@
+#include "pressure/equation_of_state.hpp"
+
+namespace weir {
+
+namespace {
+
+/// Bulk viscosity in units of sound speed × cell.
+template <class Real>
+constexpr Real kBulkViscosity = Real(0.2);
+
+}  // namespace
+
+template <class Real>
+void equation_of_state(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s,
+                       Real sound_speed, PressureFields<Real>& fields) {
+    const GridShape& s = grid.shape;
+    const Real stiffness = dt_s * sound_speed * sound_speed;
+    const Real damping = dt_s * kBulkViscosity<Real> * sound_speed;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            const Real compression = fields.density[c] - Real(1);
+            Real pressure = Real(0);
+            if (compression > Real(0)) {
+                const Real divergence = (grid.u[c + 1] - grid.u[c]) +
+                                        (grid.v[c + s.stride] - grid.v[c]);
+                pressure = maximum(Real(0), stiffness * compression - damping * divergence);
+            }
+            fields.pressure[c] = pressure;
+        }
+    }
+    fields.last_dt = dt_s;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if (i > 0 && (!walls.active || walls.open_u[c] > Real(0))) {
+                grid.u[c] -= fields.pressure[c] - fields.pressure[c - 1];
+            }
+            if (j > 0 && (!walls.active || walls.open_v[c] > Real(0))) {
+                grid.v[c] -= fields.pressure[c] - fields.pressure[c - s.stride];
+            }
+        }
+    }
+}
+
+template void equation_of_state(StaggeredGrid<float>&, const Walls<float>&, float, float,
+                                PressureFields<float>&);
+template void equation_of_state(StaggeredGrid<double>&, const Walls<double>&, double, double,
+                                PressureFields<double>&);
+
+}  // namespace weir

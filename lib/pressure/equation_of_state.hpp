@@ -1,0 +1,16 @@
+// Stage: pressure, explicit. Reads density; writes pressure and the accelerated velocity.
+#pragma once
+
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// Weakly compressible liquid (Monaghan 1994): p = c² (density − 1) where positive, plus a bulk
+/// viscosity of 0.2 c cells that takes the ringing out. Stable while c · dt ≤ ½ cell.
+/// Order: by row. Cost: about 15 operations a cell.
+template <class Real>
+void equation_of_state(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s,
+                       Real sound_speed, PressureFields<Real>& fields);
+
+}  // namespace weir

@@ -1,0 +1,18 @@
+// Cell fields of the pressure stage. `pressure` survives from step to step: the solve starts there.
+#pragma once
+
+#include "grid/staggered_grid.hpp"
+
+namespace weir {
+
+template <class Real>
+struct PressureFields {
+    Real* pressure = nullptr;          ///< dt · p / ρ, cells²/s; 0 outside the liquid
+    Real* divergence = nullptr;        ///< net flow out of the cell, cells/s
+    Real* inverse_diagonal = nullptr;  ///< 0 where the cell is not liquid
+    Real* density = nullptr;           ///< 1 = full at rest
+    Real* level = nullptr;             ///< height of the surface over the centre, cells; > 0 liquid
+    Real last_dt = Real(0);            ///< dt that `pressure` was solved for
+};
+
+}  // namespace weir

@@ -1,0 +1,147 @@
+#include "pressure/projection.hpp"
+
+namespace weir {
+
+namespace {
+
+template <class Real>
+constexpr Real kOverRelaxation = Real(1.8);
+
+/// One face of a cell: how much it adds to the diagonal.
+template <class Real>
+inline Real face_coefficient(Real open, Real level, Real neighbour_level) {
+    return neighbour_level > Real(0) ? open : open / liquid_fraction(level, neighbour_level);
+}
+
+template <bool Solids, class Real>
+void build(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rescale,
+           PressureFields<Real>& fields) {
+    const GridShape& s = grid.shape;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            const Real level = fields.level[c];
+            fields.inverse_diagonal[c] = Real(0);
+            if (!(level > Real(0))) {
+                fields.pressure[c] = Real(0);
+                continue;
+            }
+            const std::int32_t up = c + s.stride;
+            const Real left_open = i > 0 ? (Solids ? walls.open_u[c] : Real(1)) : Real(0);
+            const Real right_open = i + 1 < s.nx ? (Solids ? walls.open_u[c + 1] : Real(1)) : Real(0);
+            const Real lower_open = j > 0 ? (Solids ? walls.open_v[c] : Real(1)) : Real(0);
+            const Real upper_open = j + 1 < s.ny ? (Solids ? walls.open_v[up] : Real(1)) : Real(0);
+            const Real diagonal =
+                (face_coefficient(left_open, level, fields.level[c - 1]) +
+                 face_coefficient(right_open, level, fields.level[c + 1])) +
+                (face_coefficient(lower_open, level, fields.level[c - s.stride]) +
+                 face_coefficient(upper_open, level, fields.level[up]));
+            if (!(diagonal > Real(0))) {
+                fields.pressure[c] = Real(0);
+                continue;
+            }
+            Real divergence = (right_open * grid.u[c + 1] - left_open * grid.u[c]) +
+                              (upper_open * grid.v[up] - lower_open * grid.v[c]);
+            if (Solids && walls.moving && walls.cell_case[c] != 0) {
+                divergence += wall_flow(s, walls, i, j);
+            }
+            fields.divergence[c] = divergence;
+            fields.inverse_diagonal[c] = Real(1) / diagonal;
+            fields.pressure[c] *= rescale;
+        }
+    }
+}
+
+template <bool Solids, class Real>
+void relax(const GridShape& s, const Walls<Real>& walls, std::int32_t colour,
+           PressureFields<Real>& fields) {
+    Real* p = fields.pressure;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = (j + colour) & 1; i < s.nx; i += 2) {
+            const std::int32_t c = s.index(i, j);
+            const Real inverse = fields.inverse_diagonal[c];
+            if (inverse == Real(0)) {
+                continue;
+            }
+            Real sum;
+            if (Solids) {
+                sum = (walls.open_u[c] * p[c - 1] + walls.open_u[c + 1] * p[c + 1]) +
+                      (walls.open_v[c] * p[c - s.stride] +
+                       walls.open_v[c + s.stride] * p[c + s.stride]);
+            } else {
+                // Beyond the tank and in air the pressure is 0: only the diagonal tells them apart.
+                sum = (p[c - 1] + p[c + 1]) + (p[c - s.stride] + p[c + s.stride]);
+            }
+            const Real target = (sum - fields.divergence[c]) * inverse;
+            p[c] += kOverRelaxation<Real> * (target - p[c]);
+        }
+    }
+}
+
+/// u −= ∂p/∂x on the face between two neighbouring cells.
+template <class Real>
+inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before,
+                       const PressureFields<Real>& fields) {
+    const Real level_before = fields.level[before];
+    const Real level_after = fields.level[face];
+    const bool liquid_before = level_before > Real(0);
+    const bool liquid_after = level_after > Real(0);
+    if (!liquid_before && !liquid_after) {
+        return;
+    }
+    Real difference = fields.pressure[face] - fields.pressure[before];
+    if (liquid_before != liquid_after) {
+        difference = difference / (liquid_before ? liquid_fraction(level_before, level_after)
+                                                 : liquid_fraction(level_after, level_before));
+    }
+    velocity[face] -= difference;
+}
+
+template <bool Solids, class Real>
+void project(StaggeredGrid<Real>& grid, const Walls<Real>& walls,
+             const PressureFields<Real>& fields) {
+    const GridShape& s = grid.shape;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if (i > 0 && (!Solids || walls.open_u[c] > Real(0))) {
+                accelerate(grid.u, c, c - 1, fields);
+            }
+            if (j > 0 && (!Solids || walls.open_v[c] > Real(0))) {
+                accelerate(grid.v, c, c - s.stride, fields);
+            }
+        }
+    }
+}
+
+template <bool Solids, class Real>
+void solve(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rescale,
+           std::int32_t sweeps, PressureFields<Real>& fields) {
+    build<Solids>(grid, walls, rescale, fields);
+    for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
+        relax<Solids>(grid.shape, walls, 0, fields);
+        relax<Solids>(grid.shape, walls, 1, fields);
+    }
+    project<Solids>(grid, walls, fields);
+}
+
+}  // namespace
+
+template <class Real>
+void projection(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s,
+                std::int32_t sweeps, PressureFields<Real>& fields) {
+    const Real rescale = fields.last_dt > Real(0) ? dt_s / fields.last_dt : Real(0);
+    fields.last_dt = dt_s;
+    if (walls.active) {
+        solve<true>(grid, walls, rescale, sweeps, fields);
+    } else {
+        solve<false>(grid, walls, rescale, sweeps, fields);
+    }
+}
+
+template void projection(StaggeredGrid<float>&, const Walls<float>&, float, std::int32_t,
+                         PressureFields<float>&);
+template void projection(StaggeredGrid<double>&, const Walls<double>&, double, std::int32_t,
+                         PressureFields<double>&);
+
+}  // namespace weir

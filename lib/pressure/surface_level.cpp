@@ -1,0 +1,105 @@
+#include "pressure/surface_level.hpp"
+
+namespace weir {
+
+namespace {
+
+/// A cell of which less than this can hold liquid has no density worth dividing for.
+template <class Real>
+constexpr Real kLeastFullDensity = Real(0.02);
+
+/// Share of a cell's open faces that liquid must cover for an air cell to be taken as filled.
+template <class Real>
+constexpr Real kFilledShare = Real(0.8);
+
+template <class Real>
+constexpr Real kFilledLevel = Real(0.5);
+
+template <class Real>
+void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
+                        Real rest_count, PressureFields<Real>& fields) {
+    const GridShape& s = grid.shape;
+    const Real per_face = Real(1) / (Real(4) * rest_count);
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            const Real mass = (grid.mass_u[c] + grid.mass_u[c + 1]) +
+                              (grid.mass_v[c] + grid.mass_v[c + s.stride]);
+            Real density = mass * per_face;
+            if (walls.active && walls.full_density[c] < Real(1)) {
+                density = walls.full_density[c] < kLeastFullDensity<Real>
+                              ? Real(0)
+                              : density / walls.full_density[c];
+            }
+            fields.density[c] = density;
+            fields.level[c] = level_of_density(density);
+        }
+    }
+}
+
+template <class Real>
+bool surrounded(const GridShape& s, const Walls<Real>& walls, const Real* level, std::int32_t i,
+                std::int32_t j) {
+    const std::int32_t c = s.index(i, j);
+    Real open = Real(0);
+    Real covered = Real(0);
+    const auto face = [&](bool inside, Real fraction, std::int32_t neighbour) {
+        if (inside) {
+            open += fraction;
+            // A level just set by this rule is no evidence for the next cell.
+            const bool liquid = level[neighbour] > Real(0) && level[neighbour] != kFilledLevel<Real>;
+            covered += liquid ? fraction : Real(0);
+        }
+    };
+    const bool cut = walls.active;
+    face(i > 0, cut ? walls.open_u[c] : Real(1), c - 1);
+    face(i + 1 < s.nx, cut ? walls.open_u[c + 1] : Real(1), c + 1);
+    face(j > 0, cut ? walls.open_v[c] : Real(1), c - s.stride);
+    face(j + 1 < s.ny, cut ? walls.open_v[c + s.stride] : Real(1), c + s.stride);
+    return open > Real(0) && covered >= kFilledShare<Real> * open;
+}
+
+}  // namespace
+
+// Seen from a flat surface at height s over the centre, the mean of the four face masses is
+// g(s) = ½ C(s) + ¼ [C(s − ½) + C(s + ½)], C the integral of the hat function. Its three pieces
+// are quadratic; g(−s) = 1 − g(s).
+template <class Real>
+Real level_of_density(Real density) {
+    const Real full = clamp(density, Real(0), Real(1));
+    const bool upper = full > Real(0.5);
+    const Real g = upper ? Real(1) - full : full;
+    Real depth;
+    if (g >= Real(0.1875)) {
+        depth = Real(1.5) - square_root(Real(0.25) + Real(4) * g);
+    } else if (g >= Real(0.03125)) {
+        depth = (Real(0.875) - square_root(Real(1.5) * g - Real(0.03125))) * Real(4.0 / 3.0);
+    } else {
+        depth = Real(1.5) - square_root(Real(8) * g);
+    }
+    return upper ? depth : -depth;
+}
+
+template <class Real>
+void surface_level(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rest_count,
+                   PressureFields<Real>& fields) {
+    density_from_faces(grid, walls, rest_count, fields);
+    const GridShape& s = grid.shape;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if (fields.level[c] <= Real(0) && surrounded(s, walls, fields.level, i, j)) {
+                fields.level[c] = kFilledLevel<Real>;
+            }
+        }
+    }
+}
+
+template float level_of_density(float);
+template double level_of_density(double);
+template void surface_level(const StaggeredGrid<float>&, const Walls<float>&, float,
+                            PressureFields<float>&);
+template void surface_level(const StaggeredGrid<double>&, const Walls<double>&, double,
+                            PressureFields<double>&);
+
+}  // namespace weir

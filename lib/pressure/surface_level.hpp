@@ -1,0 +1,21 @@
+// Stage: pressure, first part. Reads face masses; writes density and level of every cell.
+#pragma once
+
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// Height of a flat surface over the centre of a cell that shows the given density, cells.
+/// Exact inverse of the kernel with which face masses average to a cell: −3/2 … 3/2.
+template <class Real>
+Real level_of_density(Real density);
+
+/// Density = mean of the masses on the cell's four faces over what a full cell would show there;
+/// level from it. An air cell that liquid surrounds counts as liquid: it would be a sink of
+/// pressure. Order: by row. Cost: 4 sums and about one square root a cell near the surface.
+template <class Real>
+void surface_level(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rest_count,
+                   PressureFields<Real>& fields);
+
+}  // namespace weir

@@ -1,0 +1,17 @@
+// Stage: volume. Reads density; adds a displacement to the velocity that particles move along.
+#pragma once
+
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// Particles drift apart where they are too dense and together where they are too thin: positions
+/// move by −gain ∇density a substep, velocities stay, so no kinetic energy enters. Without it a
+/// liquid that has splashed loses a third of its volume. Local: each face looks at its two cells.
+/// Called after blend_change: only the advecting velocity sees the drift.
+template <class Real>
+void volume_correction(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s, Real gain,
+                       const PressureFields<Real>& fields);
+
+}  // namespace weir

@@ -1,0 +1,95 @@
+#include "solid/body_table.hpp"
+
+#include <cstring>
+
+#include "geometry/convex_decomposition.hpp"
+
+namespace weir {
+
+namespace {
+
+constexpr auto kPerVertex = static_cast<std::int32_t>(kPieceIndicesPerVertex);
+
+template <class T>
+void close_gap(T* pool, std::int32_t first, std::int32_t count, std::int32_t used) {
+    std::memmove(pool + first, pool + first + count,
+                 static_cast<std::size_t>(used - first - count) * sizeof(T));
+}
+
+}  // namespace
+
+template <class Real>
+std::int32_t find_free_slot(const BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        if (table.body[slot].kind == BodyKind::free) {
+            return slot;
+        }
+    }
+    return -1;
+}
+
+template <class Real>
+bool exists(const BodyTable<Real>& table, BodyId id) {
+    return id.slot < table.capacity && table.body[id.slot].kind != BodyKind::free &&
+           table.body[id.slot].generation == id.generation;
+}
+
+template <class Real>
+bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Real cells_per_m,
+                 Body<Real>& body) {
+    body.first_vertex = table.vertices_used;
+    body.vertex_count = polygon_m.size;
+    Vec2<Real>* ring = table.local + body.first_vertex;
+    for (std::int32_t k = 0; k < polygon_m.size; ++k) {
+        ring[k] = cells_per_m * convert<Real>(polygon_m[k]);
+    }
+    const ArrayView<std::uint16_t> pieces{table.piece_list(body), kPerVertex * body.vertex_count};
+    body.piece_length = decompose(ring, body.vertex_count, table.links, pieces);
+    if (body.piece_length < 0) {
+        return false;
+    }
+    table.vertices_used += body.vertex_count;
+    return true;
+}
+
+template <class Real>
+void place(BodyTable<Real>& table, const Body<Real>& body) {
+    const Rotation<Real> turn = rotation(body.angle);
+    for (std::int32_t k = 0; k < body.vertex_count; ++k) {
+        const std::int32_t vertex = body.first_vertex + k;
+        table.placed[vertex] = body.position + turn.apply(table.local[vertex]);
+    }
+}
+
+template <class Real>
+void remove(BodyTable<Real>& table, std::int32_t slot) {
+    Body<Real>& gone = table.body[slot];
+    const std::int32_t first = gone.first_vertex;
+    const std::int32_t count = gone.vertex_count;
+    close_gap(table.local, first, count, table.vertices_used);
+    close_gap(table.placed, first, count, table.vertices_used);
+    close_gap(table.pieces, kPerVertex * first, kPerVertex * count,
+              kPerVertex * table.vertices_used);
+    for (std::int32_t k = 0; k < table.capacity; ++k) {
+        if (table.body[k].kind != BodyKind::free && table.body[k].first_vertex > first) {
+            table.body[k].first_vertex -= count;
+        }
+    }
+    const auto next = static_cast<std::uint16_t>(gone.generation + 1U);
+    gone = Body<Real>{};
+    gone.generation = next;
+    table.vertices_used -= count;
+    --table.used;
+}
+
+#define WEIR_INSTANTIATE(Real)                                                            \
+    template std::int32_t find_free_slot(const BodyTable<Real>&);                         \
+    template bool exists(const BodyTable<Real>&, BodyId);                                 \
+    template bool add_polygon(BodyTable<Real>&, View<Vec2f>, Real, Body<Real>&);          \
+    template void place(BodyTable<Real>&, const Body<Real>&);                             \
+    template void remove(BodyTable<Real>&, std::int32_t);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

@@ -1,0 +1,75 @@
+// The bodies: a table of slots with generations, and one pool of vertices behind it.
+#pragma once
+
+#include "base/array_view.hpp"
+#include "contour/raster.hpp"
+#include "math/rotation.hpp"
+#include "weir/config.hpp"
+#include "weir/memory.hpp"
+
+namespace weir {
+
+enum class BodyKind : std::uint8_t { free, fixed, moving };
+
+/// Cells and seconds. Vertices stand at first_vertex in the pools, pieces at
+/// kPieceIndicesPerVertex × first_vertex, so that one number says where everything is.
+template <class Real>
+struct Body {
+    Vec2<Real> position;
+    Vec2<Real> velocity;
+    Real angle = Real(0);
+    Real spin = Real(0);
+    Real restitution = Real(0);
+    Real radius = Real(0);           ///< of the circle about `position` that holds it
+    std::int32_t first_vertex = 0;
+    std::int32_t vertex_count = 0;
+    std::int32_t piece_length = 0;  ///< used entries of its piece list
+    NodeBox drawn;                  ///< nodes that it wrote when it was last rasterized
+    std::uint16_t generation = 0;
+    BodyKind kind = BodyKind::free;
+    bool moved = false;             ///< since it was last rasterized
+};
+static_assert(sizeof(Body<float>) <= kBodyBytes, "raise kBodyBytes");
+static_assert(sizeof(Body<double>) <= kBodyBytes, "raise kBodyBytes");
+
+template <class Real>
+struct BodyTable {
+    Body<Real>* body = nullptr;
+    std::int32_t capacity = 0;
+    std::int32_t used = 0;          ///< bodies that exist
+    Vec2<Real>* local = nullptr;    ///< vertices in the bodies' own frames
+    Vec2<Real>* placed = nullptr;   ///< the same vertices in the tank, at the current poses
+    std::uint16_t* pieces = nullptr;
+    ArrayView<std::uint16_t> links;  ///< scratch of the triangulation
+    std::int32_t vertex_capacity = 0;
+    std::int32_t vertices_used = 0;
+
+    const Vec2<Real>* ring(const Body<Real>& of) const { return placed + of.first_vertex; }
+    std::uint16_t* piece_list(const Body<Real>& of) const {
+        return pieces + static_cast<std::int32_t>(kPieceIndicesPerVertex) * of.first_vertex;
+    }
+};
+
+/// Slot of a free body, or −1.
+template <class Real>
+std::int32_t find_free_slot(const BodyTable<Real>& table);
+
+/// Whether the id names a body that exists.
+template <class Real>
+bool exists(const BodyTable<Real>& table, BodyId id);
+
+/// Copies the polygon behind the vertices in use and cuts it into convex pieces. The caller has
+/// checked it and that there is room. False: no triangulation was found; nothing changed.
+template <class Real>
+bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Real cells_per_m,
+                 Body<Real>& body);
+
+/// Turns and moves the vertices to the body's pose.
+template <class Real>
+void place(BodyTable<Real>& table, const Body<Real>& body);
+
+/// Frees the slot and closes the gap that its vertices leave.
+template <class Real>
+void remove(BodyTable<Real>& table, std::int32_t slot);
+
+}  // namespace weir

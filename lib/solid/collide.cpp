@@ -1,0 +1,130 @@
+#include "solid/collide.hpp"
+
+#include "contour/marching_squares.hpp"
+
+namespace weir {
+
+namespace {
+
+constexpr std::uint8_t kOutside = 0;
+constexpr std::uint8_t kInside = 15;
+
+/// A particle inside a solid leaves at this speed at most, cells per substep: gently.
+template <class Real>
+constexpr Real kLongestWayOut = Real(0.5);
+
+/// Where a particle is put: this far in front of the wall, so that it is not found behind it again.
+template <class Real>
+constexpr Real kClearance = Real(1.0 / 1024.0);
+
+template <class Real>
+struct CellView {
+    std::int32_t node = 0;  ///< lower left
+    Vec2<Real> local;       ///< 0 … 1 within the cell
+    Real corner[4] = {};
+};
+
+template <class Real>
+CellView<Real> cell_of(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
+    const auto i = static_cast<std::int32_t>(x.x);
+    const auto j = static_cast<std::int32_t>(x.y);
+    CellView<Real> cell;
+    cell.node = s.index(i, j);
+    cell.local = {x.x - static_cast<Real>(i), x.y - static_cast<Real>(j)};
+    const Real* low = walls.distance + cell.node;
+    const Real* high = low + s.stride;
+    cell.corner[0] = low[0];
+    cell.corner[1] = low[1];
+    cell.corner[2] = high[1];
+    cell.corner[3] = high[0];
+    return cell;
+}
+
+/// Distance and its direction of growth from the bilinear interpolant, for cells without a line.
+template <class Real>
+ContourHit<Real> interpolated_distance(const CellView<Real>& cell) {
+    const Real* d = cell.corner;
+    const Vec2<Real> f = cell.local;
+    const Real low = d[0] + f.x * (d[1] - d[0]);
+    const Real high = d[3] + f.x * (d[2] - d[3]);
+    const Vec2<Real> gradient{(d[1] - d[0]) + f.y * ((d[2] - d[3]) - (d[1] - d[0])), high - low};
+    const Real steepness = length(gradient);
+    ContourHit<Real> hit;
+    hit.distance = low + f.y * (high - low);
+    hit.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : Vec2<Real>{};
+    return hit;
+}
+
+template <class Real>
+ContourHit<Real> hit_in(const CellView<Real>& cell, std::uint8_t which) {
+    return which == kInside ? interpolated_distance(cell)
+                            : contour_distance(contour_cell(cell.corner), cell.local);
+}
+
+template <class Real>
+std::uint8_t case_at(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
+    return walls.cell_case[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))];
+}
+
+/// The body at the node of the cell that is deepest inside.
+template <class Real>
+std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::int32_t node) {
+    const std::int32_t corner[4] = {node, node + 1, node + s.stride + 1, node + s.stride};
+    std::int32_t deepest = corner[0];
+    for (const std::int32_t candidate : corner) {
+        deepest = walls.distance[candidate] < walls.distance[deepest] ? candidate : deepest;
+    }
+    return walls.nearest[deepest];
+}
+
+template <class Real>
+Vec2<Real> reflect(const Body<Real>& body, Vec2<Real> x, Vec2<Real> v, Vec2<Real> normal) {
+    const Vec2<Real> wall = velocity_at(body, x);
+    const Real approach = dot(v - wall, normal);
+    return approach < Real(0) ? v - ((Real(1) + body.restitution) * approach) * normal : v;
+}
+
+template <class Real>
+Vec2<Real> within_tank(const GridShape& s, Vec2<Real> x) {
+    return {clamp(x.x, kWallGap<Real>, static_cast<Real>(s.nx) - kWallGap<Real>),
+            clamp(x.y, kWallGap<Real>, static_cast<Real>(s.ny) - kWallGap<Real>)};
+}
+
+}  // namespace
+
+template <class Real>
+CollideCount collide(const GridShape& shape, const Walls<Real>& walls, Particles<Real>& particles) {
+    CollideCount count;
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<Real> x = particles.position[k];
+        const std::uint8_t which = case_at(shape, walls, x);
+        if (which == kOutside) {
+            continue;
+        }
+        ++count.tested;
+        const CellView<Real> cell = cell_of(shape, walls, x);
+        const ContourHit<Real> hit = hit_in(cell, which);
+        if (!(hit.distance < Real(0))) {
+            continue;
+        }
+        ++count.reflected;
+        const Real way = minimum(kClearance<Real> - hit.distance, kLongestWayOut<Real>);
+        particles.position[k] = within_tank(shape, x + way * hit.normal);
+        const std::uint16_t slot = touched_body(shape, walls, cell.node);
+        particles.velocity[k] = reflect(walls.body[slot], x, particles.velocity[k], hit.normal);
+    }
+    return count;
+}
+
+template <class Real>
+bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point) {
+    const std::uint8_t which = case_at(shape, walls, point);
+    return which != kOutside && hit_in(cell_of(shape, walls, point), which).distance < Real(0);
+}
+
+template bool inside_solid(const GridShape&, const Walls<float>&, Vec2<float>);
+template bool inside_solid(const GridShape&, const Walls<double>&, Vec2<double>);
+template CollideCount collide(const GridShape&, const Walls<float>&, Particles<float>&);
+template CollideCount collide(const GridShape&, const Walls<double>&, Particles<double>&);
+
+}  // namespace weir

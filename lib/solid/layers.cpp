@@ -1,0 +1,158 @@
+#include "solid/layers.hpp"
+
+#include "contour/raster.hpp"
+#include "solid/cut_cells.hpp"
+
+namespace weir {
+
+namespace {
+
+NodeBox unite(const NodeBox& a, const NodeBox& b) {
+    if (a.empty()) {
+        return b;
+    }
+    if (b.empty()) {
+        return a;
+    }
+    return {minimum(a.i0, b.i0), minimum(a.j0, b.j0), maximum(a.i1, b.i1), maximum(a.j1, b.j1)};
+}
+
+NodeBox intersect(const NodeBox& a, const NodeBox& b) {
+    return {maximum(a.i0, b.i0), maximum(a.j0, b.j0), minimum(a.i1, b.i1), minimum(a.j1, b.j1)};
+}
+
+template <class Real>
+NodeBox reach(const GridShape& shape, const BodyTable<Real>& table, const Body<Real>& body) {
+    return nodes_near(table.ring(body), body.vertex_count, kBand<Real>, shape.nx, shape.ny);
+}
+
+template <class Real>
+std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot,
+                  const NodeBox& box, Real* distance, std::uint16_t* nearest) {
+    const Body<Real>& body = table.body[slot];
+    const RasterPolygon<Real> polygon{table.ring(body), body.vertex_count, table.piece_list(body),
+                                      body.piece_length, static_cast<std::uint16_t>(slot)};
+    const NodeField<Real> field{distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
+    return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>, field);
+}
+
+/// Copies the static layer into the merged one.
+template <class Real>
+void restore(Layers<Real>& layers, const NodeBox& box) {
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+            const std::int32_t node = layers.shape.index(i, j);
+            layers.walls.distance[node] = layers.static_distance[node];
+            layers.walls.nearest[node] = layers.static_nearest[node];
+        }
+    }
+}
+
+/// Merges anew within a box: the static layer, then every moving body that reaches into it.
+template <class Real>
+std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const NodeBox& box) {
+    if (box.empty()) {
+        return 0;
+    }
+    restore(layers, box);
+    std::int32_t nodes = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        const NodeBox part = intersect(body.drawn, box);
+        if (body.kind == BodyKind::moving && !part.empty()) {
+            nodes += draw(layers, table, slot, part, layers.walls.distance, layers.walls.nearest);
+        }
+    }
+    update_cut_cells(layers.shape, box, layers.scratch, layers.walls);
+    return nodes;
+}
+
+template <class Real>
+NodeBox everywhere(const Layers<Real>& layers) {
+    return {0, 0, layers.shape.nx, layers.shape.ny};
+}
+
+template <class Real>
+void empty_static(Layers<Real>& layers) {
+    for (std::int32_t c = 0; c < layers.shape.size(); ++c) {
+        layers.static_distance[c] = kBand<Real>;
+        layers.static_nearest[c] = kNoBody;
+    }
+}
+
+}  // namespace
+
+template <class Real>
+void clear_layers(Layers<Real>& layers) {
+    empty_static(layers);
+    Walls<Real>& walls = layers.walls;
+    for (std::int32_t c = 0; c < layers.shape.size(); ++c) {
+        walls.distance[c] = kBand<Real>;
+        walls.nearest[c] = kNoBody;
+        walls.cell_case[c] = 0;
+        walls.open_u[c] = Real(1);
+        walls.open_v[c] = Real(1);
+        walls.full_density[c] = Real(1);
+    }
+}
+
+template <class Real>
+std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
+    Body<Real>& body = table.body[slot];
+    body.drawn = reach(layers.shape, table, body);
+    if (body.drawn.empty()) {
+        return 0;
+    }
+    const std::int32_t nodes = draw(layers, table, slot, body.drawn, layers.static_distance,
+                                    layers.static_nearest);
+    return nodes + refresh(layers, table, body.drawn);
+}
+
+template <class Real>
+std::int32_t redraw_static(Layers<Real>& layers, BodyTable<Real>& table) {
+    empty_static(layers);
+    std::int32_t nodes = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
+            nodes += draw(layers, table, slot, body.drawn, layers.static_distance,
+                          layers.static_nearest);
+        }
+    }
+    return nodes + refresh(layers, table, everywhere(layers));
+}
+
+template <class Real>
+std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
+    std::int32_t nodes = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        Body<Real>& body = table.body[slot];
+        if (body.kind != BodyKind::moving || !body.moved) {
+            continue;
+        }
+        body.moved = false;
+        const NodeBox left = body.drawn;
+        body.drawn = reach(layers.shape, table, body);
+        nodes += refresh(layers, table, unite(left, body.drawn));
+    }
+    return nodes;
+}
+
+template <class Real>
+void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
+    const NodeBox left = table.body[slot].drawn;
+    table.body[slot].drawn = NodeBox{};
+    refresh(layers, table, left);
+}
+
+#define WEIR_INSTANTIATE(Real)                                                           \
+    template void clear_layers(Layers<Real>&);                                           \
+    template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t);    \
+    template std::int32_t redraw_static(Layers<Real>&, BodyTable<Real>&);                \
+    template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);                 \
+    template void erase_moving(Layers<Real>&, BodyTable<Real>&, std::int32_t);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

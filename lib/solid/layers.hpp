@@ -1,0 +1,48 @@
+// Stage: contour. Polygons → signed distance at nodes → contour matrix and open fractions.
+//
+// Two layers: static bodies are rasterized once into the static layer; the merged layer is a copy
+// of it into which the moving bodies are drawn. Where nothing moved, nothing is done.
+#pragma once
+
+#include "solid/walls.hpp"
+#include "weir/config.hpp"
+
+namespace weir {
+
+/// Nodes further out than this know no wall, cells. (kFarFromSolids of the public face.)
+template <class Real>
+inline constexpr Real kBand = Real(2);
+
+template <class Real>
+struct Layers {
+    GridShape shape;
+    Contour contour = Contour::interpolated;
+    Real* static_distance = nullptr;
+    std::uint16_t* static_nearest = nullptr;
+    Walls<Real> walls;        ///< the merged layer
+    Real* scratch = nullptr;  ///< a cell field that is free between steps
+};
+
+/// Empties both layers: no solid anywhere.
+template <class Real>
+void clear_layers(Layers<Real>& layers);
+
+/// Draws one more static body. Returns the number of nodes that were computed.
+template <class Real>
+std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
+
+/// Draws all static bodies anew, after one was removed.
+template <class Real>
+std::int32_t redraw_static(Layers<Real>& layers, BodyTable<Real>& table);
+
+/// Merges the moving bodies that moved since the last call, each within the rectangle that it
+/// left and the one that it entered. Returns the number of nodes that were computed: 0 if nothing
+/// moved.
+template <class Real>
+std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table);
+
+/// Takes a moving body out of the merged layer, before it is removed.
+template <class Real>
+void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
+
+}  // namespace weir

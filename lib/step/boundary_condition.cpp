@@ -1,0 +1,120 @@
+#include "step/boundary_condition.hpp"
+
+#include "fluid/particles.hpp"
+
+namespace weir {
+
+namespace {
+
+/// Faces deeper than this are never read: a particle stands in front of the wall, and its stencil
+/// reaches one cell along each axis.
+template <class Real>
+constexpr Real kDeepest = Real(-1.5);
+
+/// The mirror point lies at least this far out, where the stencil holds liquid.
+template <class Real>
+constexpr Real kLeastReach = Real(1);
+
+template <class Real>
+struct Mirror {
+    Vec2<Real> normal;
+    Vec2<Real> point;
+    Real ratio = Real(0);  ///< depth of the face over distance of the mirror point
+};
+
+template <class Real>
+Mirror<Real> mirror_of(const GridShape& s, Vec2<Real> face, Real distance, Vec2<Real> gradient) {
+    Mirror<Real> mirror;
+    const Real steepness = length(gradient);
+    mirror.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : Vec2<Real>{};
+    const Real depth = -distance;
+    const Real reach = maximum(depth, kLeastReach<Real>);
+    const Vec2<Real> point = face + (depth + reach) * mirror.normal;
+    mirror.point = {clamp(point.x, kWallGap<Real>, static_cast<Real>(s.nx) - kWallGap<Real>),
+                    clamp(point.y, kWallGap<Real>, static_cast<Real>(s.ny) - kWallGap<Real>)};
+    mirror.ratio = depth / reach;
+    return mirror;
+}
+
+/// Velocity that the face takes: mirrored about the wall, in the wall's frame.
+template <class Real>
+Vec2<Real> mirrored(const StaggeredGrid<Real>& grid, const Mirror<Real>& mirror, Vec2<Real> wall) {
+    const GridShape& s = grid.shape;
+    const Vec2<Real> liquid{interpolate(grid.u, s.stride, stencil_u(s, mirror.point)),
+                            interpolate(grid.v, s.stride, stencil_v(s, mirror.point))};
+    const Real normal_part = dot(liquid - wall, mirror.normal);
+    return liquid - (normal_part * (Real(1) + mirror.ratio)) * mirror.normal;
+}
+
+template <class Real>
+void mirror_u(StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t i, std::int32_t j) {
+    const GridShape& s = grid.shape;
+    const std::int32_t low = s.index(i, j);
+    const std::int32_t high = low + s.stride;
+    const Real* d = walls.distance;
+    const Real distance = Real(0.5) * (d[low] + d[high]);
+    if (walls.open_u[low] > Real(0) || distance < kDeepest<Real>) {
+        return;
+    }
+    const Vec2<Real> gradient{
+        Real(0.25) * ((d[low + 1] + d[high + 1]) - (d[low - 1] + d[high - 1])), d[high] - d[low]};
+    const Vec2<Real> face{static_cast<Real>(i), static_cast<Real>(j) + Real(0.5)};
+    const Vec2<Real> wall = wall_velocity(walls, low, high, face);
+    grid.u[low] = mirrored(grid, mirror_of(s, face, minimum(distance, Real(0)), gradient), wall).x;
+}
+
+template <class Real>
+void mirror_v(StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t i, std::int32_t j) {
+    const GridShape& s = grid.shape;
+    const std::int32_t left = s.index(i, j);
+    const std::int32_t right = left + 1;
+    const Real* d = walls.distance;
+    const Real distance = Real(0.5) * (d[left] + d[right]);
+    if (walls.open_v[left] > Real(0) || distance < kDeepest<Real>) {
+        return;
+    }
+    const Vec2<Real> gradient{d[right] - d[left],
+                              Real(0.25) * ((d[left + s.stride] + d[right + s.stride]) -
+                                            (d[left - s.stride] + d[right - s.stride]))};
+    const Vec2<Real> face{static_cast<Real>(i) + Real(0.5), static_cast<Real>(j)};
+    const Vec2<Real> wall = wall_velocity(walls, left, right, face);
+    grid.v[left] = mirrored(grid, mirror_of(s, face, minimum(distance, Real(0)), gradient), wall).y;
+}
+
+}  // namespace
+
+template <class Real>
+void mirror_in_solids(StaggeredGrid<Real>& grid, const Walls<Real>& walls) {
+    const GridShape& s = grid.shape;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            if (i > 0) {
+                mirror_u(grid, walls, i, j);
+            }
+            if (j > 0) {
+                mirror_v(grid, walls, i, j);
+            }
+        }
+    }
+}
+
+template <class Real>
+void mirror_in_tank(const GridShape& s, Real* u, Real* v) {
+    for (std::int32_t i = 0; i <= s.nx; ++i) {
+        u[s.index(i, -1)] = u[s.index(i, 0)];
+        u[s.index(i, s.ny)] = u[s.index(i, s.ny - 1)];
+    }
+    for (std::int32_t j = 0; j <= s.ny; ++j) {
+        v[s.index(-1, j)] = v[s.index(0, j)];
+        v[s.index(s.nx, j)] = v[s.index(s.nx - 1, j)];
+    }
+}
+
+#define WEIR_INSTANTIATE(Real)                                                   \
+    template void mirror_in_solids(StaggeredGrid<Real>&, const Walls<Real>&);    \
+    template void mirror_in_tank(const GridShape&, Real*, Real*);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

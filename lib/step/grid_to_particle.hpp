@@ -1,0 +1,37 @@
+// Stage: grid-to-particle. Reads velocities on the faces; writes particles.
+#pragma once
+
+#include "fluid/particles.hpp"
+#include "grid/staggered_grid.hpp"
+
+namespace weir {
+
+template <class Real>
+struct TransferResult {
+    std::int32_t reset = 0;     ///< particles with a non-finite state, put to rest
+    std::int32_t slowed = 0;    ///< particles limited to `limit`
+    Real max_speed = Real(0);   ///< along an axis, cells/s
+};
+
+template <class Real>
+struct Transfer {
+    Real dt_s;
+    Real flip_ratio;
+    Real limit;             ///< cells/s; nothing moves faster
+    Real wall_restitution;
+};
+
+/// Turns the velocity before the pressure (kept where the mass was) into the one field that a
+/// particle's velocity needs: change = u − flip · u_before, so that v' = flip · v + I(change).
+/// Exact, and one gather instead of two (Brackbill & Ruppel 1986; Zhu & Bridson 2005).
+template <class Real>
+void blend_change(StaggeredGrid<Real>& grid, Real flip_ratio);
+
+/// Gathers both fields with the weights of particle-to-grid, moves the particle to second order,
+/// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank.
+/// Order: by particle. Cost: 16 loads, about 70 operations a particle.
+template <class Real>
+TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
+                               Particles<Real>& particles);
+
+}  // namespace weir

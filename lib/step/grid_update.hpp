@@ -1,0 +1,19 @@
+// Stage: grid update. Reads mass and momentum; writes velocities.
+#pragma once
+
+#include "grid/staggered_grid.hpp"
+
+namespace weir {
+
+/// velocity = momentum / mass on every face that has mass, then gravity on top. Where the mass was
+/// stands the velocity before gravity from now on: grid-to-particle needs the change (FLIP).
+/// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
+template <class Real>
+void grid_update(StaggeredGrid<Real>& grid, Vec2<Real> gravity, Real dt_s);
+
+/// Gives faces in air beside the liquid the mean velocity of the liquid's faces next to them:
+/// particles at the surface read both. Reads levels of the cells.
+template <class Real>
+void extrapolate(StaggeredGrid<Real>& grid, const Real* level);
+
+}  // namespace weir

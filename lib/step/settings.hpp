@@ -1,0 +1,24 @@
+// What a substep needs to know, in cells and seconds.
+#pragma once
+
+#include "math/vec2.hpp"
+#include "weir/config.hpp"
+
+namespace weir {
+
+template <class Real>
+struct Settings {
+    Vec2<Real> gravity;          ///< cells/s²
+    Real rest_count = Real(4);   ///< particles per full cell
+    Real flip_ratio = Real(0.97);
+    Real volume_gain = Real(0.25);
+    Real sound_speed = Real(0);  ///< cells/s; equation of state
+    Real wall_restitution = Real(0);
+    Real cfl = Real(1);          ///< cells per substep
+    std::int32_t sweeps = 16;
+    std::int32_t max_substeps = 16;
+    Pressure pressure = Pressure::projection;
+    Contour contour = Contour::interpolated;
+};
+
+}  // namespace weir

@@ -1,0 +1,25 @@
+// Everything that a substep reads and writes: views into the caller's memory.
+#pragma once
+
+#include "fluid/particles.hpp"
+#include "grid/staggered_grid.hpp"
+#include "pressure/pressure_fields.hpp"
+#include "solid/layers.hpp"
+#include "step/settings.hpp"
+#include "weir/report.hpp"
+
+namespace weir {
+
+template <class Real>
+struct Simulation {
+    Settings<Real> settings;
+    Particles<Real> particles;
+    StaggeredGrid<Real> grid;
+    PressureFields<Real> pressure;
+    BodyTable<Real> bodies;
+    Layers<Real> layers;
+    Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
+    TickFunction ticks = nullptr;
+};
+
+}  // namespace weir

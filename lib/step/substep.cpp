@@ -1,0 +1,144 @@
+// The paper's flowchart (its Fig. 4), top to bottom.
+#include "step/substep.hpp"
+
+#include "pressure/equation_of_state.hpp"
+#include "pressure/projection.hpp"
+#include "pressure/surface_level.hpp"
+#include "pressure/volume_correction.hpp"
+#include "solid/collide.hpp"
+#include "step/boundary_condition.hpp"
+#include "step/grid_to_particle.hpp"
+#include "step/grid_update.hpp"
+#include "step/particle_to_grid.hpp"
+
+namespace weir {
+
+namespace {
+
+/// No particle moves further than this within a substep, cells; beyond it the step would be
+/// stable no longer. The plan of substeps aims at `cfl`, which is at most as much.
+template <class Real>
+constexpr Real kLongestWay = Real(2);
+
+/// Adds the ticks since the last call to a stage.
+class StageClock {
+public:
+    StageClock(TickFunction ticks, StepReport& report)
+        : ticks_(ticks), report_(report), last_(ticks != nullptr ? ticks() : 0) {}
+
+    void charge(Stage stage) {
+        if (ticks_ != nullptr) {
+            const std::uint64_t now = ticks_();
+            report_.ticks[static_cast<std::int32_t>(stage)] += now - last_;
+            last_ = now;
+        }
+    }
+
+private:
+    TickFunction ticks_;
+    StepReport& report_;
+    std::uint64_t last_;
+};
+
+/// Moving bodies go where their velocities take them.
+template <class Real>
+void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Real dt_s) {
+    walls.moving = false;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        Body<Real>& body = table.body[slot];
+        if (body.kind != BodyKind::moving) {
+            continue;
+        }
+        if (body.velocity.x != Real(0) || body.velocity.y != Real(0) || body.spin != Real(0)) {
+            walls.moving = true;
+            body.position = body.position + dt_s * body.velocity;
+            body.angle = wrapped_angle(body.angle + dt_s * body.spin);
+            body.moved = true;
+        }
+        if (body.moved) {
+            place(table, body);
+        }
+    }
+}
+
+template <class Real>
+void solve_pressure(Simulation<Real>& simulation, Real dt_s, Real sound_speed) {
+    const Settings<Real>& settings = simulation.settings;
+    const Walls<Real>& walls = simulation.layers.walls;
+    if (settings.pressure == Pressure::projection) {
+        projection(simulation.grid, walls, dt_s, settings.sweeps, simulation.pressure);
+        extrapolate(simulation.grid, simulation.pressure.level);
+    } else {
+        equation_of_state(simulation.grid, walls, dt_s, sound_speed, simulation.pressure);
+    }
+}
+
+/// Faces that no liquid owns: inside solids and beyond the tank.
+template <class Real>
+void fill_borders(Simulation<Real>& simulation) {
+    StaggeredGrid<Real>& grid = simulation.grid;
+    if (simulation.layers.walls.active) {
+        mirror_in_solids(grid, simulation.layers.walls);
+    }
+    mirror_in_tank(grid.shape, grid.u, grid.v);
+    mirror_in_tank(grid.shape, grid.mass_u, grid.mass_v);
+}
+
+template <class Real>
+void gather(Simulation<Real>& simulation, Real dt_s, StepReport& report) {
+    const Settings<Real>& settings = simulation.settings;
+    const Transfer<Real> transfer{dt_s, settings.flip_ratio, kLongestWay<Real> / dt_s,
+                                  settings.wall_restitution};
+    const TransferResult<Real> result =
+        grid_to_particle(simulation.grid, transfer, simulation.particles);
+    report.particles_reset += result.reset;
+    report.particles_slowed += result.slowed;
+    simulation.max_speed = result.max_speed;
+}
+
+}  // namespace
+
+template <class Real>
+void substep(Simulation<Real>& simulation, Real dt_s, Real sound_speed, StepReport& report) {
+    StaggeredGrid<Real>& grid = simulation.grid;
+    Walls<Real>& walls = simulation.layers.walls;
+    const Settings<Real>& settings = simulation.settings;
+    StageClock clock(simulation.ticks, report);
+
+    if (walls.active) {
+        move_bodies(simulation.bodies, walls, dt_s);
+        report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
+        clock.charge(Stage::contour);
+    }
+    particle_to_grid(simulation.particles, grid);
+    clock.charge(Stage::particle_to_grid);
+
+    surface_level(grid, walls, settings.rest_count, simulation.pressure);
+    grid_update(grid, settings.gravity, dt_s);
+    clock.charge(Stage::grid_update);
+
+    solve_pressure(simulation, dt_s, sound_speed);
+    fill_borders(simulation);
+    clock.charge(Stage::pressure);
+
+    blend_change(grid, settings.flip_ratio);
+    if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
+        volume_correction(grid, walls, dt_s, settings.volume_gain, simulation.pressure);
+    }
+    clock.charge(Stage::volume);
+
+    gather(simulation, dt_s, report);
+    clock.charge(Stage::grid_to_particle);
+
+    if (walls.active) {
+        const CollideCount count = collide(grid.shape, walls, simulation.particles);
+        report.particles_tested += count.tested;
+        report.particles_reflected += count.reflected;
+        clock.charge(Stage::collide);
+    }
+}
+
+template void substep(Simulation<float>&, float, float, StepReport&);
+template void substep(Simulation<double>&, double, double, StepReport&);
+
+}  // namespace weir

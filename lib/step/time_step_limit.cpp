@@ -1,0 +1,78 @@
+#include "step/time_step_limit.hpp"
+
+namespace weir {
+
+namespace {
+
+/// g dt², cells: beyond it a column at rest would feel the step. Lower by measurement only.
+template <class Real>
+constexpr Real kGravityWay = Real(0.12);
+
+template <class Real>
+constexpr Real kSoundCfl = Real(0.4);
+
+/// Ceiling that survives any finite ratio.
+template <class Real>
+std::int32_t at_least(Real ratio, std::int32_t most) {
+    return ratio < static_cast<Real>(most) ? maximum(1, ceil_to_int(ratio)) : most + 1;
+}
+
+template <class Real>
+Real strength(Vec2<Real> gravity) {
+    return maximum(absolute(gravity.x), absolute(gravity.y));
+}
+
+/// Fastest point of any body or particle, along an axis or less, cells/s.
+template <class Real>
+Real fastest(const Simulation<Real>& simulation) {
+    Real speed = simulation.max_speed;
+    for (std::int32_t slot = 0; slot < simulation.bodies.capacity; ++slot) {
+        const Body<Real>& body = simulation.bodies.body[slot];
+        if (body.kind == BodyKind::moving) {
+            speed = maximum(speed, maximum(absolute(body.velocity.x), absolute(body.velocity.y)) +
+                                       absolute(body.spin) * body.radius);
+        }
+    }
+    return speed;
+}
+
+}  // namespace
+
+template <class Real>
+Real longest_step(const Settings<Real>& settings) {
+    const Real gravity = strength(settings.gravity);
+    const Real most = static_cast<Real>(settings.max_substeps);
+    return gravity > Real(0) ? minimum(Real(1), most * square_root(kGravityWay<Real> / gravity))
+                             : Real(1);
+}
+
+template <class Real>
+SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s) {
+    const Settings<Real>& settings = simulation.settings;
+    const Real gravity = strength(settings.gravity);
+    const Real speed = fastest(simulation);
+    const std::int32_t most = settings.max_substeps;
+    const Real reach = (speed + gravity * dt_s) * dt_s / settings.cfl;
+    const Real fall = dt_s * square_root(gravity / kGravityWay<Real>);
+    std::int32_t wanted = maximum(at_least(reach, most), at_least(fall, most));
+    SubstepPlan<Real> plan;
+    plan.sound_speed = settings.sound_speed;
+    if (settings.pressure == Pressure::equation_of_state) {
+        const Real waves = (settings.sound_speed + speed) * dt_s / kSoundCfl<Real>;
+        wanted = maximum(wanted, at_least(waves, most));
+    }
+    plan.too_few = wanted > most;
+    plan.substeps = minimum(wanted, most);
+    plan.dt_s = dt_s / static_cast<Real>(plan.substeps);
+    if (plan.too_few && plan.dt_s > Real(0)) {
+        plan.sound_speed = minimum(plan.sound_speed, kSoundCfl<Real> / plan.dt_s);
+    }
+    return plan;
+}
+
+template float longest_step(const Settings<float>&);
+template double longest_step(const Settings<double>&);
+template SubstepPlan<float> plan_substeps(const Simulation<float>&, float);
+template SubstepPlan<double> plan_substeps(const Simulation<double>&, double);
+
+}  // namespace weir

@@ -1,0 +1,26 @@
+// How many substeps a step needs.
+#pragma once
+
+#include "step/simulation.hpp"
+
+namespace weir {
+
+template <class Real>
+struct SubstepPlan {
+    std::int32_t substeps = 1;
+    Real dt_s = Real(0);
+    Real sound_speed = Real(0);  ///< cells/s, softened if max_substeps is too few for it
+    bool too_few = false;        ///< max_substeps was less than the limits asked for
+};
+
+/// Substeps so that no particle travels further than cfl cells (Courant, Friedrichs & Lewy 1928),
+/// gravity moves nothing by more than a tenth of a cell, and sound, where there is any, no
+/// further than half a cell. Bounded by max_substeps.
+template <class Real>
+SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s);
+
+/// The longest step that max_substeps can carry against gravity, at most one second.
+template <class Real>
+Real longest_step(const Settings<Real>& settings);
+
+}  // namespace weir

@@ -1,0 +1,147 @@
+#include "world/validate.hpp"
+
+#include "geometry/polygon.hpp"
+#include "math/vec2.hpp"
+#include "weir/memory.hpp"
+
+namespace weir {
+
+namespace {
+
+bool perfect_square_up_to_16(std::int32_t value) {
+    return value == 1 || value == 4 || value == 9 || value == 16;
+}
+
+constexpr float kLargestAngle = 1.0e4F;
+constexpr float kFurthest = 1.0e5F;  // cells from the tank's origin
+
+Status check_gravity(Vec2f gravity) {
+    if (!is_finite(gravity)) {
+        return Status::gravity_not_finite;
+    }
+    const bool in_range = within(gravity.x, -kMaxGravity, kMaxGravity) &&
+                          within(gravity.y, -kMaxGravity, kMaxGravity);
+    return in_range ? Status::ok : Status::gravity_out_of_range;
+}
+
+Status check_numerics(const WorldDef& def) {
+    if (!within(def.pressure_sweeps, 1, 1000)) {
+        return Status::sweeps_out_of_range;
+    }
+    if (!within(def.max_substeps, 1, 1000)) {
+        return Status::substeps_out_of_range;
+    }
+    if (!within(def.cfl, 0.1F, 2.0F)) {
+        return Status::cfl_out_of_range;
+    }
+    if (!within(def.flip_ratio, 0.0F, 1.0F)) {
+        return Status::flip_ratio_out_of_range;
+    }
+    if (!within(def.volume_gain, 0.0F, 1.0F)) {
+        return Status::volume_gain_out_of_range;
+    }
+    if (!within(def.sound_speed_mps, 0.0F, kMaxSpeed * def.cell_m)) {
+        return Status::sound_speed_out_of_range;
+    }
+    return within(def.wall_restitution, 0.0F, 1.0F) ? Status::ok
+                                                    : Status::restitution_out_of_range;
+}
+
+}  // namespace
+
+Status check_capacity(const Capacity& capacity) {
+    if (!within(capacity.cells_x, kMinCells, kMaxCells) ||
+        !within(capacity.cells_y, kMinCells, kMaxCells)) {
+        return Status::cells_out_of_range;
+    }
+    if (!within(capacity.particles, 1, kMaxParticles)) {
+        return Status::particle_capacity_out_of_range;
+    }
+    if (!within(capacity.bodies, 0, kMaxBodies)) {
+        return Status::body_capacity_out_of_range;
+    }
+    return within(capacity.vertices, 0, kMaxVertices) ? Status::ok
+                                                      : Status::vertex_capacity_out_of_range;
+}
+
+Status check_world(const WorldDef& def) {
+    const Status capacity = check_capacity(def.capacity);
+    if (capacity != Status::ok) {
+        return capacity;
+    }
+    if (!within(def.cell_m, 1.0e-6F, 1.0e3F)) {
+        return Status::cell_size_out_of_range;
+    }
+    const Status gravity = check_gravity(def.gravity_mps2);
+    if (gravity != Status::ok) {
+        return gravity;
+    }
+    if (!perfect_square_up_to_16(def.particles_per_cell)) {
+        return Status::particles_per_cell_out_of_range;
+    }
+    if ((def.pressure != Pressure::projection && def.pressure != Pressure::equation_of_state) ||
+        (def.contour != Contour::interpolated && def.contour != Contour::mid_edge)) {
+        return Status::unknown_option;
+    }
+    return check_numerics(def);
+}
+
+Status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {
+    if (memory == nullptr) {
+        return Status::memory_missing;
+    }
+    if (reinterpret_cast<std::uintptr_t>(memory) % world_alignment != 0) {
+        return Status::memory_misaligned;
+    }
+    return bytes < needed ? Status::memory_too_small : Status::ok;
+}
+
+Status check_motion(const Motion& motion, float cell_m) {
+    if (!is_finite(motion.position_m) || !is_finite(motion.velocity_mps) ||
+        !is_finite(motion.angle_rad) || !is_finite(motion.spin_radps)) {
+        return Status::motion_not_finite;
+    }
+    const float furthest = kFurthest * cell_m;
+    if (!within(motion.position_m.x, -furthest, furthest) ||
+        !within(motion.position_m.y, -furthest, furthest)) {
+        return Status::position_out_of_range;
+    }
+    const float fastest = kMaxSpeed * cell_m;
+    const bool in_range = within(motion.velocity_mps.x, -fastest, fastest) &&
+                          within(motion.velocity_mps.y, -fastest, fastest) &&
+                          within(motion.angle_rad, -kLargestAngle, kLargestAngle) &&
+                          within(motion.spin_radps, -kLargestAngle, kLargestAngle);
+    return in_range ? Status::ok : Status::motion_out_of_range;
+}
+
+Status check_body(const BodyDef& def, float cell_m) {
+    const Status polygon = check_polygon(def.polygon);
+    if (polygon != Status::ok) {
+        return polygon;
+    }
+    const float furthest = kFurthest * cell_m;
+    for (const Vec2f& vertex : def.polygon) {
+        if (!within(vertex.x, -furthest, furthest) || !within(vertex.y, -furthest, furthest)) {
+            return Status::position_out_of_range;
+        }
+    }
+    const Status motion = check_motion(def.motion, cell_m);
+    if (motion != Status::ok) {
+        return motion;
+    }
+    return within(def.restitution, 0.0F, 1.0F) ? Status::ok : Status::restitution_out_of_range;
+}
+
+Status check_box(const Box& box, float width_m, float height_m) {
+    if (!is_finite(box.min_m) || !is_finite(box.max_m)) {
+        return Status::box_not_finite;
+    }
+    if (!(box.min_m.x < box.max_m.x) || !(box.min_m.y < box.max_m.y)) {
+        return Status::box_is_empty;
+    }
+    const bool inside = within(box.min_m.x, 0.0F, width_m) && within(box.max_m.x, 0.0F, width_m) &&
+                        within(box.min_m.y, 0.0F, height_m) && within(box.max_m.y, 0.0F, height_m);
+    return inside ? Status::ok : Status::box_outside_domain;
+}
+
+}  // namespace weir

@@ -1,0 +1,350 @@
+// The world's life: memory, liquid, views, hash. Bodies are in world_bodies.cpp, the step in
+// world_step.cpp.
+#include "weir/world.hpp"
+
+#include <cstring>
+#include <new>
+
+#include "base/hash.hpp"
+#include "fluid/seeding.hpp"
+#include "solid/collide.hpp"
+#include "world/validate.hpp"
+#include "world/world_state.hpp"
+
+namespace weir {
+
+namespace {
+
+using detail::WorldState;
+
+class Carver {
+public:
+    Carver(void* memory, const Layout& plan) : memory_(static_cast<std::byte*>(memory)), plan_(plan) {}
+
+    template <class T>
+    void take(Block block, T*& pointer) const {
+        pointer = reinterpret_cast<T*>(memory_ + plan_.offset[static_cast<std::int32_t>(block)]);
+    }
+
+private:
+    std::byte* memory_;
+    const Layout& plan_;
+};
+
+template <class Real>
+void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Real>& simulation) {
+    BodyTable<Real>& bodies = simulation.bodies;
+    carver.take(Block::body_table, bodies.body);
+    carver.take(Block::vertex_local, bodies.local);
+    carver.take(Block::vertex_placed, bodies.placed);
+    carver.take(Block::piece_index, bodies.pieces);
+    carver.take(Block::triangulation_links, bodies.links.data);
+    bodies.links.size = 2 * capacity.vertices;
+    bodies.capacity = capacity.bodies;
+    bodies.vertex_capacity = capacity.vertices;
+
+    Layers<Real>& layers = simulation.layers;
+    carver.take(Block::static_distance, layers.static_distance);
+    carver.take(Block::static_body, layers.static_nearest);
+    carver.take(Block::merged_distance, layers.walls.distance);
+    carver.take(Block::merged_body, layers.walls.nearest);
+    carver.take(Block::contour_case, layers.walls.cell_case);
+    carver.take(Block::open_u, layers.walls.open_u);
+    carver.take(Block::open_v, layers.walls.open_v);
+    carver.take(Block::full_density, layers.walls.full_density);
+    carver.take(Block::inverse_diagonal, layers.scratch);  // rebuilt by every pressure solve
+    layers.walls.body = bodies.body;
+}
+
+template <class Real>
+void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& simulation) {
+    const GridShape shape{capacity.cells_x, capacity.cells_y, capacity.cells_x + 2};
+    simulation.grid.shape = shape;
+    simulation.layers.shape = shape;
+    carver.take(Block::particle_position, simulation.particles.position);
+    carver.take(Block::particle_velocity, simulation.particles.velocity);
+    simulation.particles.capacity = capacity.particles;
+    carver.take(Block::velocity_u, simulation.grid.u);
+    carver.take(Block::velocity_v, simulation.grid.v);
+    carver.take(Block::mass_u, simulation.grid.mass_u);
+    carver.take(Block::mass_v, simulation.grid.mass_v);
+    carver.take(Block::pressure, simulation.pressure.pressure);
+    carver.take(Block::divergence, simulation.pressure.divergence);
+    carver.take(Block::inverse_diagonal, simulation.pressure.inverse_diagonal);
+    carver.take(Block::density, simulation.pressure.density);
+    carver.take(Block::level, simulation.pressure.level);
+    carve_solids(carver, capacity, simulation);
+}
+
+template <class Real>
+Settings<Real> settings_of(const WorldDef& def, Real cells_per_m) {
+    Settings<Real> settings;
+    settings.gravity = cells_per_m * convert<Real>(def.gravity_mps2);
+    settings.rest_count = static_cast<Real>(def.particles_per_cell);
+    settings.flip_ratio = static_cast<Real>(def.flip_ratio);
+    settings.volume_gain = static_cast<Real>(def.volume_gain);
+    settings.wall_restitution = static_cast<Real>(def.wall_restitution);
+    settings.cfl = static_cast<Real>(def.cfl);
+    settings.sweeps = def.pressure_sweeps;
+    settings.max_substeps = def.max_substeps;
+    settings.pressure = def.pressure;
+    settings.sound_speed = cells_per_m * static_cast<Real>(def.sound_speed_mps);
+    if (def.sound_speed_mps == 0.0F) {
+        const Real drop = static_cast<Real>(def.capacity.cells_x) * absolute(settings.gravity.x) +
+                          static_cast<Real>(def.capacity.cells_y) * absolute(settings.gravity.y);
+        settings.sound_speed = Real(10) * square_root(Real(2) * drop);
+    }
+    return settings;
+}
+
+/// Different for two worlds that live at the same time. Part of names only, never of the state.
+std::uint16_t tag_of(const void* memory) {
+    const auto address = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(memory));
+    return static_cast<std::uint16_t>((address / world_alignment * 0x9E3779B97F4A7C15ULL) >> 48U);
+}
+
+std::int32_t lattice_per_axis(std::int32_t particles_per_cell) {
+    std::int32_t per_axis = 1;
+    while (per_axis * per_axis < particles_per_cell) {
+        ++per_axis;
+    }
+    return per_axis;
+}
+
+template <class Real>
+Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f velocity_mps) {
+    if (!is_finite(position_m) || !is_finite(velocity_mps)) {
+        return Status::particle_not_finite;
+    }
+    const Capacity& capacity = state.def.capacity;
+    const float cell_m = state.def.cell_m;
+    if (!within(position_m.x, 0.0F, static_cast<float>(capacity.cells_x) * cell_m) ||
+        !within(position_m.y, 0.0F, static_cast<float>(capacity.cells_y) * cell_m)) {
+        return Status::particle_outside_domain;
+    }
+    const float fastest = kMaxSpeed * cell_m;
+    if (!within(velocity_mps.x, -fastest, fastest) || !within(velocity_mps.y, -fastest, fastest)) {
+        return Status::velocity_out_of_range;
+    }
+    return state.simulation.particles.full() ? Status::no_free_particle : Status::ok;
+}
+
+template <class Real>
+void hash_field(Hash& hash, const Real* field, const GridShape& s) {
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            hash.add(field[s.index(i, j)]);
+        }
+    }
+}
+
+template <class Real>
+void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        hash.add(static_cast<std::uint32_t>(body.generation));
+        hash.add(static_cast<std::uint32_t>(body.kind));
+        if (body.kind == BodyKind::free) {
+            continue;
+        }
+        const Real numbers[] = {body.position.x, body.position.y, body.velocity.x, body.velocity.y,
+                                body.angle,      body.spin,       body.restitution};
+        for (const Real number : numbers) {
+            hash.add(number);
+        }
+        for (std::int32_t k = 0; k < body.vertex_count; ++k) {
+            hash.add(table.local[body.first_vertex + k].x);
+            hash.add(table.local[body.first_vertex + k].y);
+        }
+    }
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
+    const Status valid = check_world(def);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    const Layout plan = layout<Real>(def.capacity);
+    const Status fits = check_memory(memory, bytes, plan.total_bytes);
+    if (fits != Status::ok) {
+        return fits;
+    }
+    std::memset(memory, 0, plan.total_bytes);
+    state_ = new (memory) State();
+    state_->def = def;
+    state_->tag = tag_of(memory);
+    state_->cells_per_m = Real(1) / static_cast<Real>(def.cell_m);
+    Simulation<Real>& simulation = state_->simulation;
+    carve(Carver(memory, plan), def.capacity, simulation);
+    simulation.settings = settings_of(def, state_->cells_per_m);
+    simulation.ticks = def.ticks;
+    simulation.layers.contour = def.contour;
+    for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {
+        new (simulation.bodies.body + slot) Body<Real>();
+    }
+    if (def.capacity.bodies > 0) {
+        clear_layers(simulation.layers);
+    }
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::fill(const Box& box_m, std::int32_t* added) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    const Capacity& capacity = state_->def.capacity;
+    const float cell_m = state_->def.cell_m;
+    const Status valid = check_box(box_m, static_cast<float>(capacity.cells_x) * cell_m,
+                                   static_cast<float>(capacity.cells_y) * cell_m);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    Particles<Real>& particles = simulation.particles;
+    const Vec2<Real> low = state_->cells_per_m * convert<Real>(box_m.min_m);
+    const Vec2<Real> high = state_->cells_per_m * convert<Real>(box_m.max_m);
+    const std::int32_t per_axis = lattice_per_axis(state_->def.particles_per_cell);
+    const auto each_seed = [&](auto visit) {
+        return for_each_seed(simulation.grid.shape, simulation.layers.walls, low, high, per_axis,
+                             visit);
+    };
+    const std::int32_t seeds = each_seed([](Vec2<Real>) {});
+    if (seeds > particles.capacity - particles.count) {
+        return Status::no_free_particle;
+    }
+    each_seed([&](Vec2<Real> at) { particles.add(at, {}); });
+    if (added != nullptr) {
+        *added = seeds;
+    }
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    const Status valid = check_particle(*state_, position_m, velocity_mps);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    const Capacity& capacity = state_->def.capacity;
+    const Vec2<Real> at = state_->cells_per_m * convert<Real>(position_m);
+    const Vec2<Real> inside{
+        clamp(at.x, kWallGap<Real>, static_cast<Real>(capacity.cells_x) - kWallGap<Real>),
+        clamp(at.y, kWallGap<Real>, static_cast<Real>(capacity.cells_y) - kWallGap<Real>)};
+    const Walls<Real>& walls = simulation.layers.walls;
+    if (walls.active && inside_solid(simulation.grid.shape, walls, inside)) {
+        return Status::particle_inside_solid;
+    }
+    const Vec2<Real> velocity = state_->cells_per_m * convert<Real>(velocity_mps);
+    simulation.particles.add(inside, velocity);
+    simulation.max_speed = maximum(simulation.max_speed,
+                                   maximum(absolute(velocity.x), absolute(velocity.y)));
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::remove_particle(std::int32_t index) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    Particles<Real>& particles = state_->simulation.particles;
+    if (index < 0 || index >= particles.count) {
+        return Status::no_such_particle;
+    }
+    particles.remove(index);
+    return Status::ok;
+}
+
+template <class Real>
+View<Vec2<Real>> World<Real>::particle_positions() const {
+    return state_ == nullptr ? View<Vec2<Real>>{}
+                             : View<Vec2<Real>>{state_->simulation.particles.position,
+                                                state_->simulation.particles.count};
+}
+
+template <class Real>
+View<Vec2<Real>> World<Real>::particle_velocities() const {
+    return state_ == nullptr ? View<Vec2<Real>>{}
+                             : View<Vec2<Real>>{state_->simulation.particles.velocity,
+                                                state_->simulation.particles.count};
+}
+
+template <class Real>
+FieldView<Real> World<Real>::pressure() const {
+    if (state_ == nullptr) {
+        return {};
+    }
+    const GridShape& s = state_->simulation.grid.shape;
+    return {state_->simulation.pressure.pressure + s.index(0, 0), s.nx, s.ny, s.stride};
+}
+
+template <class Real>
+float World<Real>::pressure_scale() const {
+    if (state_ == nullptr || !(state_->simulation.pressure.last_dt > Real(0))) {
+        return 0.0F;
+    }
+    return state_->def.cell_m * state_->def.cell_m /
+           static_cast<float>(state_->simulation.pressure.last_dt);
+}
+
+template <class Real>
+FieldView<Real> World<Real>::signed_distance() const {
+    if (state_ == nullptr || state_->def.capacity.bodies == 0) {
+        return {};
+    }
+    const GridShape& s = state_->simulation.grid.shape;
+    return {state_->simulation.layers.walls.distance + s.index(0, 0), s.nx + 1, s.ny + 1, s.stride};
+}
+
+template <class Real>
+float World<Real>::cell_m() const {
+    return state_ == nullptr ? 0.0F : state_->def.cell_m;
+}
+
+template <class Real>
+std::int32_t World<Real>::cells_x() const {
+    return state_ == nullptr ? 0 : state_->def.capacity.cells_x;
+}
+
+template <class Real>
+std::int32_t World<Real>::cells_y() const {
+    return state_ == nullptr ? 0 : state_->def.capacity.cells_y;
+}
+
+template <class Real>
+std::uint64_t World<Real>::state_hash() const {
+    if (state_ == nullptr) {
+        return 0;
+    }
+    const Simulation<Real>& simulation = state_->simulation;
+    Hash hash;
+    const Particles<Real>& particles = simulation.particles;
+    hash.add(particles.count);
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        hash.add(particles.position[k].x);
+        hash.add(particles.position[k].y);
+        hash.add(particles.velocity[k].x);
+        hash.add(particles.velocity[k].y);
+    }
+    hash_field(hash, simulation.pressure.pressure, simulation.grid.shape);
+    const Real numbers[] = {simulation.pressure.last_dt, simulation.max_speed,
+                            simulation.settings.gravity.x, simulation.settings.gravity.y};
+    for (const Real number : numbers) {
+        hash.add(number);
+    }
+    hash.add(state_->pending);
+    hash_bodies(hash, simulation.bodies);
+    return hash.value();
+}
+
+template class World<float>;
+template class World<double>;
+
+}  // namespace weir

@@ -1,0 +1,196 @@
+// Bodies: adding, moving, asking, removing.
+#include "solid/layers.hpp"
+#include "world/validate.hpp"
+#include "world/world_state.hpp"
+
+namespace weir {
+
+namespace {
+
+using detail::WorldState;
+
+template <class Real>
+Status check_room(const WorldState<Real>& state, const BodyDef& def, const BodyId* id) {
+    if (id == nullptr) {
+        return Status::output_missing;
+    }
+    const Status valid = check_body(def, state.def.cell_m);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    const BodyTable<Real>& table = state.simulation.bodies;
+    if (find_free_slot(table) < 0) {
+        return Status::no_free_body;
+    }
+    return def.polygon.size > table.vertex_capacity - table.vertices_used
+               ? Status::no_free_vertex
+               : Status::ok;
+}
+
+template <class Real>
+void set_pose(const WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
+    body.position = state.cells_per_m * convert<Real>(motion.position_m);
+    body.angle = wrapped_angle(static_cast<Real>(motion.angle_rad));
+}
+
+template <class Real>
+void set_velocity(const WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
+    body.velocity = state.cells_per_m * convert<Real>(motion.velocity_mps);
+    body.spin = static_cast<Real>(motion.spin_radps);
+}
+
+template <class Real>
+bool touches_tank(const GridShape& shape, const BodyTable<Real>& table, const Body<Real>& body) {
+    return !nodes_near(table.ring(body), body.vertex_count, Real(0.5), shape.nx, shape.ny).empty();
+}
+
+/// Distance of the furthest vertex from the body's origin: spin × this is its fastest point.
+template <class Real>
+Real radius_of(const BodyTable<Real>& table, const Body<Real>& body) {
+    Real furthest = Real(0);
+    for (std::int32_t k = 0; k < body.vertex_count; ++k) {
+        const Vec2<Real> vertex = table.local[body.first_vertex + k];
+        furthest = maximum(furthest, dot(vertex, vertex));
+    }
+    return square_root(furthest);
+}
+
+template <class Real>
+Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id) {
+    const Status room = check_room(state, def, id);
+    if (room != Status::ok) {
+        return room;
+    }
+    BodyTable<Real>& table = state.simulation.bodies;
+    Layers<Real>& layers = state.simulation.layers;
+    const std::int32_t slot = find_free_slot(table);
+    Body<Real> body;
+    body.generation = table.body[slot].generation;
+    body.kind = kind;
+    body.restitution = static_cast<Real>(def.restitution);
+    set_pose(state, def.motion, body);
+    if (!add_polygon(table, def.polygon, state.cells_per_m, body)) {
+        return Status::polygon_crosses_itself;
+    }
+    place(table, body);
+    if (!touches_tank(layers.shape, table, body)) {
+        table.vertices_used -= body.vertex_count;
+        return Status::polygon_outside_domain;
+    }
+    body.radius = radius_of(table, body);
+    table.body[slot] = body;
+    ++table.used;
+    layers.walls.active = true;
+    if (kind == BodyKind::fixed) {
+        draw_static(layers, table, slot);
+    } else {
+        set_velocity(state, def.motion, table.body[slot]);
+        table.body[slot].moved = true;
+        merge_moving(layers, table);
+    }
+    *id = {static_cast<std::uint16_t>(slot), body.generation, state.tag};
+    return Status::ok;
+}
+
+template <class Real>
+Status check_id(const WorldState<Real>& state, BodyId id) {
+    return id.world == state.tag && exists(state.simulation.bodies, id) ? Status::ok
+                                                                        : Status::stale_body;
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::add_static_body(const BodyDef& def, BodyId* id) {
+    return state_ == nullptr ? Status::not_initialised
+                             : add_body(*state_, def, BodyKind::fixed, id);
+}
+
+template <class Real>
+Status World<Real>::add_moving_body(const BodyDef& def, BodyId* id) {
+    return state_ == nullptr ? Status::not_initialised
+                             : add_body(*state_, def, BodyKind::moving, id);
+}
+
+template <class Real>
+Status World<Real>::set_motion(BodyId id, const Motion& motion) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    const Status known = check_id(*state_, id);
+    if (known != Status::ok) {
+        return known;
+    }
+    Body<Real>& body = state_->simulation.bodies.body[id.slot];
+    if (body.kind == BodyKind::fixed) {
+        return Status::body_is_static;
+    }
+    const Status valid = check_motion(motion, state_->def.cell_m);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    const Vec2<Real> position = body.position;
+    const Real angle = body.angle;
+    set_pose(*state_, motion, body);
+    set_velocity(*state_, motion, body);
+    if (position.x != body.position.x || position.y != body.position.y || angle != body.angle) {
+        body.moved = true;
+    }
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::motion(BodyId id, Motion* motion) const {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    if (motion == nullptr) {
+        return Status::output_missing;
+    }
+    const Status known = check_id(*state_, id);
+    if (known != Status::ok) {
+        return known;
+    }
+    const Body<Real>& body = state_->simulation.bodies.body[id.slot];
+    const Real cell_m = static_cast<Real>(state_->def.cell_m);
+    motion->position_m = convert<float>(cell_m * body.position);
+    motion->velocity_mps = convert<float>(cell_m * body.velocity);
+    motion->angle_rad = static_cast<float>(body.angle);
+    motion->spin_radps = static_cast<float>(body.spin);
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::remove_body(BodyId id) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    const Status known = check_id(*state_, id);
+    if (known != Status::ok) {
+        return known;
+    }
+    BodyTable<Real>& table = state_->simulation.bodies;
+    Layers<Real>& layers = state_->simulation.layers;
+    const bool fixed = table.body[id.slot].kind == BodyKind::fixed;
+    if (!fixed) {
+        erase_moving(layers, table, id.slot);
+    }
+    remove(table, id.slot);
+    if (fixed) {
+        redraw_static(layers, table);
+    }
+    layers.walls.active = table.used > 0;
+    return Status::ok;
+}
+
+#define WEIR_INSTANTIATE(Real)                                                          \
+    template Status World<Real>::add_static_body(const BodyDef&, BodyId*);              \
+    template Status World<Real>::add_moving_body(const BodyDef&, BodyId*);              \
+    template Status World<Real>::set_motion(BodyId, const Motion&);                     \
+    template Status World<Real>::motion(BodyId, Motion*) const;                         \
+    template Status World<Real>::remove_body(BodyId);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

@@ -1,0 +1,92 @@
+// The step: make the input sane, plan the substeps, run them, report.
+#include "step/substep.hpp"
+#include "step/time_step_limit.hpp"
+#include "world/validate.hpp"
+#include "world/world_state.hpp"
+
+namespace weir {
+
+namespace {
+
+void mark(StepReport& report, Clamped what) {
+    report.clamped |= static_cast<std::uint32_t>(what);
+}
+
+/// A usable dt: 0 for nonsense, and not so long that max_substeps could not carry it. Time then
+/// runs slower than the caller's, which is the one thing that stays stable.
+template <class Real>
+Real sane_time_step(const Settings<Real>& settings, float dt_s, StepReport& report) {
+    if (!is_finite(dt_s) || !(dt_s > 0.0F)) {
+        mark(report, Clamped::time_step);
+        return Real(0);
+    }
+    const Real longest = longest_step(settings);
+    const Real wanted = static_cast<Real>(dt_s);
+    if (wanted > longest) {
+        mark(report, Clamped::time_step);
+        return longest;
+    }
+    return wanted;
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::set_gravity(Vec2f gravity_mps2) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    if (!is_finite(gravity_mps2)) {
+        state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
+        return Status::gravity_not_finite;
+    }
+    const Vec2f limited{clamp(gravity_mps2.x, -kMaxGravity, kMaxGravity),
+                        clamp(gravity_mps2.y, -kMaxGravity, kMaxGravity)};
+    if (limited.x != gravity_mps2.x || limited.y != gravity_mps2.y) {
+        state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
+    }
+    state_->simulation.settings.gravity = state_->cells_per_m * convert<Real>(limited);
+    return Status::ok;
+}
+
+template <class Real>
+StepReport World<Real>::step(float dt_s) {
+    StepReport report;
+    if (state_ == nullptr) {
+        mark(report, Clamped::not_initialised);
+        return report;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    report.clamped = state_->pending;
+    state_->pending = 0;
+    const Real dt = sane_time_step(simulation.settings, dt_s, report);
+    if (dt > Real(0)) {
+        const SubstepPlan<Real> plan = plan_substeps(simulation, dt);
+        if (plan.sound_speed < simulation.settings.sound_speed) {
+            mark(report, Clamped::sound_speed);
+        }
+        for (std::int32_t k = 0; k < plan.substeps; ++k) {
+            substep(simulation, plan.dt_s, plan.sound_speed, report);
+        }
+        report.substeps = plan.substeps;
+        report.dt_s = static_cast<float>(dt);
+    }
+    if (report.particles_slowed > 0) {
+        mark(report, Clamped::speed);
+    }
+    if (report.particles_reset > 0) {
+        mark(report, Clamped::not_finite);
+    }
+    report.particles = simulation.particles.count;
+    report.max_speed_mps = state_->def.cell_m * static_cast<float>(simulation.max_speed);
+    return report;
+}
+
+#define WEIR_INSTANTIATE(Real)                                \
+    template Status World<Real>::set_gravity(Vec2f);          \
+    template StepReport World<Real>::step(float);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir
