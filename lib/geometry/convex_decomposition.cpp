@@ -114,21 +114,27 @@ bool is_ear(const Ring<Real>& ring, const Chain& chain, std::int32_t v, Touching
     return true;
 }
 
-/// No proper ear: the ring touches or crosses itself by rounding. An ear with a vertex on its rim
-/// still covers the right area; failing that, the flattest corner moves the outline least.
+/// No proper ear: the ring touches or crosses itself by rounding. First goes a corner without area
+/// (a doubled vertex, the tip of a spike), which covers nothing; then an ear with vertices on its
+/// rim, which covers what it should; then the flattest corner, which moves the outline least.
 template <class Real>
 std::int32_t find_makeshift_ear(const Ring<Real>& ring, const Chain& chain, std::int32_t start) {
-    std::int32_t v = start;
+    const auto area_at = [&](std::int32_t v) {
+        return absolute(ring.turn_at(chain.previous(v), v, chain.next(v)));
+    };
     std::int32_t flattest = start;
-    double flattest_area = -1.0;
-    for (std::int32_t tried = 0; tried < chain.left; ++tried) {
-        if (is_ear(ring, chain, v, Touching::allowed)) {
-            return v;
-        }
-        const double area = absolute(ring.turn_at(chain.previous(v), v, chain.next(v)));
-        if (flattest_area < 0.0 || area < flattest_area) {
+    double flattest_area = area_at(start);
+    for (std::int32_t v = chain.next(start); v != start; v = chain.next(v)) {
+        const double area = area_at(v);
+        if (area < flattest_area) {
             flattest = v;
             flattest_area = area;
+        }
+    }
+    std::int32_t v = start;
+    for (std::int32_t tried = 0; tried < chain.left && flattest_area > 0.0; ++tried) {
+        if (is_ear(ring, chain, v, Touching::allowed)) {
+            return v;
         }
         v = chain.next(v);
     }

@@ -27,11 +27,14 @@ int sign_of_turn(Vec2f a, Vec2f b, Vec2f c) {
     return t > 0.0 ? 1 : (t < 0.0 ? -1 : 0);
 }
 
-/// Whether two segments whose boxes overlap share a point. Segments on one line whose boxes
-/// overlap do share one, which is the case of four zeros.
-bool segments_touch(Vec2f a, Vec2f b, Vec2f c, Vec2f d) {
-    return sign_of_turn(a, b, c) * sign_of_turn(a, b, d) <= 0 &&
-           sign_of_turn(c, d, a) * sign_of_turn(c, d, b) <= 0;
+enum class Meeting { crossing, touching };
+
+/// Whether two segments whose boxes overlap cross, or at least share a point. Segments on one
+/// line whose boxes overlap do share one, which is the case of four zeros.
+bool segments_meet(Vec2f a, Vec2f b, Vec2f c, Vec2f d, Meeting meeting) {
+    const int most = meeting == Meeting::touching ? 0 : -1;
+    return sign_of_turn(a, b, c) * sign_of_turn(a, b, d) <= most &&
+           sign_of_turn(c, d, a) * sign_of_turn(c, d, b) <= most;
 }
 
 /// Whether the outline turns round at b and goes back over the edge it came by.
@@ -41,13 +44,13 @@ bool folds_back(Vec2f a, Vec2f b, Vec2f c) {
     return sign_of_turn(a, b, c) == 0 && dot(in, out) < 0.0;
 }
 
-bool crosses_itself(View<Vec2f> polygon) {
+bool meets_itself(View<Vec2f> polygon, Meeting meeting) {
     const std::int32_t count = polygon.size;
     const auto vertex = [&](std::int32_t i) { return polygon[i < count ? i : i - count]; };
     for (std::int32_t i = 0; i < count; ++i) {
         const Vec2f a = vertex(i);
         const Vec2f b = vertex(i + 1);
-        if (folds_back(a, b, vertex(i + 2))) {
+        if (meeting == Meeting::touching && folds_back(a, b, vertex(i + 2))) {
             return true;
         }
         const Box2 box = box_of(a, b);
@@ -55,7 +58,7 @@ bool crosses_itself(View<Vec2f> polygon) {
         for (std::int32_t j = i + 2; j < end; ++j) {
             const Vec2f c = vertex(j);
             const Vec2f d = vertex(j + 1);
-            if (overlap(box, box_of(c, d)) && segments_touch(a, b, c, d)) {
+            if (overlap(box, box_of(c, d)) && segments_meet(a, b, c, d, meeting)) {
                 return true;
             }
         }
@@ -108,9 +111,11 @@ Status check_polygon(View<Vec2f> polygon) {
     }
     const double twice_area = twice_area_in_double(polygon);
     if (absolute(twice_area) <= 2.0 * kMinRelativeArea * squared_diagonal(polygon)) {
-        return Status::polygon_zero_area;
+        // The halves of a bow tie cancel; flatness is not what its author has to mend.
+        return meets_itself(polygon, Meeting::crossing) ? Status::polygon_crosses_itself
+                                                        : Status::polygon_zero_area;
     }
-    if (crosses_itself(polygon)) {
+    if (meets_itself(polygon, Meeting::touching)) {
         return Status::polygon_crosses_itself;
     }
     return twice_area < 0.0 ? Status::polygon_clockwise : Status::ok;

@@ -18,7 +18,8 @@ inline constexpr double kMinRelativeArea = 1e-6;
 /// Set-up: whether a body may have that outline. Total for every bit pattern of its floats.
 /// Names the first defect in this order: polygon_missing, _too_few_vertices, _too_many_vertices,
 /// _not_finite, _repeats_a_vertex (neighbours on the outline), _zero_area, _crosses_itself
-/// (also touches itself, or goes back over its own edge), _clockwise.
+/// (also touches itself, or goes back over its own edge), _clockwise. An outline whose crossing
+/// halves cancel to no area is said to cross itself.
 /// Cost: one box test for each pair of edges.
 Status check_polygon(View<Vec2f> polygon);
 

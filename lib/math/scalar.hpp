@@ -11,16 +11,24 @@
 
 namespace weir {
 
+/// The first argument alone decides the type: std::int32_t is not int on every machine.
 template <class T>
-constexpr T minimum(T a, T b) {
+struct Same {
+    using Type = T;
+};
+template <class T>
+using SameAs = typename Same<T>::Type;
+
+template <class T>
+constexpr T minimum(T a, SameAs<T> b) {
     return b < a ? b : a;
 }
 template <class T>
-constexpr T maximum(T a, T b) {
+constexpr T maximum(T a, SameAs<T> b) {
     return a < b ? b : a;
 }
 template <class T>
-constexpr T clamp(T value, T low, T high) {
+constexpr T clamp(T value, SameAs<T> low, SameAs<T> high) {
     return value < low ? low : (high < value ? high : value);
 }
 template <class T>

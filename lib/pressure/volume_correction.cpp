@@ -7,10 +7,17 @@ namespace {
 template <class Real>
 constexpr Real kWindow = Real(1);
 
-/// How much too dense a cell is.
+/// How much too dense a cell is; too thin counts only where liquid is all around.
 template <class Real>
-inline Real excess(Real density) {
-    return clamp(density - Real(1), Real(0), kWindow<Real>);
+inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32_t c) {
+    const Real e = f.density[c] - Real(1);
+    if (e >= Real(0)) {
+        return minimum(e, kWindow<Real>);
+    }
+    const auto wet = [&](std::int32_t n) { return f.level[n] > Real(0); };
+    return wet(c) && wet(c - 1) && wet(c + 1) && wet(c - s.stride) && wet(c + s.stride)
+               ? maximum(e, -kWindow<Real>)
+               : Real(0);
 }
 
 }  // namespace
@@ -20,16 +27,15 @@ void volume_correction(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real
                        const PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
     const Real speed = gain / dt_s;
-    const Real* density = fields.density;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            const Real here = excess(density[c]);
+            const Real here = excess(s, fields, c);
             if (i > 0 && (!walls.active || walls.open_u[c] > Real(0))) {
-                grid.u[c] -= speed * (here - excess(density[c - 1]));
+                grid.u[c] -= speed * (here - excess(s, fields, c - 1));
             }
             if (j > 0 && (!walls.active || walls.open_v[c] > Real(0))) {
-                grid.v[c] -= speed * (here - excess(density[c - s.stride]));
+                grid.v[c] -= speed * (here - excess(s, fields, c - s.stride));
             }
         }
     }

@@ -2,6 +2,7 @@
 // anything.
 #pragma once
 
+#include "math/scalar.hpp"
 #include "weir/config.hpp"
 #include "weir/status.hpp"
 
@@ -15,7 +16,7 @@ Status check_body(const BodyDef& def, float cell_m);
 Status check_box(const Box& box, float width_m, float height_m);
 /// False for NaN.
 template <class T>
-constexpr bool within(T value, T low, T high) {
+constexpr bool within(T value, SameAs<T> low, SameAs<T> high) {
     return low <= value && value <= high;
 }
 

@@ -208,11 +208,17 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added) {
     const Vec2<Real> low = state_->cells_per_m * convert<Real>(box_m.min_m);
     const Vec2<Real> high = state_->cells_per_m * convert<Real>(box_m.max_m);
     const std::int32_t per_axis = lattice_per_axis(state_->def.particles_per_cell);
+    const GridShape& shape = simulation.grid.shape;
+    const Walls<Real>& walls = simulation.layers.walls;
     const auto each_seed = [&](auto visit) {
-        return for_each_seed(simulation.grid.shape, simulation.layers.walls, low, high, per_axis,
-                             visit);
+        for_each_seed(shape, low, high, per_axis, [&](Vec2<Real> at) {
+            if (!walls.active || !inside_solid(shape, walls, at)) {
+                visit(at);
+            }
+        });
     };
-    const std::int32_t seeds = each_seed([](Vec2<Real>) {});
+    std::int32_t seeds = 0;
+    each_seed([&](Vec2<Real>) { ++seeds; });
     if (seeds > particles.capacity - particles.count) {
         return Status::no_free_particle;
     }
