@@ -1,0 +1,60 @@
+// A scene drawn in a vector editor: solids, moving bodies and liquid as constant data.
+//
+// Written by svg_to_scene.py, read by examples and firmware; lives in read-only memory. Lengths are
+// metres, y points up, the origin is the tank's bottom left corner. Polygons are simple, without
+// holes, counter-clockwise; the first vertex is not repeated. Solids may overlap: their union is
+// meant. Liquid polygons do not overlap, but touch where a shape with a hole was split.
+#pragma once
+
+#include <cstdint>
+
+namespace scene {
+
+struct Point {
+    float x_m;
+    float y_m;
+};
+
+// One polygon. count >= 3.
+struct Shape {
+    const Point* points;
+    std::int32_t count;
+};
+
+// A body that moves as prescribed; scene_motion.hpp says where it is at a given step. A drawn body
+// with holes or several parts becomes several of these with the same motion.
+struct Moving {
+    Shape shape;                // relative to the pivot
+    Point position_m;           // of the pivot at the start
+    Point velocity_mps;         // constant; zero for a body on a path
+    float spin_radps;           // constant, counter-clockwise
+    const Point* path;          // points the pivot visits in a closed loop, or nullptr
+    const float* path_fraction; // share of the period at which it reaches each: 0 .. < 1, rising
+    std::int32_t path_count;    // 0, or >= 2
+    float period_s;             // of one loop; 0 without a path
+};
+
+struct Scene {
+    const char* name;
+    std::int32_t cells_x;
+    std::int32_t cells_y;
+    float cell_m;
+    Point gravity_mps2;
+    float dt_s;                       // of one frame
+    std::int32_t steps;               // frames worth showing
+    std::int32_t particles_per_cell;  // a square number: 4 is a lattice of 2 x 2 in every cell
+    const Shape* solids;
+    std::int32_t solid_count;
+    const Moving* moving;
+    std::int32_t moving_count;
+    const Shape* liquid;
+    std::int32_t liquid_count;
+    std::int32_t max_particles;       // lattice points in the liquid and not in a solid: no more
+    std::int32_t total_vertices;      // of all solids and moving bodies together
+    std::int32_t max_vertices;        // of the one that has most
+};
+
+// Bodies a world must have room for.
+constexpr std::int32_t body_count(const Scene& s) { return s.solid_count + s.moving_count; }
+
+}  // namespace scene
