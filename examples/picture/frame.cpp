@@ -20,7 +20,7 @@ Color speed_color(const Style& style, float share) {
                         : mixed(style.medium, style.fast, 2.0f * share - 1.0f);
 }
 
-int text_scale(int width) { return std::max(1, std::min(4, width / 300)); }
+int text_scale(int width) { return std::max(1, std::min(4, width / 200)); }
 
 }  // namespace
 

@@ -162,15 +162,19 @@ class Builder:
         solids, liquid, bodies, slivers = [], [], {}, 0
         for role, depth, shape, stroke in self.shapes:
             area = self.area(shape, stroke)
-            if area.is_empty:
-                continue
             if role == "liquid":
                 liquid.append(area)
-            elif role == "moving":
-                bodies.setdefault(body_key(shape, depth), (shape, []))[1].append(area)
-            elif self.is_background(area):
+                continue
+            if role == "solid" and self.is_background(area):
                 self.notices.append(f"{shape.label()!r} covers the whole page: a background, no "
                                     "solid")
+                continue
+            if not stroke and has_paint(shape, "stroke", self.options.min_opacity):
+                area = united([area, self.area(shape, True)])  # what is seen is what is solid
+            if area.is_empty:
+                continue
+            if role == "moving":
+                bodies.setdefault(body_key(shape, depth), (shape, []))[1].append(area)
             else:
                 solids.append(area)
         slivers += self.add_solids(solids)

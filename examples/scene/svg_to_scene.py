@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Turns a drawing (SVG) into a C++ header of constants: a tank, solids, moving bodies and liquid.
 
-The page is the tank. Every visible filled shape is a static solid; an unfilled shape with a
-visible pen stroke is the solid that the stroke covers. Two groups mean something else, named by
-their id, Inkscape label or class: shapes in `liquid` are filled with particles, shapes in `moving`
-move. A drawing without `liquid` gets headroom and a block of liquid above it, so any icon or logo
-makes a scene. A shape that covers the whole page is a background and ignored.
+The page is the tank. Every visible shape is a static solid: what its filling and its pen stroke
+cover. Two groups mean something else, named by id, Inkscape label or class: shapes in `liquid`
+are filled with particles, shapes in `moving` move. A drawing without `liquid` gets headroom and a
+block of liquid above it, so any icon or logo makes a scene. A shape that covers the whole page is a
+background and ignored. Text, bitmaps, markers, clip paths and masks are not taken.
 
 Attributes on the root element (all optional; Inkscape's XML editor sets them):
   data-cells="96"               grid cells along the page's longer side

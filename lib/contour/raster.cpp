@@ -33,7 +33,7 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
             Real distance = signed_distance(polygon.ring, polygon.count, polygon.pieces,
                                             polygon.piece_length, point, far);
             if (binary) {
-                distance = distance < Real(0) ? Real(-0.5) : Real(0.5);
+                distance = distance <= Real(0) ? Real(-0.5) : Real(0.5);
             }
             const std::int32_t node = field.origin + j * field.stride + i;
             if (distance < field.distance[node]) {

@@ -11,7 +11,7 @@ namespace weir {
 namespace {
 
 // A vertex number leaves the top bit of its link free; set on `previous`, it says that the vertex
-// is known to be no ear until one of its neighbours goes (Eberly 2002, section 4).
+// is known to be no ear until one of its neighbours goes.
 constexpr std::uint32_t kBlocked = 0x8000U;
 static_assert(kMaxBodyVertices <= 0x8000, "the top bit of a link is taken");
 
@@ -89,52 +89,36 @@ struct PieceList {
     }
 };
 
-enum class Touching { blocks, allowed };
-
 /// Whether the triangle at v can be cut off: a left turn with no other vertex in it. A vertex on
 /// the triangle's rim blocks too, so that no later triangle is a mere line.
 template <class Real>
-bool is_ear(const Ring<Real>& ring, const Chain& chain, std::int32_t v, Touching touching) {
+bool is_ear(const Ring<Real>& ring, const Chain& chain, std::int32_t v) {
     const std::int32_t a = chain.previous(v);
     const std::int32_t c = chain.next(v);
     if (!(ring.turn_at(a, v, c) > 0.0)) {
         return false;
     }
     for (std::int32_t w = chain.next(c); w != a; w = chain.next(w)) {
-        const double beyond_cut = ring.turn_at(c, a, w);
-        if (beyond_cut < 0.0) {
-            continue;
-        }
-        const double depth = minimum(beyond_cut, minimum(ring.turn_at(a, v, w),
-                                                         ring.turn_at(v, c, w)));
-        if (depth > 0.0 || (depth >= 0.0 && touching == Touching::blocks)) {
+        if (ring.turn_at(c, a, w) >= 0.0 && ring.turn_at(a, v, w) >= 0.0 &&
+            ring.turn_at(v, c, w) >= 0.0) {
             return false;
         }
     }
     return true;
 }
 
-/// No proper ear: the ring touches or crosses itself by rounding. First goes a corner without area
-/// (a doubled vertex, the tip of a spike), which covers nothing; then an ear with vertices on its
-/// rim, which covers what it should; then the flattest corner, which moves the outline least.
+/// No proper ear: rounding has made the ring touch or cross itself. The flattest corner goes, which
+/// moves the outline least: not at all for a doubled vertex or the tip of a spike.
 template <class Real>
-std::int32_t find_makeshift_ear(const Ring<Real>& ring, const Chain& chain, std::int32_t start) {
-    const auto area_at = [&](std::int32_t v) {
-        return absolute(ring.turn_at(chain.previous(v), v, chain.next(v)));
-    };
+std::int32_t find_flattest(const Ring<Real>& ring, const Chain& chain, std::int32_t start) {
     std::int32_t flattest = start;
-    double flattest_area = area_at(start);
-    for (std::int32_t v = chain.next(start); v != start; v = chain.next(v)) {
-        const double area = area_at(v);
-        if (area < flattest_area) {
-            flattest = v;
-            flattest_area = area;
-        }
-    }
+    double least = -1.0;
     std::int32_t v = start;
-    for (std::int32_t tried = 0; tried < chain.left && flattest_area > 0.0; ++tried) {
-        if (is_ear(ring, chain, v, Touching::allowed)) {
-            return v;
+    for (std::int32_t tried = 0; tried < chain.left; ++tried) {
+        const double area = absolute(ring.turn_at(chain.previous(v), v, chain.next(v)));
+        if (least < 0.0 || area < least) {
+            flattest = v;
+            least = area;
         }
         v = chain.next(v);
     }
@@ -147,19 +131,19 @@ std::int32_t find_ear(const Ring<Real>& ring, const Chain& chain, std::int32_t s
     std::int32_t v = start;
     for (std::int32_t tried = 0; tried < chain.left; ++tried) {
         if (!chain.blocked(v)) {
-            if (is_ear(ring, chain, v, Touching::blocks)) {
+            if (is_ear(ring, chain, v)) {
                 return v;
             }
             chain.block(v);
         }
         v = chain.next(v);
     }
-    // What a makeshift cut takes away may have blocked a vertex anywhere.
+    // What a makeshift cut takes away may have blocked vertices anywhere.
     for (std::int32_t tried = 0; tried < chain.left; ++tried) {
         chain.unblock(v);
         v = chain.next(v);
     }
-    return find_makeshift_ear(ring, chain, start);
+    return find_flattest(ring, chain, start);
 }
 
 template <class Real>

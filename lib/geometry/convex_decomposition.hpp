@@ -17,7 +17,7 @@ inline constexpr std::int32_t kLinksPerVertex = 2;
 /// numbers counter-clockwise. A convex ring gives one piece; vertices on a straight edge are fine.
 /// Cost: of the order of count² orientation tests; count³ for a ring that touches itself.
 /// @param ring simple and counter-clockwise (`check_polygon`), 3 … kMaxBodyVertices vertices.
-///             Where rounding has made it touch itself, the least harmful ear is taken.
+///             Where rounding has made it touch itself, its flattest corners are cut off.
 /// @param links scratch, kLinksPerVertex a vertex.
 /// @param pieces at least kPieceIndicesPerVertex · (count - 2).
 /// @return how much of `pieces` is used, or -1 if the ring encloses nothing on its left.

@@ -37,22 +37,14 @@ bool segments_meet(Vec2f a, Vec2f b, Vec2f c, Vec2f d, Meeting meeting) {
            sign_of_turn(c, d, a) * sign_of_turn(c, d, b) <= most;
 }
 
-/// Whether the outline turns round at b and goes back over the edge it came by.
-bool folds_back(Vec2f a, Vec2f b, Vec2f c) {
-    const Vec2<double> in = convert<double>(b) - convert<double>(a);
-    const Vec2<double> out = convert<double>(c) - convert<double>(b);
-    return sign_of_turn(a, b, c) == 0 && dot(in, out) < 0.0;
-}
-
+/// Looks at edges that are not neighbours. That finds spikes too: an edge that goes back over the
+/// one before it ends on that one, or reaches the one before that.
 bool meets_itself(View<Vec2f> polygon, Meeting meeting) {
     const std::int32_t count = polygon.size;
     const auto vertex = [&](std::int32_t i) { return polygon[i < count ? i : i - count]; };
     for (std::int32_t i = 0; i < count; ++i) {
         const Vec2f a = vertex(i);
         const Vec2f b = vertex(i + 1);
-        if (meeting == Meeting::touching && folds_back(a, b, vertex(i + 2))) {
-            return true;
-        }
         const Box2 box = box_of(a, b);
         const std::int32_t end = i == 0 ? count - 1 : count;  // the last edge meets the first
         for (std::int32_t j = i + 2; j < end; ++j) {

@@ -5,6 +5,10 @@ namespace weir {
 
 namespace {
 
+/// Larger than any distance within a tank, cells.
+template <class Real>
+constexpr Real kDeepest = Real(1.0e6);
+
 /// How far a coordinate is outside the interval of two others; not positive within it.
 template <class Real>
 Real gap(Real value, Real end, Real other_end) {
@@ -61,9 +65,11 @@ Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, 
 template <class Real>
 Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,
                      std::int32_t piece_length, Vec2<Real> p, Real far) {
-    const Real distance = distance_to_ring(ring, count, p, far);
-    // 0 - d, because -d would make a negative zero on the ring.
-    return inside_any_piece(ring, pieces, piece_length, p) ? Real(0) - distance : distance;
+    if (inside_any_piece(ring, pieces, piece_length, p)) {
+        // 0 - d, because -d would make a negative zero on the ring.
+        return Real(0) - distance_to_ring(ring, count, p, kDeepest<Real>);
+    }
+    return distance_to_ring(ring, count, p, far);
 }
 
 template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);

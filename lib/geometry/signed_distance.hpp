@@ -18,7 +18,8 @@ Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b);
 template <class Real>
 Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far);
 
-/// Distance to the ring, -far … far: negative in any of its convex pieces, 0 on the ring.
+/// Distance to the ring: negative and exact in any of its convex pieces, 0 on the ring, outside
+/// at most far. Whatever is inside has to know the way out.
 /// @param pieces what `decompose` wrote for that ring.
 template <class Real>
 Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,

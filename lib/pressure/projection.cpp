@@ -13,10 +13,17 @@ inline Real face_coefficient(Real open, Real level, Real neighbour_level) {
     return neighbour_level > Real(0) ? open : open / liquid_fraction(level, neighbour_level);
 }
 
+/// Rows low … high hold all the liquid; no other needs to be swept.
+struct Rows {
+    std::int32_t low = 0;
+    std::int32_t high = -1;
+};
+
 template <bool Solids, class Real>
-void build(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rescale,
+Rows build(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rescale,
            PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
+    Rows rows{s.ny, -1};
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
@@ -48,15 +55,17 @@ void build(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real resca
             fields.divergence[c] = divergence;
             fields.inverse_diagonal[c] = Real(1) / diagonal;
             fields.pressure[c] *= rescale;
+            rows = {minimum(rows.low, j), j};
         }
     }
+    return rows;
 }
 
 template <bool Solids, class Real>
-void relax(const GridShape& s, const Walls<Real>& walls, std::int32_t colour,
+void relax(const GridShape& s, const Walls<Real>& walls, Rows rows, std::int32_t colour,
            PressureFields<Real>& fields) {
     Real* p = fields.pressure;
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         for (std::int32_t i = (j + colour) & 1; i < s.nx; i += 2) {
             const std::int32_t c = s.index(i, j);
             const Real inverse = fields.inverse_diagonal[c];
@@ -117,10 +126,10 @@ void project(StaggeredGrid<Real>& grid, const Walls<Real>& walls,
 template <bool Solids, class Real>
 void solve(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rescale,
            std::int32_t sweeps, PressureFields<Real>& fields) {
-    build<Solids>(grid, walls, rescale, fields);
+    const Rows rows = build<Solids>(grid, walls, rescale, fields);
     for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
-        relax<Solids>(grid.shape, walls, 0, fields);
-        relax<Solids>(grid.shape, walls, 1, fields);
+        relax<Solids>(grid.shape, walls, rows, 0, fields);
+        relax<Solids>(grid.shape, walls, rows, 1, fields);
     }
     project<Solids>(grid, walls, fields);
 }

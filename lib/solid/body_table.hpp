@@ -25,6 +25,7 @@ struct Body {
     std::int32_t vertex_count = 0;
     std::int32_t piece_length = 0;  ///< used entries of its piece list
     NodeBox drawn;                  ///< nodes that it wrote when it was last rasterized
+    NodeBox left;                   ///< and the time before
     std::uint16_t generation = 0;
     BodyKind kind = BodyKind::free;
     bool moved = false;             ///< since it was last rasterized

@@ -48,7 +48,34 @@ void restore(Layers<Real>& layers, const NodeBox& box) {
     }
 }
 
-/// Merges anew within a box: the static layer, then every moving body that reaches into it.
+bool overlap(const NodeBox& a, const NodeBox& b) {
+    return a.i0 <= b.i1 && b.i0 <= a.i1 && a.j0 <= b.j1 && b.j0 <= a.j1;
+}
+
+/// Whether a body's rectangle reaches into one that a body with `moved` set has left or entered.
+/// `all` holds all of these: most bodies are answered by it alone.
+template <class Real>
+bool disturbed(const BodyTable<Real>& table, const NodeBox& drawn, const NodeBox& all) {
+    if (!overlap(drawn, all)) {
+        return false;
+    }
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        if (body.moved && (overlap(drawn, body.left) || overlap(drawn, body.drawn))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <class Real>
+void forget_moves(BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        table.body[slot].moved = false;
+    }
+}
+
+/// Draws all moving bodies that reach into a box onto the static layer there.
 template <class Real>
 std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const NodeBox& box) {
     if (box.empty()) {
@@ -122,27 +149,51 @@ std::int32_t redraw_static(Layers<Real>& layers, BodyTable<Real>& table) {
     return nodes + refresh(layers, table, everywhere(layers));
 }
 
+/// Every body that moved leaves a rectangle and enters one; both are wiped, then all bodies that
+/// reach into any of them are drawn. Merging takes the smaller distance, so drawing a body again
+/// where it stands already changes nothing.
 template <class Real>
 std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
-    std::int32_t nodes = 0;
+    NodeBox all;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         Body<Real>& body = table.body[slot];
-        if (body.kind != BodyKind::moving || !body.moved) {
-            continue;
+        if (body.moved) {
+            body.left = body.drawn;
+            body.drawn = reach(layers.shape, table, body);
+            restore(layers, body.left);
+            restore(layers, body.drawn);
+            all = unite(all, unite(body.left, body.drawn));
         }
-        body.moved = false;
-        const NodeBox left = body.drawn;
-        body.drawn = reach(layers.shape, table, body);
-        nodes += refresh(layers, table, unite(left, body.drawn));
     }
+    if (all.empty()) {
+        forget_moves(table);
+        return 0;
+    }
+    std::int32_t nodes = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        const bool stale = body.moved || disturbed(table, body.drawn, all);
+        if (body.kind == BodyKind::moving && stale && !body.drawn.empty()) {
+            nodes += draw(layers, table, slot, body.drawn, layers.walls.distance,
+                          layers.walls.nearest);
+        }
+    }
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        const NodeBox changed = unite(body.left, body.drawn);
+        if (body.moved && !changed.empty()) {
+            update_cut_cells(layers.shape, changed, layers.scratch, layers.walls);
+        }
+    }
+    forget_moves(table);
     return nodes;
 }
 
 template <class Real>
 void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
-    const NodeBox left = table.body[slot].drawn;
+    const NodeBox drawn = table.body[slot].drawn;
     table.body[slot].drawn = NodeBox{};
-    refresh(layers, table, left);
+    refresh(layers, table, drawn);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                           \

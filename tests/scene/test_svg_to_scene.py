@@ -154,6 +154,12 @@ class ShapeTest(SceneTest):
                           'stroke-width:6"/>')
         self.assertAlmostEqual(ring.area, math.pi * (0.33 ** 2 - 0.27 ** 2), delta=0.002)
 
+    def test_stroke_widens_a_filled_solid_but_not_liquid(self):
+        rect = '<rect x="40" y="40" width="20" height="20" stroke="#000" stroke-width="4"/>'
+        self.assert_same_area(self.solid(rect), box(0.38, 0.38, 0.62, 0.62))
+        scene = self.scene("", liquid=f'<g id="liquid">{rect}</g>')
+        self.assert_same_area(Polygon(scene.liquid[0]), box(0.4, 0.4, 0.6, 0.6))
+
     def test_use_before_and_after_definition_and_nested(self):
         body = ('<use xlink:href="#b" x="50"/><defs><rect id="a" width="10" height="10"/>'
                 '<g id="b"><use href="#a" transform="translate(0,40)"/></g></defs>'

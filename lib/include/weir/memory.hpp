@@ -64,7 +64,7 @@ inline constexpr std::size_t world_alignment = 16;
 
 /// Room for records whose types are private; checked by static_assert where they are defined.
 inline constexpr std::size_t kWorldStateBytes = 1024;
-inline constexpr std::size_t kBodyBytes = 128;
+inline constexpr std::size_t kBodyBytes = 144;
 
 /// Largest index of a piece list: a triangle per vertex, each a count and three vertex numbers.
 inline constexpr std::size_t kPieceIndicesPerVertex = 4;

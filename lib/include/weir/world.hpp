@@ -68,8 +68,9 @@ public:
     /// `pressure_scale()` for p / ρ in m²/s². Columns and rows are cells.
     FieldView<Real> pressure() const;
     float pressure_scale() const;
-    /// Signed distance to the nearest solid at the grid's nodes, cells; negative inside, exact
-    /// near a wall, at most `kFarFromSolids` away from it. Empty without bodies.
+    /// Signed distance to the nearest solid at the grid's nodes, cells; negative inside, outside
+    /// at most `kFarFromSolids`. Contour::mid_edge: −½ and ½, the binary matrix. Empty if the
+    /// world has no room for bodies.
     FieldView<Real> signed_distance() const;
 
     float cell_m() const;
@@ -86,7 +87,7 @@ private:
 };
 
 /// Value of `signed_distance` where no solid is near, cells.
-inline constexpr float kFarFromSolids = 2.0F;
+inline constexpr float kFarFromSolids = 1.5F;
 
 extern template class World<float>;
 extern template class World<double>;
