@@ -8,7 +8,7 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 set(WEIR_SCENE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-# weir_add_scene(target DRAWING.svg): an interface target whose users can #include "drawing.hpp",
+# weir_add_scene(target DRAWING.svg [converter option...]): an interface target whose users can #include "drawing.hpp",
 # which defines kScene.
 function(weir_add_scene target drawing)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target})
@@ -16,6 +16,7 @@ function(weir_add_scene target drawing)
   file(GLOB converter ${WEIR_SCENE_DIR}/*.py)
   add_custom_command(OUTPUT ${folder}/drawing.hpp
     COMMAND ${Python3_EXECUTABLE} ${WEIR_SCENE_DIR}/svg_to_scene.py ${drawing} ${folder}/drawing.hpp
+      ${ARGN}
     DEPENDS ${drawing} ${converter} VERBATIM)
   add_custom_target(${target}_drawing DEPENDS ${folder}/drawing.hpp)
   add_library(${target} INTERFACE)

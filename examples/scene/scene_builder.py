@@ -239,7 +239,8 @@ class Builder:
         return slivers
 
     def lattice_points(self, liquid):
-        """Upper bound on seeds: boundaries are moved by a hair so that rounding cannot add any."""
+        """Upper bound on seeds: the liquid grows by a hair so that rounding cannot add any, and the
+        solids shrink by a cell, within which the contour may differ from the outline."""
         if liquid.is_empty:
             return 0
         side = math.isqrt(self.scene.particles_per_cell)
@@ -249,7 +250,7 @@ class Builder:
         x, y = (a.ravel() for a in numpy.meshgrid(xs, ys))
         hair = 0.01 * self.cell
         inside = vectorized.contains(liquid.buffer(hair), x, y)
-        shrunk = self.solid_area.buffer(-hair)
+        shrunk = self.solid_area.buffer(-self.cell)
         if not shrunk.is_empty and inside.any():
             inside[inside] = ~vectorized.contains(shrunk, x[inside], y[inside])
         return int(inside.sum())

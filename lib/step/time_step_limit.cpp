@@ -64,7 +64,7 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s) {
     plan.too_few = wanted > most;
     plan.substeps = minimum(wanted, most);
     plan.dt_s = dt_s / static_cast<Real>(plan.substeps);
-    if (plan.too_few && plan.dt_s > Real(0)) {
+    if (settings.pressure == Pressure::equation_of_state && plan.too_few) {
         plan.sound_speed = minimum(plan.sound_speed, kSoundCfl<Real> / plan.dt_s);
     }
     return plan;
