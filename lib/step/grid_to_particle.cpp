@@ -49,6 +49,18 @@ inline void keep_inside(Real& x, Real& v, Real size, Real restitution) {
     }
 }
 
+/// One axis across a seam. A step is far shorter than the tank, so once is enough; the last line
+/// is for a number so small below zero that adding the size rounds it to the size.
+template <class Real>
+inline void wrap_around(Real& x, Real size) {
+    if (x < Real(0)) {
+        x += size;
+    }
+    if (!(x < size)) {
+        x -= size;
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -84,8 +96,16 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid, const Tra
         TransferResult<Real> unused;
         along = limited(along, transfer.limit, unused);
         x = x + transfer.dt_s * along;
-        keep_inside(x.x, v.x, width, transfer.wall_restitution);
-        keep_inside(x.y, v.y, height, transfer.wall_restitution);
+        if (transfer.wrap_x) {
+            wrap_around(x.x, width);
+        } else {
+            keep_inside(x.x, v.x, width, transfer.wall_restitution);
+        }
+        if (transfer.wrap_y) {
+            wrap_around(x.y, height);
+        } else {
+            keep_inside(x.y, v.y, height, transfer.wall_restitution);
+        }
         result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
         particles.position[k] = x;
         particles.velocity[k] = v;

@@ -19,6 +19,8 @@ struct Transfer {
     Real flip_ratio;
     Real limit;             ///< cells/s; nothing moves faster
     Real wall_restitution;
+    bool wrap_x;            ///< left and right side are one
+    bool wrap_y;
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a
