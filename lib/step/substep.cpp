@@ -132,7 +132,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     fill_borders(simulation);
     clock.charge(Stage::pressure);
 
-    blend_change(grid, settings.flip_ratio);
+    blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid);
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
         volume_correction(settings.borders, walls, dt_s, settings.volume_gain,
                           simulation.pressure, grid);

@@ -2,39 +2,9 @@
 
 #include <cstring>
 
+#include "grid/diffuse.hpp"
+
 namespace weir {
-
-namespace {
-
-/// One component. `back`: from a face to the cell before it; `first_i`, `first_j`: first face that
-/// is no wall. Ghost lines have been extended; across them the velocity counts whatever the cell.
-template <class Real>
-void diffuse(const GridShape& s, const Real* level, std::int32_t back, std::int32_t first_i,
-             std::int32_t first_j, Real amount, const Real* velocity, Real* out) {
-    constexpr Real kDry = Real(-1.5);
-    const auto wet = [&](std::int32_t i, std::int32_t j) {
-        if (i < 0 || i >= s.nx || j < 0 || j >= s.ny) {
-            return true;
-        }
-        const std::int32_t face = s.index(i, j);
-        return level[face] > kDry && level[face - back] > kDry;
-    };
-    for (std::int32_t j = first_j; j < s.ny; ++j) {
-        for (std::int32_t i = first_i; i < s.nx; ++i) {
-            const std::int32_t face = s.index(i, j);
-            if (!wet(i, j)) {
-                continue;
-            }
-            const Real here = velocity[face];
-            const auto pull = [&](std::int32_t di, std::int32_t dj) {
-                return wet(i + di, j + dj) ? velocity[face + dj * s.stride + di] - here : Real(0);
-            };
-            out[face] = here + amount * ((pull(-1, 0) + pull(1, 0)) + (pull(0, -1) + pull(0, 1)));
-        }
-    }
-}
-
-}  // namespace
 
 template <class Real>
 void diffuse_velocity(const Borders<Real>& borders, PressureFields<Real>& fields, Real amount,
