@@ -11,8 +11,9 @@ constexpr Real kBulkViscosity = Real(0.2);
 }  // namespace
 
 template <class Real>
-void equation_of_state(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s,
-                       Real sound_speed, PressureFields<Real>& fields) {
+void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+                       Real sound_speed, StaggeredGrid<Real>& grid,
+                       PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
     const Real stiffness = dt_s * sound_speed * sound_speed;
     const Real damping = dt_s * kBulkViscosity<Real> * sound_speed;
@@ -29,23 +30,24 @@ void equation_of_state(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real
             fields.pressure[c] = pressure;
         }
     }
+    extend_cells(borders, s, fields.pressure);
     fields.last_dt = dt_s;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (i > 0 && (!walls.active || walls.open_u[c] > Real(0))) {
+            if ((i > 0 || borders.wrap_x) && (!walls.active || walls.open_u[c] > Real(0))) {
                 grid.u[c] -= fields.pressure[c] - fields.pressure[c - 1];
             }
-            if (j > 0 && (!walls.active || walls.open_v[c] > Real(0))) {
+            if ((j > 0 || borders.wrap_y) && (!walls.active || walls.open_v[c] > Real(0))) {
                 grid.v[c] -= fields.pressure[c] - fields.pressure[c - s.stride];
             }
         }
     }
 }
 
-template void equation_of_state(StaggeredGrid<float>&, const Walls<float>&, float, float,
-                                PressureFields<float>&);
-template void equation_of_state(StaggeredGrid<double>&, const Walls<double>&, double, double,
-                                PressureFields<double>&);
+template void equation_of_state(const Borders<float>&, const Walls<float>&, float, float,
+                                StaggeredGrid<float>&, PressureFields<float>&);
+template void equation_of_state(const Borders<double>&, const Walls<double>&, double, double,
+                                StaggeredGrid<double>&, PressureFields<double>&);
 
 }  // namespace weir

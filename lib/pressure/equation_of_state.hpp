@@ -1,6 +1,7 @@
 // Stage: pressure, explicit. Reads density; writes pressure and the accelerated velocity.
 #pragma once
 
+#include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -10,7 +11,8 @@ namespace weir {
 /// viscosity of 0.2 c cells that takes the ringing out. Stable while c · dt ≤ ½ cell.
 /// Order: by row. Cost: about 15 operations a cell.
 template <class Real>
-void equation_of_state(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s,
-                       Real sound_speed, PressureFields<Real>& fields);
+void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+                       Real sound_speed, StaggeredGrid<Real>& grid,
+                       PressureFields<Real>& fields);
 
 }  // namespace weir

@@ -20,8 +20,8 @@ struct Rows {
 };
 
 template <bool Solids, class Real>
-Rows build(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rescale,
-           PressureFields<Real>& fields) {
+Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
+           const Walls<Real>& walls, Real rescale, PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
     Rows rows{s.ny, -1};
     for (std::int32_t j = 0; j < s.ny; ++j) {
@@ -34,10 +34,13 @@ Rows build(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real resca
                 continue;
             }
             const std::int32_t up = c + s.stride;
-            const Real left_open = i > 0 ? (Solids ? walls.open_u[c] : Real(1)) : Real(0);
-            const Real right_open = i + 1 < s.nx ? (Solids ? walls.open_u[c + 1] : Real(1)) : Real(0);
-            const Real lower_open = j > 0 ? (Solids ? walls.open_v[c] : Real(1)) : Real(0);
-            const Real upper_open = j + 1 < s.ny ? (Solids ? walls.open_v[up] : Real(1)) : Real(0);
+            const auto open = [](bool inside, const Real* fraction, std::int32_t face) {
+                return inside ? (Solids ? fraction[face] : Real(1)) : Real(0);
+            };
+            const Real left_open = open(i > 0 || borders.wrap_x, walls.open_u, c);
+            const Real right_open = open(i + 1 < s.nx || borders.wrap_x, walls.open_u, c + 1);
+            const Real lower_open = open(j > 0 || borders.wrap_y, walls.open_v, c);
+            const Real upper_open = open(j + 1 < s.ny || borders.wrap_y, walls.open_v, up);
             const Real diagonal =
                 (face_coefficient(left_open, level, fields.level[c - 1]) +
                  face_coefficient(right_open, level, fields.level[c + 1])) +
@@ -107,16 +110,16 @@ inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before,
 }
 
 template <bool Solids, class Real>
-void project(StaggeredGrid<Real>& grid, const Walls<Real>& walls,
-             const PressureFields<Real>& fields) {
+void project(const Borders<Real>& borders, const Walls<Real>& walls,
+             const PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (i > 0 && (!Solids || walls.open_u[c] > Real(0))) {
+            if ((i > 0 || borders.wrap_x) && (!Solids || walls.open_u[c] > Real(0))) {
                 accelerate(grid.u, c, c - 1, fields);
             }
-            if (j > 0 && (!Solids || walls.open_v[c] > Real(0))) {
+            if ((j > 0 || borders.wrap_y) && (!Solids || walls.open_v[c] > Real(0))) {
                 accelerate(grid.v, c, c - s.stride, fields);
             }
         }
@@ -124,33 +127,34 @@ void project(StaggeredGrid<Real>& grid, const Walls<Real>& walls,
 }
 
 template <bool Solids, class Real>
-void solve(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rescale,
-           std::int32_t sweeps, PressureFields<Real>& fields) {
-    const Rows rows = build<Solids>(grid, walls, rescale, fields);
-    for (std::int32_t sweep = 0; sweep < sweeps; ++sweep) {
-        relax<Solids>(grid.shape, walls, rows, 0, fields);
-        relax<Solids>(grid.shape, walls, rows, 1, fields);
+void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
+           std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
+    const Rows rows = build<Solids>(grid, borders, walls, rescale, fields);
+    extend_cells(borders, grid.shape, fields.pressure);
+    for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
+        relax<Solids>(grid.shape, walls, rows, half_sweep & 1, fields);
+        extend_cells(borders, grid.shape, fields.pressure);
     }
-    project<Solids>(grid, walls, fields);
+    project<Solids>(borders, walls, fields, grid);
 }
 
 }  // namespace
 
 template <class Real>
-void projection(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s,
-                std::int32_t sweeps, PressureFields<Real>& fields) {
+void projection(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
     const Real rescale = fields.last_dt > Real(0) ? dt_s / fields.last_dt : Real(0);
     fields.last_dt = dt_s;
     if (walls.active) {
-        solve<true>(grid, walls, rescale, sweeps, fields);
+        solve<true>(borders, walls, rescale, sweeps, grid, fields);
     } else {
-        solve<false>(grid, walls, rescale, sweeps, fields);
+        solve<false>(borders, walls, rescale, sweeps, grid, fields);
     }
 }
 
-template void projection(StaggeredGrid<float>&, const Walls<float>&, float, std::int32_t,
-                         PressureFields<float>&);
-template void projection(StaggeredGrid<double>&, const Walls<double>&, double, std::int32_t,
-                         PressureFields<double>&);
+template void projection(const Borders<float>&, const Walls<float>&, float, std::int32_t,
+                         StaggeredGrid<float>&, PressureFields<float>&);
+template void projection(const Borders<double>&, const Walls<double>&, double, std::int32_t,
+                         StaggeredGrid<double>&, PressureFields<double>&);
 
 }  // namespace weir

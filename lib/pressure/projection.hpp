@@ -1,6 +1,7 @@
 // Stage: pressure, implicit. Reads level and u*; writes pressure and the projected velocity.
 #pragma once
 
+#include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -12,8 +13,8 @@ namespace weir {
 /// makes `sweeps` red-black relaxations, no more and no less: time is bounded, the result is the
 /// same on every machine. Cost: about 10 operations a liquid cell and sweep.
 template <class Real>
-void projection(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s,
-                std::int32_t sweeps, PressureFields<Real>& fields);
+void projection(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields);
 
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid.
 template <class Real>

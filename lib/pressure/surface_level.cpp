@@ -38,8 +38,8 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
 }
 
 template <class Real>
-bool surrounded(const GridShape& s, const Walls<Real>& walls, const Real* level, std::int32_t i,
-                std::int32_t j) {
+bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
+                const Real* level, std::int32_t i, std::int32_t j) {
     const std::int32_t c = s.index(i, j);
     Real open = Real(0);
     Real covered = Real(0);
@@ -52,10 +52,11 @@ bool surrounded(const GridShape& s, const Walls<Real>& walls, const Real* level,
         }
     };
     const bool cut = walls.active;
-    face(i > 0, cut ? walls.open_u[c] : Real(1), c - 1);
-    face(i + 1 < s.nx, cut ? walls.open_u[c + 1] : Real(1), c + 1);
-    face(j > 0, cut ? walls.open_v[c] : Real(1), c - s.stride);
-    face(j + 1 < s.ny, cut ? walls.open_v[c + s.stride] : Real(1), c + s.stride);
+    face(i > 0 || borders.wrap_x, cut ? walls.open_u[c] : Real(1), c - 1);
+    face(i + 1 < s.nx || borders.wrap_x, cut ? walls.open_u[c + 1] : Real(1), c + 1);
+    face(j > 0 || borders.wrap_y, cut ? walls.open_v[c] : Real(1), c - s.stride);
+    face(j + 1 < s.ny || borders.wrap_y, cut ? walls.open_v[c + s.stride] : Real(1),
+         c + s.stride);
     return open > Real(0) && covered >= kFilledShare<Real> * open;
 }
 
@@ -81,25 +82,28 @@ Real level_of_density(Real density) {
 }
 
 template <class Real>
-void surface_level(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rest_count,
-                   PressureFields<Real>& fields) {
+void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
+                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields) {
     density_from_faces(grid, walls, rest_count, fields);
+    extend_cells(borders, grid.shape, fields.level);
     const GridShape& s = grid.shape;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (fields.level[c] <= Real(0) && surrounded(s, walls, fields.level, i, j)) {
+            if (fields.level[c] <= Real(0) &&
+                surrounded(s, borders, walls, fields.level, i, j)) {
                 fields.level[c] = kFilledLevel<Real>;
             }
         }
     }
+    extend_cells(borders, s, fields.level);
 }
 
 template float level_of_density(float);
 template double level_of_density(double);
-template void surface_level(const StaggeredGrid<float>&, const Walls<float>&, float,
-                            PressureFields<float>&);
-template void surface_level(const StaggeredGrid<double>&, const Walls<double>&, double,
-                            PressureFields<double>&);
+template void surface_level(const StaggeredGrid<float>&, const Borders<float>&,
+                            const Walls<float>&, float, PressureFields<float>&);
+template void surface_level(const StaggeredGrid<double>&, const Borders<double>&,
+                            const Walls<double>&, double, PressureFields<double>&);
 
 }  // namespace weir

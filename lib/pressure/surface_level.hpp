@@ -1,6 +1,7 @@
 // Stage: pressure, first part. Reads face masses; writes density and level of every cell.
 #pragma once
 
+#include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -15,7 +16,7 @@ Real level_of_density(Real density);
 /// level from it. An air cell that liquid surrounds counts as liquid: it would be a sink of
 /// pressure. Order: by row. Cost: 4 sums and about one square root a cell near the surface.
 template <class Real>
-void surface_level(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real rest_count,
-                   PressureFields<Real>& fields);
+void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
+                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields);
 
 }  // namespace weir

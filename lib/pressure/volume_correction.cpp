@@ -26,27 +26,34 @@ inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32
 }  // namespace
 
 template <class Real>
-void volume_correction(StaggeredGrid<Real>& grid, const Walls<Real>& walls, Real dt_s, Real gain,
-                       const PressureFields<Real>& fields) {
+void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const Real speed = gain / dt_s;
+    Real* e = fields.divergence;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            const Real here = excess(s, fields, c);
-            if (i > 0 && (!walls.active || walls.open_u[c] > Real(0))) {
-                grid.u[c] -= speed * (here - excess(s, fields, c - 1));
+            e[c] = excess(s, fields, c);
+        }
+    }
+    extend_cells(borders, s, e);
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if ((i > 0 || borders.wrap_x) && (!walls.active || walls.open_u[c] > Real(0))) {
+                grid.u[c] -= speed * (e[c] - e[c - 1]);
             }
-            if (j > 0 && (!walls.active || walls.open_v[c] > Real(0))) {
-                grid.v[c] -= speed * (here - excess(s, fields, c - s.stride));
+            if ((j > 0 || borders.wrap_y) && (!walls.active || walls.open_v[c] > Real(0))) {
+                grid.v[c] -= speed * (e[c] - e[c - s.stride]);
             }
         }
     }
 }
 
-template void volume_correction(StaggeredGrid<float>&, const Walls<float>&, float, float,
-                                const PressureFields<float>&);
-template void volume_correction(StaggeredGrid<double>&, const Walls<double>&, double, double,
-                                const PressureFields<double>&);
+template void volume_correction(const Borders<float>&, const Walls<float>&, float, float,
+                                PressureFields<float>&, StaggeredGrid<float>&);
+template void volume_correction(const Borders<double>&, const Walls<double>&, double, double,
+                                PressureFields<double>&, StaggeredGrid<double>&);
 
 }  // namespace weir

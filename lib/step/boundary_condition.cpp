@@ -98,23 +98,7 @@ void mirror_in_solids(StaggeredGrid<Real>& grid, const Walls<Real>& walls) {
     }
 }
 
-template <class Real>
-void mirror_in_tank(const GridShape& s, Real* u, Real* v) {
-    for (std::int32_t i = 0; i <= s.nx; ++i) {
-        u[s.index(i, -1)] = u[s.index(i, 0)];
-        u[s.index(i, s.ny)] = u[s.index(i, s.ny - 1)];
-    }
-    for (std::int32_t j = 0; j <= s.ny; ++j) {
-        v[s.index(-1, j)] = v[s.index(0, j)];
-        v[s.index(s.nx, j)] = v[s.index(s.nx - 1, j)];
-    }
-}
-
-#define WEIR_INSTANTIATE(Real)                                                   \
-    template void mirror_in_solids(StaggeredGrid<Real>&, const Walls<Real>&);    \
-    template void mirror_in_tank(const GridShape&, Real*, Real*);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-#undef WEIR_INSTANTIATE
+template void mirror_in_solids(StaggeredGrid<float>&, const Walls<float>&);
+template void mirror_in_solids(StaggeredGrid<double>&, const Walls<double>&);
 
 }  // namespace weir

@@ -13,9 +13,4 @@ namespace weir {
 template <class Real>
 void mirror_in_solids(StaggeredGrid<Real>& grid, const Walls<Real>& walls);
 
-/// Ghost rows beyond the tank repeat the row before them: walls are slippery mirrors.
-/// `u` and `v` are any pair of fields on the faces.
-template <class Real>
-void mirror_in_tank(const GridShape& shape, Real* u, Real* v);
-
 }  // namespace weir

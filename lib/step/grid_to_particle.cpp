@@ -1,8 +1,16 @@
 #include "step/grid_to_particle.hpp"
 
+#include <cstring>
+
+#include "grid/diffuse.hpp"
+
 namespace weir {
 
 namespace {
+
+/// Scatter and gather together smooth like 1 + ∇²/6: each is a hat function of variance 1/6.
+template <class Real>
+constexpr Real kSmoothing = Real(1.0 / 6.0);
 
 template <class Real>
 struct Sample {
@@ -49,14 +57,61 @@ inline void keep_inside(Real& x, Real& v, Real size, Real restitution) {
     }
 }
 
+/// One axis across a seam. A step is far shorter than the tank, so once is enough; the last line
+/// is for a number so small below zero that adding the size rounds it to the size.
+template <class Real>
+inline void wrap_around(Real& x, Real size) {
+    if (x < Real(0)) {
+        x += size;
+    }
+    if (!(x < size)) {
+        x -= size;
+    }
+}
+
+/// One component: out = field − kSmoothing ∇²field where liquid is all around.
+template <class Real>
+void sharpen(const GridShape& s, const Real* level, std::int32_t back, std::int32_t first_i,
+             std::int32_t first_j, const Real* field, Real* out) {
+    const auto deep = [&](std::int32_t i, std::int32_t j) {
+        if (i < 0 || i >= s.nx || j < 0 || j >= s.ny) {
+            return true;
+        }
+        const std::int32_t face = s.index(i, j);
+        return level[face] > Real(0) && level[face - back] > Real(0);
+    };
+    for (std::int32_t j = first_j; j < s.ny; ++j) {
+        for (std::int32_t i = first_i; i < s.nx; ++i) {
+            if (!deep(i, j) || !deep(i - 1, j) || !deep(i + 1, j) || !deep(i, j - 1) ||
+                !deep(i, j + 1)) {
+                continue;
+            }
+            const std::int32_t face = s.index(i, j);
+            const Real around = (field[face - 1] + field[face + 1]) +
+                                (field[face - s.stride] + field[face + s.stride]);
+            out[face] = field[face] - kSmoothing<Real> * (around - Real(4) * field[face]);
+        }
+    }
+}
+
 }  // namespace
 
 template <class Real>
-void blend_change(StaggeredGrid<Real>& grid, Real flip_ratio) {
-    const std::int32_t size = grid.shape.size();
-    for (std::int32_t face = 0; face < size; ++face) {
-        grid.mass_u[face] = grid.u[face] - flip_ratio * grid.mass_u[face];
-        grid.mass_v[face] = grid.v[face] - flip_ratio * grid.mass_v[face];
+void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
+                  StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof(Real);
+    Real* sharp_u = fields.divergence;
+    Real* sharp_v = fields.inverse_diagonal;
+    std::memcpy(sharp_u, grid.mass_u, bytes);
+    std::memcpy(sharp_v, grid.mass_v, bytes);
+    sharpen(s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, grid.mass_u, sharp_u);
+    sharpen(s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, grid.mass_v, sharp_v);
+    extend_velocity(borders, s, sharp_u, sharp_v);
+    const Real pic_ratio = Real(1) - flip_ratio;
+    for (std::int32_t face = 0; face < s.size(); ++face) {
+        grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
+        grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
     }
 }
 
@@ -84,8 +139,16 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid, const Tra
         TransferResult<Real> unused;
         along = limited(along, transfer.limit, unused);
         x = x + transfer.dt_s * along;
-        keep_inside(x.x, v.x, width, transfer.wall_restitution);
-        keep_inside(x.y, v.y, height, transfer.wall_restitution);
+        if (transfer.wrap_x) {
+            wrap_around(x.x, width);
+        } else {
+            keep_inside(x.x, v.x, width, transfer.wall_restitution);
+        }
+        if (transfer.wrap_y) {
+            wrap_around(x.y, height);
+        } else {
+            keep_inside(x.y, v.y, height, transfer.wall_restitution);
+        }
         result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
         particles.position[k] = x;
         particles.velocity[k] = v;
@@ -94,7 +157,8 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid, const Tra
 }
 
 #define WEIR_INSTANTIATE(Real)                                                            \
-    template void blend_change(StaggeredGrid<Real>&, Real);                               \
+    template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,         \
+                               StaggeredGrid<Real>&);                                     \
     template TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>&,                   \
                                             const Transfer<Real>&, Particles<Real>&);
 WEIR_INSTANTIATE(float)

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "fluid/particles.hpp"
-#include "grid/staggered_grid.hpp"
+#include "grid/borders.hpp"
+#include "pressure/pressure_fields.hpp"
 
 namespace weir {
 
@@ -19,13 +20,19 @@ struct Transfer {
     Real flip_ratio;
     Real limit;             ///< cells/s; nothing moves faster
     Real wall_restitution;
+    bool wrap_x;            ///< left and right side are one
+    bool wrap_y;
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a
-/// particle's velocity needs: change = u − flip · u_before, so that v' = flip · v + I(change).
-/// Exact, and one gather instead of two (Brackbill & Ruppel 1986; Zhu & Bridson 2005).
+/// particle's velocity needs (Brackbill & Ruppel 1986; Zhu & Bridson 2005):
+///     v' = flip · v + I(change),  change = u − u_before + (1 − flip) ũ,
+/// one gather instead of two. ũ is the velocity before, sharpened by what a scatter and a gather
+/// smooth away, so that the share of PIC damps the noise between particles and not the flow.
+/// The fields' divergence and inverse diagonal are used as scratch.
 template <class Real>
-void blend_change(StaggeredGrid<Real>& grid, Real flip_ratio);
+void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
+                  StaggeredGrid<Real>& grid);
 
 /// Gathers both fields with the weights of particle-to-grid, moves the particle to second order,
 /// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank.

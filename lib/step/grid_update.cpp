@@ -50,29 +50,23 @@ void extrapolate_component(Real* velocity, const Real* level, const GridShape& s
 }  // namespace
 
 template <class Real>
-void grid_update(StaggeredGrid<Real>& grid, Vec2<Real> gravity, Real dt_s) {
+void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s,
+                 StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     update(grid.u, grid.mass_u, s, gravity.x * dt_s);
     update(grid.v, grid.mass_v, s, gravity.y * dt_s);
-    for (std::int32_t j = 0; j < s.ny; ++j) {
-        grid.u[s.index(0, j)] = Real(0);
-        grid.u[s.index(s.nx, j)] = Real(0);
-    }
-    for (std::int32_t i = 0; i < s.nx; ++i) {
-        grid.v[s.index(i, 0)] = Real(0);
-        grid.v[s.index(i, s.ny)] = Real(0);
-    }
+    close_walls(borders, grid);
 }
 
 template <class Real>
-void extrapolate(StaggeredGrid<Real>& grid, const Real* level) {
-    extrapolate_component(grid.u, level, grid.shape, 1, 1, 0);
-    extrapolate_component(grid.v, level, grid.shape, grid.shape.stride, 0, 1);
+void extrapolate(const Borders<Real>& borders, const Real* level, StaggeredGrid<Real>& grid) {
+    extrapolate_component(grid.u, level, grid.shape, 1, borders.wrap_x ? 0 : 1, 0);
+    extrapolate_component(grid.v, level, grid.shape, grid.shape.stride, 0, borders.wrap_y ? 0 : 1);
 }
 
-#define WEIR_INSTANTIATE(Real)                                        \
-    template void grid_update(StaggeredGrid<Real>&, Vec2<Real>, Real); \
-    template void extrapolate(StaggeredGrid<Real>&, const Real*);
+#define WEIR_INSTANTIATE(Real)                                                                  \
+    template void grid_update(const Borders<Real>&, Vec2<Real>, Real, StaggeredGrid<Real>&);    \
+    template void extrapolate(const Borders<Real>&, const Real*, StaggeredGrid<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 #undef WEIR_INSTANTIATE

@@ -1,7 +1,7 @@
 // Stage: grid update. Reads mass and momentum; writes velocities.
 #pragma once
 
-#include "grid/staggered_grid.hpp"
+#include "grid/borders.hpp"
 
 namespace weir {
 
@@ -9,11 +9,12 @@ namespace weir {
 /// stands the velocity before gravity from now on: grid-to-particle needs the change (FLIP).
 /// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
 template <class Real>
-void grid_update(StaggeredGrid<Real>& grid, Vec2<Real> gravity, Real dt_s);
+void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s,
+                 StaggeredGrid<Real>& grid);
 
 /// Gives faces in air beside the liquid the mean velocity of the liquid's faces next to them:
 /// particles at the surface read both. Reads levels of the cells.
 template <class Real>
-void extrapolate(StaggeredGrid<Real>& grid, const Real* level);
+void extrapolate(const Borders<Real>& borders, const Real* level, StaggeredGrid<Real>& grid);
 
 }  // namespace weir

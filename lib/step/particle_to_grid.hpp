@@ -2,14 +2,15 @@
 #pragma once
 
 #include "fluid/particles.hpp"
-#include "grid/staggered_grid.hpp"
+#include "grid/borders.hpp"
 
 namespace weir {
 
 /// Clears the grid, then adds every particle's mass 1 and momentum to its four u faces and four
-/// v faces with bilinear weights. Ghost rows are folded back: the tank's walls are mirrors.
+/// v faces with bilinear weights. Ghost rows are folded back.
 /// Order: by particle, then by node. Cost: 8 weights and 16 sums a particle.
 template <class Real>
-void particle_to_grid(const Particles<Real>& particles, StaggeredGrid<Real>& grid);
+void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
+                      StaggeredGrid<Real>& grid);
 
 }  // namespace weir

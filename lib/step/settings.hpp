@@ -1,7 +1,7 @@
 // What a substep needs to know, in cells and seconds.
 #pragma once
 
-#include "math/vec2.hpp"
+#include "grid/borders.hpp"
 #include "weir/config.hpp"
 
 namespace weir {
@@ -14,6 +14,8 @@ struct Settings {
     Real volume_gain = Real(0.25);
     Real sound_speed = Real(0);  ///< cells/s; equation of state
     Real wall_restitution = Real(0);
+    Real viscosity = Real(0);    ///< kinematic, cells²/s
+    Borders<Real> borders;
     Real cfl = Real(1);          ///< cells per substep
     std::int32_t sweeps = 16;
     std::int32_t max_substeps = 16;

@@ -10,6 +10,7 @@
 #include "step/grid_to_particle.hpp"
 #include "step/grid_update.hpp"
 #include "step/particle_to_grid.hpp"
+#include "step/viscosity.hpp"
 
 namespace weir {
 
@@ -66,10 +67,12 @@ void solve_pressure(Simulation<Real>& simulation, Real dt_s, Real sound_speed) {
     const Settings<Real>& settings = simulation.settings;
     const Walls<Real>& walls = simulation.layers.walls;
     if (settings.pressure == Pressure::projection) {
-        projection(simulation.grid, walls, dt_s, settings.sweeps, simulation.pressure);
-        extrapolate(simulation.grid, simulation.pressure.level);
+        projection(settings.borders, walls, dt_s, settings.sweeps, simulation.grid,
+                   simulation.pressure);
+        extrapolate(settings.borders, simulation.pressure.level, simulation.grid);
     } else {
-        equation_of_state(simulation.grid, walls, dt_s, sound_speed, simulation.pressure);
+        equation_of_state(settings.borders, walls, dt_s, sound_speed, simulation.grid,
+                          simulation.pressure);
     }
 }
 
@@ -80,15 +83,19 @@ void fill_borders(Simulation<Real>& simulation) {
     if (simulation.layers.walls.active) {
         mirror_in_solids(grid, simulation.layers.walls);
     }
-    mirror_in_tank(grid.shape, grid.u, grid.v);
-    mirror_in_tank(grid.shape, grid.mass_u, grid.mass_v);
+    extend_velocity(simulation.settings.borders, grid.shape, grid.u, grid.v);
+    extend_velocity(simulation.settings.borders, grid.shape, grid.mass_u, grid.mass_v);
 }
 
 template <class Real>
 void gather(Simulation<Real>& simulation, Real dt_s, StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
-    const Transfer<Real> transfer{dt_s, settings.flip_ratio, kLongestWay<Real> / dt_s,
-                                  settings.wall_restitution};
+    const Transfer<Real> transfer{dt_s,
+                                  settings.flip_ratio,
+                                  kLongestWay<Real> / dt_s,
+                                  settings.wall_restitution,
+                                  settings.borders.wrap_x,
+                                  settings.borders.wrap_y};
     const TransferResult<Real> result =
         grid_to_particle(simulation.grid, transfer, simulation.particles);
     report.particles_reset += result.reset;
@@ -99,7 +106,8 @@ void gather(Simulation<Real>& simulation, Real dt_s, StepReport& report) {
 }  // namespace
 
 template <class Real>
-void substep(Simulation<Real>& simulation, Real dt_s, Real sound_speed, StepReport& report) {
+void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepReport& report) {
+    const Real dt_s = plan.dt_s;
     StaggeredGrid<Real>& grid = simulation.grid;
     Walls<Real>& walls = simulation.layers.walls;
     const Settings<Real>& settings = simulation.settings;
@@ -110,20 +118,24 @@ void substep(Simulation<Real>& simulation, Real dt_s, Real sound_speed, StepRepo
         report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
         clock.charge(Stage::contour);
     }
-    particle_to_grid(simulation.particles, grid);
+    particle_to_grid(simulation.particles, settings.borders, grid);
     clock.charge(Stage::particle_to_grid);
 
-    surface_level(grid, walls, settings.rest_count, simulation.pressure);
-    grid_update(grid, settings.gravity, dt_s);
+    surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure);
+    grid_update(settings.borders, settings.gravity, dt_s, grid);
+    if (plan.viscosity > Real(0)) {
+        diffuse_velocity(settings.borders, simulation.pressure, plan.viscosity * dt_s, grid);
+    }
     clock.charge(Stage::grid_update);
 
-    solve_pressure(simulation, dt_s, sound_speed);
+    solve_pressure(simulation, dt_s, plan.sound_speed);
     fill_borders(simulation);
     clock.charge(Stage::pressure);
 
-    blend_change(grid, settings.flip_ratio);
+    blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid);
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
-        volume_correction(grid, walls, dt_s, settings.volume_gain, simulation.pressure);
+        volume_correction(settings.borders, walls, dt_s, settings.volume_gain,
+                          simulation.pressure, grid);
     }
     clock.charge(Stage::volume);
 
@@ -138,7 +150,7 @@ void substep(Simulation<Real>& simulation, Real dt_s, Real sound_speed, StepRepo
     }
 }
 
-template void substep(Simulation<float>&, float, float, StepReport&);
-template void substep(Simulation<double>&, double, double, StepReport&);
+template void substep(Simulation<float>&, const SubstepPlan<float>&, StepReport&);
+template void substep(Simulation<double>&, const SubstepPlan<double>&, StepReport&);
 
 }  // namespace weir

@@ -1,12 +1,12 @@
 // One substep, from particles back to particles.
 #pragma once
 
-#include "step/simulation.hpp"
+#include "step/time_step_limit.hpp"
 
 namespace weir {
 
-/// Advances everything by dt_s. Adds counts and ticks to the report.
+/// Advances everything by plan.dt_s. Adds counts and ticks to the report.
 template <class Real>
-void substep(Simulation<Real>& simulation, Real dt_s, Real sound_speed, StepReport& report);
+void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepReport& report);
 
 }  // namespace weir

@@ -11,6 +11,10 @@ constexpr Real kGravityWay = Real(0.12);
 template <class Real>
 constexpr Real kSoundCfl = Real(0.4);
 
+/// ν dt, cells²: the limit of the five-point formula.
+template <class Real>
+constexpr Real kDiffusion = Real(0.25);
+
 /// Ceiling that survives any finite ratio.
 template <class Real>
 std::int32_t at_least(Real ratio, std::int32_t most) {
@@ -61,12 +65,16 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s) {
         const Real waves = (settings.sound_speed + speed) * dt_s / kSoundCfl<Real>;
         wanted = maximum(wanted, at_least(waves, most));
     }
+    if (settings.viscosity > Real(0)) {
+        wanted = maximum(wanted, at_least(settings.viscosity * dt_s / kDiffusion<Real>, most));
+    }
     plan.too_few = wanted > most;
     plan.substeps = minimum(wanted, most);
     plan.dt_s = dt_s / static_cast<Real>(plan.substeps);
     if (settings.pressure == Pressure::equation_of_state && plan.too_few) {
         plan.sound_speed = minimum(plan.sound_speed, kSoundCfl<Real> / plan.dt_s);
     }
+    plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);
     return plan;
 }
 

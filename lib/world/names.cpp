@@ -23,6 +23,10 @@ const char* status_text(Status status) {
         case Status::volume_gain_out_of_range: return "volume_gain: choose 0 … 1";
         case Status::sound_speed_out_of_range: return "sound_speed_mps: choose 0 (automatic) or at most kMaxSpeed cells a second";
         case Status::restitution_out_of_range: return "restitution: choose 0 (slide) … 1 (mirror)";
+        case Status::viscosity_out_of_range: return "viscosity_m2ps: choose 0 … 1e6 cells² a second";
+        case Status::wall_speed_out_of_range: return "slide_..._mps: choose at most kMaxSpeed cells a second";
+        case Status::periodic_with_bodies: return "periodic worlds hold no bodies: set capacity.bodies = 0";
+        case Status::periodic_needs_even_cells: return "periodic: choose an even number of cells along that axis";
         case Status::unknown_option: return "pressure or contour is no enumerator: pick one from config.hpp";
         case Status::memory_missing: return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";

@@ -47,6 +47,26 @@ Status check_numerics(const WorldDef& def) {
                                                     : Status::restitution_out_of_range;
 }
 
+Status check_borders(const WorldDef& def) {
+    if (!within(def.viscosity_m2ps, 0.0F, 1.0e6F * def.cell_m * def.cell_m)) {
+        return Status::viscosity_out_of_range;
+    }
+    const float fastest = kMaxSpeed * def.cell_m;
+    const float slides[] = {def.slide_bottom_mps, def.slide_top_mps, def.slide_left_mps,
+                            def.slide_right_mps};
+    for (const float slide : slides) {
+        if (!within(slide, -fastest, fastest)) {
+            return Status::wall_speed_out_of_range;
+        }
+    }
+    if ((def.periodic_x || def.periodic_y) && def.capacity.bodies > 0) {
+        return Status::periodic_with_bodies;
+    }
+    const bool odd = (def.periodic_x && def.capacity.cells_x % 2 != 0) ||
+                     (def.periodic_y && def.capacity.cells_y % 2 != 0);
+    return odd ? Status::periodic_needs_even_cells : Status::ok;
+}
+
 }  // namespace
 
 Status check_capacity(const Capacity& capacity) {
@@ -83,7 +103,8 @@ Status check_world(const WorldDef& def) {
         (def.contour != Contour::interpolated && def.contour != Contour::mid_edge)) {
         return Status::unknown_option;
     }
-    return check_numerics(def);
+    const Status borders = check_borders(def);
+    return borders != Status::ok ? borders : check_numerics(def);
 }
 
 Status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {

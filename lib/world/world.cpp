@@ -77,6 +77,19 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
 }
 
 template <class Real>
+Borders<Real> borders_of(const WorldDef& def, Real cells_per_m) {
+    Borders<Real> borders;
+    borders.wrap_x = def.periodic_x;
+    borders.wrap_y = def.periodic_y;
+    borders.no_slip = def.no_slip;
+    borders.slide_bottom = cells_per_m * static_cast<Real>(def.slide_bottom_mps);
+    borders.slide_top = cells_per_m * static_cast<Real>(def.slide_top_mps);
+    borders.slide_left = cells_per_m * static_cast<Real>(def.slide_left_mps);
+    borders.slide_right = cells_per_m * static_cast<Real>(def.slide_right_mps);
+    return borders;
+}
+
+template <class Real>
 Settings<Real> settings_of(const WorldDef& def, Real cells_per_m) {
     Settings<Real> settings;
     settings.gravity = cells_per_m * convert<Real>(def.gravity_mps2);
@@ -84,6 +97,8 @@ Settings<Real> settings_of(const WorldDef& def, Real cells_per_m) {
     settings.flip_ratio = static_cast<Real>(def.flip_ratio);
     settings.volume_gain = static_cast<Real>(def.volume_gain);
     settings.wall_restitution = static_cast<Real>(def.wall_restitution);
+    settings.viscosity = cells_per_m * cells_per_m * static_cast<Real>(def.viscosity_m2ps);
+    settings.borders = borders_of(def, cells_per_m);
     settings.cfl = static_cast<Real>(def.cfl);
     settings.sweeps = def.pressure_sweeps;
     settings.max_substeps = def.max_substeps;

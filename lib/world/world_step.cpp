@@ -65,8 +65,11 @@ StepReport World<Real>::step(float dt_s) {
         if (plan.sound_speed < simulation.settings.sound_speed) {
             mark(report, Clamped::sound_speed);
         }
+        if (plan.viscosity < simulation.settings.viscosity) {
+            mark(report, Clamped::viscosity);
+        }
         for (std::int32_t k = 0; k < plan.substeps; ++k) {
-            substep(simulation, plan.dt_s, plan.sound_speed, report);
+            substep(simulation, plan, report);
         }
         report.substeps = plan.substeps;
         report.dt_s = static_cast<float>(dt);

@@ -75,8 +75,25 @@ struct WorldDef {
     /// whole tank, which keeps the density within about 1 %.
     float sound_speed_mps = 0.0F;
 
+    /// Kinematic shear viscosity, m²/s; 0 (not computed) … 1e6 cells²/s. Water has 1e-6, which no
+    /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps.
+    float viscosity_m2ps = 0.0F;
+
     /// Normal velocity that the tank's walls give back; 0 (slide along) … 1 (mirror).
     float wall_restitution = 0.0F;
+    /// Whether viscous liquid sticks to the tank's walls.
+    bool no_slip = false;
+    /// Without slip: speed of the bottom and the top along x and of the left and the right wall
+    /// along y, as of a conveyor belt, m/s.
+    float slide_bottom_mps = 0.0F;
+    float slide_top_mps = 0.0F;
+    float slide_left_mps = 0.0F;
+    float slide_right_mps = 0.0F;
+
+    /// What leaves the tank on one side enters it on the other. Such a world holds no bodies, and
+    /// an even number of cells along that axis.
+    bool periodic_x = false;
+    bool periodic_y = false;
 
     TickFunction ticks = nullptr;
 };

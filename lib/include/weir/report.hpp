@@ -30,6 +30,7 @@ enum class Clamped : std::uint32_t {
     sound_speed = 1U << 3U,    ///< the equation of state was softened to fit max_substeps
     not_finite = 1U << 4U,     ///< particles with a non-finite state were put to rest
     not_initialised = 1U << 5U,  ///< there is no world: nothing was done
+    viscosity = 1U << 6U,      ///< the liquid was made thinner to fit max_substeps
 };
 
 struct StepReport {

@@ -1,0 +1,169 @@
+#include "grid/borders.hpp"
+
+namespace weir {
+
+namespace {
+
+/// A row or a column of a field: `count` entries from `first`, `step` apart.
+struct Line {
+    std::int32_t first;
+    std::int32_t step;
+    std::int32_t count;
+};
+
+Line column(const GridShape& s, std::int32_t i) { return {s.index(i, -1), s.stride, s.ny + 2}; }
+Line row(const GridShape& s, std::int32_t j) { return {s.index(-1, j), 1, s.nx + 2}; }
+
+template <class Real>
+void copy(Real* field, Line to, Line from) {
+    for (std::int32_t k = 0; k < to.count; ++k) {
+        field[to.first + k * to.step] = field[from.first + k * from.step];
+    }
+}
+
+template <class Real>
+void add(Real* field, Line to, Line from) {
+    for (std::int32_t k = 0; k < to.count; ++k) {
+        field[to.first + k * to.step] += field[from.first + k * from.step];
+    }
+}
+
+template <class Real>
+void set_zero(Real* field, Line line) {
+    for (std::int32_t k = 0; k < line.count; ++k) {
+        field[line.first + k * line.step] = Real(0);
+    }
+}
+
+template <class Real>
+void move(Real* field, Line to, Line from) {
+    add(field, to, from);
+    set_zero(field, from);
+}
+
+/// Ghost mass and momentum along a wall, onto the line before it. Without slip the image moves
+/// against the liquid, seen from the wall.
+template <class Real>
+void fold_along(Real* mass, Real* momentum, Line inside, Line ghost, bool no_slip, Real slide) {
+    for (std::int32_t k = 0; k < inside.count; ++k) {
+        const std::int32_t to = inside.first + k * inside.step;
+        const std::int32_t from = ghost.first + k * ghost.step;
+        const Real image = no_slip ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
+        mass[to] += mass[from];
+        momentum[to] += image;
+        mass[from] = Real(0);
+        momentum[from] = Real(0);
+    }
+}
+
+/// Faces on a wall or on the seam: their other half lies beyond.
+template <class Real>
+void fold_across(Real* field, Line low, Line high, bool wrap) {
+    if (wrap) {
+        add(field, low, high);
+        copy(field, high, low);
+    } else {
+        add(field, low, low);
+        add(field, high, high);
+    }
+}
+
+template <class Real>
+void mirror_along(Real* velocity, Line ghost, Line inside, bool no_slip, Real slide) {
+    for (std::int32_t k = 0; k < ghost.count; ++k) {
+        const Real value = velocity[inside.first + k * inside.step];
+        velocity[ghost.first + k * ghost.step] = no_slip ? (slide + slide) - value : value;
+    }
+}
+
+}  // namespace
+
+template <class Real>
+void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    const std::int32_t right = s.nx - 1;
+    const std::int32_t top = s.ny - 1;
+    if (b.wrap_y) {
+        Real* const on_u[] = {grid.mass_u, grid.u};
+        for (Real* field : on_u) {
+            move(field, row(s, top), row(s, -1));
+            move(field, row(s, 0), row(s, s.ny));
+        }
+    } else {
+        fold_along(grid.mass_u, grid.u, row(s, 0), row(s, -1), b.no_slip, b.slide_bottom);
+        fold_along(grid.mass_u, grid.u, row(s, top), row(s, s.ny), b.no_slip, b.slide_top);
+    }
+    if (b.wrap_x) {
+        Real* const on_v[] = {grid.mass_v, grid.v};
+        for (Real* field : on_v) {
+            move(field, column(s, right), column(s, -1));
+            move(field, column(s, 0), column(s, s.nx));
+        }
+    } else {
+        fold_along(grid.mass_v, grid.v, column(s, 0), column(s, -1), b.no_slip, b.slide_left);
+        fold_along(grid.mass_v, grid.v, column(s, right), column(s, s.nx), b.no_slip,
+                   b.slide_right);
+    }
+    fold_across(grid.mass_u, column(s, 0), column(s, s.nx), b.wrap_x);
+    fold_across(grid.u, column(s, 0), column(s, s.nx), b.wrap_x);
+    fold_across(grid.mass_v, row(s, 0), row(s, s.ny), b.wrap_y);
+    fold_across(grid.v, row(s, 0), row(s, s.ny), b.wrap_y);
+}
+
+template <class Real>
+void extend_velocity(const Borders<Real>& b, const GridShape& s, Real* u, Real* v) {
+    if (b.wrap_x) {
+        copy(u, column(s, s.nx), column(s, 0));
+        copy(v, column(s, s.nx), column(s, 0));
+        copy(u, column(s, -1), column(s, s.nx - 1));
+        copy(v, column(s, -1), column(s, s.nx - 1));
+    } else {
+        mirror_along(v, column(s, -1), column(s, 0), b.no_slip, b.slide_left);
+        mirror_along(v, column(s, s.nx), column(s, s.nx - 1), b.no_slip, b.slide_right);
+    }
+    if (b.wrap_y) {
+        copy(u, row(s, s.ny), row(s, 0));
+        copy(v, row(s, s.ny), row(s, 0));
+        copy(u, row(s, -1), row(s, s.ny - 1));
+        copy(v, row(s, -1), row(s, s.ny - 1));
+    } else {
+        mirror_along(u, row(s, -1), row(s, 0), b.no_slip, b.slide_bottom);
+        mirror_along(u, row(s, s.ny), row(s, s.ny - 1), b.no_slip, b.slide_top);
+    }
+}
+
+template <class Real>
+void extend_cells(const Borders<Real>& b, const GridShape& s, Real* field) {
+    if (b.wrap_x) {
+        copy(field, column(s, -1), column(s, s.nx - 1));
+        copy(field, column(s, s.nx), column(s, 0));
+    }
+    if (b.wrap_y) {
+        copy(field, row(s, -1), row(s, s.ny - 1));
+        copy(field, row(s, s.ny), row(s, 0));
+    }
+}
+
+template <class Real>
+void close_walls(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    if (!b.wrap_x) {
+        set_zero(grid.u, column(s, 0));
+        set_zero(grid.u, column(s, s.nx));
+    }
+    if (!b.wrap_y) {
+        set_zero(grid.v, row(s, 0));
+        set_zero(grid.v, row(s, s.ny));
+    }
+}
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);                 \
+    template void extend_velocity(const Borders<Real>&, const GridShape&, Real*, Real*);    \
+    template void extend_cells(const Borders<Real>&, const GridShape&, Real*);              \
+    template void close_walls(const Borders<Real>&, StaggeredGrid<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

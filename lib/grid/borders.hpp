@@ -1,0 +1,37 @@
+// What lies beyond the tank: a wall that mirrors the liquid, or the tank's other side.
+#pragma once
+
+#include "grid/staggered_grid.hpp"
+
+namespace weir {
+
+/// Slippery walls mirror the velocity along them; walls without slip turn it round about their
+/// own, so that bilinear interpolation meets the wall's velocity on the wall.
+template <class Real>
+struct Borders {
+    bool wrap_x = false;  ///< left and right side are one
+    bool wrap_y = false;  ///< bottom and top are one
+    bool no_slip = false;
+    Real slide_left = Real(0);  ///< of the walls along themselves, cells/s; only without slip
+    Real slide_right = Real(0);
+    Real slide_bottom = Real(0);
+    Real slide_top = Real(0);
+};
+
+/// After the scatter: ghost rows are folded back onto the rows that they mirror or repeat.
+template <class Real>
+void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
+
+/// Before a gather: ghost rows of a velocity take what they mirror or repeat.
+template <class Real>
+void extend_velocity(const Borders<Real>& borders, const GridShape& shape, Real* u, Real* v);
+
+/// Ghost cells of a cell field take the tank's other side. Walls: nothing is done.
+template <class Real>
+void extend_cells(const Borders<Real>& borders, const GridShape& shape, Real* field);
+
+/// Velocity through the walls is 0.
+template <class Real>
+void close_walls(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
+
+}  // namespace weir
