@@ -4,5 +4,6 @@
 #include "weir/fault.hpp"
 
 /// O(1), always on: cheaper than one wrong write in the field.
-#define WEIR_ASSERT(condition) \
-    (static_cast<bool>(condition) ? static_cast<void>(0) : weir_fault(#condition, __FILE__, __LINE__))
+#define WEIR_ASSERT(condition)                           \
+    (static_cast<bool>(condition) ? static_cast<void>(0) \
+                                  : weir_fault(#condition, __FILE__, __LINE__))

@@ -1,8 +1,15 @@
 #include "contour/raster.hpp"
 
-#include "geometry/signed_distance.hpp"
-
 namespace weir {
+
+namespace {
+
+/// A node this near to the outline lies on it, cells: a body that ends on a grid line, or on the
+/// tank's wall, leaves no crack there by rounding.
+template <class Real>
+constexpr Real kOnTheOutline = Real(1.0 / 16384.0);
+
+}  // namespace
 
 template <class Real>
 NodeBox nodes_near(const Vec2<Real>* ring, std::int32_t count, Real margin, std::int32_t last_i,
@@ -31,7 +38,10 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
         for (std::int32_t i = box.i0; i <= box.i1; ++i) {
             const Vec2<Real> point{static_cast<Real>(i), static_cast<Real>(j)};
             Real distance = signed_distance(polygon.ring, polygon.count, polygon.pieces,
-                                            polygon.piece_length, point, far);
+                                            polygon.piece_length, point, far, polygon.tank);
+            if (distance < kOnTheOutline<Real>) {
+                distance = minimum(distance, Real(0));
+            }
             if (binary) {
                 distance = distance <= Real(0) ? Real(-0.5) : Real(0.5);
             }

@@ -1,7 +1,7 @@
 // Polygon rasterization: which grid nodes lie inside a polygon, and how far they are from it.
 #pragma once
 
-#include "math/vec2.hpp"
+#include "geometry/signed_distance.hpp"
 
 namespace weir {
 
@@ -23,6 +23,7 @@ struct RasterPolygon {
     const std::uint16_t* pieces = nullptr;
     std::int32_t piece_length = 0;
     std::uint16_t name = 0;  ///< written to the nodes of which it is the nearest
+    Bounds<Real> tank;
 };
 
 /// A field of nodes: node (i, j) stands at origin + j · stride + i.

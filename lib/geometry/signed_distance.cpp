@@ -16,6 +16,23 @@ Real gap(Real value, Real end, Real other_end) {
                            : maximum(other_end - value, value - end);
 }
 
+/// Whether an edge lies on the border or beyond it, by rounding or clearly.
+template <class Real>
+bool beyond(const Bounds<Real>& bounds, Vec2<Real> a, Vec2<Real> b) {
+    constexpr Real kHair = Real(1.0 / 16384.0);
+    return maximum(a.x, b.x) <= bounds.low.x + kHair ||
+           minimum(a.x, b.x) >= bounds.high.x - kHair ||
+           maximum(a.y, b.y) <= bounds.low.y + kHair || minimum(a.y, b.y) >= bounds.high.y - kHair;
+}
+
+/// A solid that ends on the tank's border covers the nodes there, whatever rounding says.
+template <class Real>
+Vec2<Real> off_the_border(const Bounds<Real>& bounds, Vec2<Real> p) {
+    constexpr Real kNudge = Real(1.0 / 1024.0);
+    return {clamp(p.x, bounds.low.x + kNudge, bounds.high.x - kNudge),
+            clamp(p.y, bounds.low.y + kNudge, bounds.high.y - kNudge)};
+}
+
 template <class Real>
 bool inside_any_piece(const Vec2<Real>* ring, const std::uint16_t* pieces,
                       std::int32_t piece_length, Vec2<Real> p) {
@@ -49,12 +66,14 @@ Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b) {
 }
 
 template <class Real>
-Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far) {
+Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far,
+                      const Bounds<Real>& bounds) {
     Real nearest = far;
     Vec2<Real> from = ring[count - 1];
     for (std::int32_t i = 0; i < count; ++i) {
         const Vec2<Real> to = ring[i];
-        if (gap(p.x, from.x, to.x) < nearest && gap(p.y, from.y, to.y) < nearest) {
+        if (gap(p.x, from.x, to.x) < nearest && gap(p.y, from.y, to.y) < nearest &&
+            !beyond(bounds, from, to)) {
             nearest = minimum(nearest, distance_to_segment(p, from, to));
         }
         from = to;
@@ -64,21 +83,24 @@ Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, 
 
 template <class Real>
 Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,
-                     std::int32_t piece_length, Vec2<Real> p, Real far) {
-    if (inside_any_piece(ring, pieces, piece_length, p)) {
+                     std::int32_t piece_length, Vec2<Real> p, Real far,
+                     const Bounds<Real>& bounds) {
+    if (inside_any_piece(ring, pieces, piece_length, off_the_border(bounds, p))) {
         // 0 - d, because -d would make a negative zero on the ring.
-        return Real(0) - distance_to_ring(ring, count, p, kDeepest<Real>);
+        return Real(0) - distance_to_ring(ring, count, p, kDeepest<Real>, bounds);
     }
-    return distance_to_ring(ring, count, p, far);
+    return distance_to_ring(ring, count, p, far, bounds);
 }
 
 template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
 template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
-template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float);
-template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double);
+template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float,
+                                const Bounds<float>&);
+template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double,
+                                 const Bounds<double>&);
 template float signed_distance(const Vec2<float>*, std::int32_t, const std::uint16_t*,
-                               std::int32_t, Vec2<float>, float);
+                               std::int32_t, Vec2<float>, float, const Bounds<float>&);
 template double signed_distance(const Vec2<double>*, std::int32_t, const std::uint16_t*,
-                                std::int32_t, Vec2<double>, double);
+                                std::int32_t, Vec2<double>, double, const Bounds<double>&);
 
 }  // namespace weir

@@ -9,6 +9,14 @@
 
 namespace weir {
 
+/// The tank. Edges that lie on its border or beyond are no walls: a solid that ends there goes on
+/// outside, and what is inside it has no way out there. The default has no border.
+template <class Real>
+struct Bounds {
+    Vec2<Real> low{Real(-1.0e9), Real(-1.0e9)};
+    Vec2<Real> high{Real(1.0e9), Real(1.0e9)};
+};
+
 /// Distance to the segment a b, never negative; exactly 0 for a point that rounding sees on it.
 template <class Real>
 Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b);
@@ -16,22 +24,26 @@ Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b);
 /// Distance to the nearest edge of a ring, inside or outside, at most `far`.
 /// Cost: a box test an edge, and a square root and a division for those that come nearer.
 template <class Real>
-Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far);
+Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far,
+                      const Bounds<Real>& bounds = {});
 
 /// Distance to the ring: negative and exact in any of its convex pieces, 0 on the ring, outside
 /// at most far. Whatever is inside has to know the way out.
 /// @param pieces what `decompose` wrote for that ring.
 template <class Real>
 Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,
-                     std::int32_t piece_length, Vec2<Real> p, Real far);
+                     std::int32_t piece_length, Vec2<Real> p, Real far,
+                     const Bounds<Real>& bounds = {});
 
 extern template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
 extern template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
-extern template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float);
-extern template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double);
+extern template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float,
+                                       const Bounds<float>&);
+extern template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double,
+                                        const Bounds<double>&);
 extern template float signed_distance(const Vec2<float>*, std::int32_t, const std::uint16_t*,
-                                      std::int32_t, Vec2<float>, float);
+                                      std::int32_t, Vec2<float>, float, const Bounds<float>&);
 extern template double signed_distance(const Vec2<double>*, std::int32_t, const std::uint16_t*,
-                                       std::int32_t, Vec2<double>, double);
+                                       std::int32_t, Vec2<double>, double, const Bounds<double>&);
 
 }  // namespace weir

@@ -68,6 +68,22 @@ void fold_across(Real* field, Line low, Line high, bool wrap) {
     }
 }
 
+/// `cell`: from a face on the wall to the cell that it belongs to; `inward`: from there to the
+/// next one away from the wall. The first and last entry of the line are ghosts.
+template <class Real>
+void close(Real* velocity, Line wall, const Real* level, std::int32_t cell, std::int32_t inward) {
+    const auto wet = [&](std::int32_t at) {
+        return level[at] > Real(0) || level[at + inward] > Real(0);
+    };
+    for (std::int32_t k = 1; k + 1 < wall.count; ++k) {
+        const std::int32_t face = wall.first + k * wall.step;
+        const std::int32_t at = face + cell;
+        if (wet(at) || wet(at - wall.step) || wet(at + wall.step)) {
+            velocity[face] = Real(0);
+        }
+    }
+}
+
 template <class Real>
 void mirror_along(Real* velocity, Line ghost, Line inside, bool no_slip, Real slide) {
     for (std::int32_t k = 0; k < ghost.count; ++k) {
@@ -145,15 +161,28 @@ void extend_cells(const Borders<Real>& b, const GridShape& s, Real* field) {
 }
 
 template <class Real>
-void close_walls(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
-    const GridShape& s = grid.shape;
+void mirror_cells(const Borders<Real>& b, const GridShape& s, Real* field) {
     if (!b.wrap_x) {
-        set_zero(grid.u, column(s, 0));
-        set_zero(grid.u, column(s, s.nx));
+        copy(field, column(s, -1), column(s, 0));
+        copy(field, column(s, s.nx), column(s, s.nx - 1));
     }
     if (!b.wrap_y) {
-        set_zero(grid.v, row(s, 0));
-        set_zero(grid.v, row(s, s.ny));
+        copy(field, row(s, -1), row(s, 0));
+        copy(field, row(s, s.ny), row(s, s.ny - 1));
+    }
+    extend_cells(b, s, field);
+}
+
+template <class Real>
+void close_walls(const Borders<Real>& b, const Real* level, StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    if (!b.wrap_x) {
+        close(grid.u, column(s, 0), level, 0, 1);
+        close(grid.u, column(s, s.nx), level, -1, -1);
+    }
+    if (!b.wrap_y) {
+        close(grid.v, row(s, 0), level, 0, s.stride);
+        close(grid.v, row(s, s.ny), level, -s.stride, -s.stride);
     }
 }
 
@@ -161,7 +190,8 @@ void close_walls(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
     template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);                 \
     template void extend_velocity(const Borders<Real>&, const GridShape&, Real*, Real*);    \
     template void extend_cells(const Borders<Real>&, const GridShape&, Real*);              \
-    template void close_walls(const Borders<Real>&, StaggeredGrid<Real>&);
+    template void mirror_cells(const Borders<Real>&, const GridShape&, Real*);              \
+    template void close_walls(const Borders<Real>&, const Real*, StaggeredGrid<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 #undef WEIR_INSTANTIATE

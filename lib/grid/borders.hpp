@@ -30,8 +30,13 @@ void extend_velocity(const Borders<Real>& borders, const GridShape& shape, Real*
 template <class Real>
 void extend_cells(const Borders<Real>& borders, const GridShape& shape, Real* field);
 
-/// Velocity through the walls is 0.
+/// The same, and beyond a wall ghost cells repeat the cell before it.
 template <class Real>
-void close_walls(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
+void mirror_cells(const Borders<Real>& borders, const GridShape& shape, Real* field);
+
+/// Velocity through the walls is 0 where liquid (level > 0) is at or beside the face's cell. Drops
+/// keep theirs: they meet the wall one by one, and bounce as told.
+template <class Real>
+void close_walls(const Borders<Real>& borders, const Real* level, StaggeredGrid<Real>& grid);
 
 }  // namespace weir

@@ -6,24 +6,21 @@ template <class Real>
 void diffuse(const GridShape& s, const Real* level, std::int32_t back, std::int32_t first_i,
              std::int32_t first_j, Real amount, const Real* field, Real* out) {
     constexpr Real kDry = Real(-1.5);
-    const auto wet = [&](std::int32_t i, std::int32_t j) {
-        if (i < 0 || i >= s.nx || j < 0 || j >= s.ny) {
-            return true;
-        }
-        const std::int32_t face = s.index(i, j);
+    const auto wet = [&](std::int32_t face) {
         return level[face] > kDry && level[face - back] > kDry;
     };
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
-            if (!wet(i, j)) {
+            const std::int32_t face = s.index(i, j);
+            if (!wet(face)) {
                 continue;
             }
-            const std::int32_t face = s.index(i, j);
             const Real here = field[face];
-            const auto pull = [&](std::int32_t di, std::int32_t dj) {
-                return wet(i + di, j + dj) ? field[face + dj * s.stride + di] - here : Real(0);
+            const auto pull = [&](std::int32_t neighbour) {
+                return wet(neighbour) ? field[neighbour] - here : Real(0);
             };
-            out[face] = here + amount * ((pull(-1, 0) + pull(1, 0)) + (pull(0, -1) + pull(0, 1)));
+            out[face] = here + amount * ((pull(face - 1) + pull(face + 1)) +
+                                         (pull(face - s.stride) + pull(face + s.stride)));
         }
     }
 }

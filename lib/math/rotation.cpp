@@ -31,7 +31,7 @@ Rotation<Real> rotation(Real angle_rad) {
     const Real r = ((angle_rad - turns * HalfPi<Real>::high) - turns * HalfPi<Real>::middle) -
                    turns * HalfPi<Real>::low;
     const Real r2 = r * r;
-    // Taylor to r^13 and r^14: below one unit in the last place of a float at π/4, 1e-15 at most.
+    // Taylor to r^13 and r^14: within 1.2e-7 in float and 2.1e-14 in double.
     Real s = Real(1.0 / 6227020800.0);
     s = s * r2 - Real(1.0 / 39916800.0);
     s = s * r2 + Real(1.0 / 362880.0);

@@ -143,7 +143,9 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
-    const Real rescale = fields.last_dt > Real(0) ? dt_s / fields.last_dt : Real(0);
+    // A much longer step than the last starts from less than the last pressure would suggest.
+    const Real rescale =
+        fields.last_dt > Real(0) ? minimum(dt_s / fields.last_dt, Real(16)) : Real(0);
     fields.last_dt = dt_s;
     if (walls.active) {
         solve<true>(borders, walls, rescale, sweeps, grid, fields);

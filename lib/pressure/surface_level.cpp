@@ -47,7 +47,8 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
         if (inside) {
             open += fraction;
             // A level just set by this rule is no evidence for the next cell.
-            const bool liquid = level[neighbour] > Real(0) && level[neighbour] != kFilledLevel<Real>;
+            const bool liquid =
+                level[neighbour] > Real(0) && level[neighbour] != kFilledLevel<Real>;
             covered += liquid ? fraction : Real(0);
         }
     };
@@ -96,7 +97,7 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
             }
         }
     }
-    extend_cells(borders, s, fields.level);
+    mirror_cells(borders, s, fields.level);
 }
 
 template float level_of_density(float);

@@ -10,7 +10,8 @@ namespace weir {
 /// Particles drift apart where they are too dense and together where they are too thin: positions
 /// move by −gain ∇density a substep, velocities stay, so no kinetic energy enters. Without it a
 /// liquid that has splashed loses a third of its volume. Local: each face looks at its two cells.
-/// `divergence` is used as scratch. Called after blend_change: only the advecting velocity sees the drift.
+/// `divergence` is used as scratch. Called after blend_change: only the advecting velocity sees
+/// the drift.
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
                        Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid);

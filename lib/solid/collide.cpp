@@ -40,6 +40,14 @@ CellView<Real> cell_of(const GridShape& s, const Walls<Real>& walls, Vec2<Real> 
     return cell;
 }
 
+/// On a ridge, where two ways out are equally long, either will do, but one has to be taken.
+template <class Real>
+Vec2<Real> away_from_centre(Vec2<Real> local) {
+    const Vec2<Real> offset{local.x - Real(0.5), local.y - Real(0.5)};
+    const Real size = length(offset);
+    return size > Real(0) ? (Real(1) / size) * offset : Vec2<Real>{Real(0), Real(1)};
+}
+
 /// Distance and its direction of growth from the bilinear interpolant, for cells without a line.
 template <class Real>
 ContourHit<Real> interpolated_distance(const CellView<Real>& cell) {
@@ -51,7 +59,7 @@ ContourHit<Real> interpolated_distance(const CellView<Real>& cell) {
     const Real steepness = length(gradient);
     ContourHit<Real> hit;
     hit.distance = low + f.y * (high - low);
-    hit.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : Vec2<Real>{};
+    hit.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : away_from_centre(f);
     return hit;
 }
 
@@ -93,27 +101,30 @@ Vec2<Real> within_tank(const GridShape& s, Vec2<Real> x) {
 }  // namespace
 
 template <class Real>
-CollideCount collide(const GridShape& shape, const Walls<Real>& walls, Particles<Real>& particles) {
-    CollideCount count;
+CollideResult<Real> collide(const GridShape& shape, const Walls<Real>& walls,
+                            Particles<Real>& particles) {
+    CollideResult<Real> result;
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const std::uint8_t which = case_at(shape, walls, x);
         if (which == kOutside) {
             continue;
         }
-        ++count.tested;
+        ++result.tested;
         const CellView<Real> cell = cell_of(shape, walls, x);
         const ContourHit<Real> hit = hit_in(cell, which);
         if (!(hit.distance < Real(0))) {
             continue;
         }
-        ++count.reflected;
+        ++result.reflected;
         const Real way = minimum(kClearance<Real> - hit.distance, kLongestWayOut<Real>);
         particles.position[k] = within_tank(shape, x + way * hit.normal);
         const std::uint16_t slot = touched_body(shape, walls, cell.node);
-        particles.velocity[k] = reflect(walls.body[slot], x, particles.velocity[k], hit.normal);
+        const Vec2<Real> v = reflect(walls.body[slot], x, particles.velocity[k], hit.normal);
+        particles.velocity[k] = v;
+        result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
     }
-    return count;
+    return result;
 }
 
 template <class Real>
@@ -124,7 +135,8 @@ bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> p
 
 template bool inside_solid(const GridShape&, const Walls<float>&, Vec2<float>);
 template bool inside_solid(const GridShape&, const Walls<double>&, Vec2<double>);
-template CollideCount collide(const GridShape&, const Walls<float>&, Particles<float>&);
-template CollideCount collide(const GridShape&, const Walls<double>&, Particles<double>&);
+template CollideResult<float> collide(const GridShape&, const Walls<float>&, Particles<float>&);
+template CollideResult<double> collide(const GridShape&, const Walls<double>&,
+                                       Particles<double>&);
 
 }  // namespace weir

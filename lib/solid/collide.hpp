@@ -6,9 +6,11 @@
 
 namespace weir {
 
-struct CollideCount {
+template <class Real>
+struct CollideResult {
     std::int32_t tested = 0;     ///< particles in a cell with a contour line, or inside a solid
     std::int32_t reflected = 0;  ///< particles behind a line
+    Real max_speed = Real(0);    ///< of these, along an axis, cells/s
 };
 
 /// Tests each particle against the contour line of its cell. One that is behind it is set back to
@@ -17,7 +19,8 @@ struct CollideCount {
 /// A particle in a cell that is solid all over goes out along the gradient of the distance, at
 /// most half a cell a substep. Cost: one table look-up a particle, about 60 operations near walls.
 template <class Real>
-CollideCount collide(const GridShape& shape, const Walls<Real>& walls, Particles<Real>& particles);
+CollideResult<Real> collide(const GridShape& shape, const Walls<Real>& walls,
+                            Particles<Real>& particles);
 
 /// Whether a point of the tank lies behind the contour.
 template <class Real>

@@ -79,7 +79,9 @@ Real full_density(const GridShape& s, const Real* area, std::int32_t i, std::int
     const std::int32_t right = minimum(s.nx - 1, i + 1);
     const std::int32_t low = maximum(0, j - 1);
     const std::int32_t high = minimum(s.ny - 1, j + 1);
-    const auto at = [&](std::int32_t column, std::int32_t row) { return area[s.index(column, row)]; };
+    const auto at = [&](std::int32_t column, std::int32_t row) {
+        return area[s.index(column, row)];
+    };
     const Real sides = (at(left, j) + at(right, j)) + (at(i, low) + at(i, high));
     const Real corners = (at(left, low) + at(right, low)) + (at(left, high) + at(right, high));
     return Real(0.375) * at(i, j) + (Real(0.125) * sides + Real(0.03125) * corners);

@@ -36,6 +36,22 @@ Mirror<Real> mirror_of(const GridShape& s, Vec2<Real> face, Real distance, Vec2<
     return mirror;
 }
 
+/// Whether the point's cell or one around it holds liquid.
+template <class Real>
+bool near_liquid(const GridShape& s, const Real* level, Vec2<Real> point) {
+    const auto i = static_cast<std::int32_t>(point.x);
+    const auto j = static_cast<std::int32_t>(point.y);
+    for (std::int32_t row = maximum(j - 1, 0); row <= minimum(j + 1, s.ny - 1); ++row) {
+        for (std::int32_t column = maximum(i - 1, 0); column <= minimum(i + 1, s.nx - 1);
+             ++column) {
+            if (level[s.index(column, row)] > Real(0)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// Velocity that the face takes: mirrored about the wall, in the wall's frame.
 template <class Real>
 Vec2<Real> mirrored(const StaggeredGrid<Real>& grid, const Mirror<Real>& mirror, Vec2<Real> wall) {
@@ -47,7 +63,8 @@ Vec2<Real> mirrored(const StaggeredGrid<Real>& grid, const Mirror<Real>& mirror,
 }
 
 template <class Real>
-void mirror_u(StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t i, std::int32_t j) {
+void mirror_u(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
+              StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const std::int32_t low = s.index(i, j);
     const std::int32_t high = low + s.stride;
@@ -60,11 +77,15 @@ void mirror_u(StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t 
         Real(0.25) * ((d[low + 1] + d[high + 1]) - (d[low - 1] + d[high - 1])), d[high] - d[low]};
     const Vec2<Real> face{static_cast<Real>(i), static_cast<Real>(j) + Real(0.5)};
     const Vec2<Real> wall = wall_velocity(walls, low, high, face);
-    grid.u[low] = mirrored(grid, mirror_of(s, face, minimum(distance, Real(0)), gradient), wall).x;
+    const Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
+    if (near_liquid(s, level, mirror.point)) {
+        grid.u[low] = mirrored(grid, mirror, wall).x;
+    }
 }
 
 template <class Real>
-void mirror_v(StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t i, std::int32_t j) {
+void mirror_v(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
+              StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const std::int32_t left = s.index(i, j);
     const std::int32_t right = left + 1;
@@ -78,27 +99,30 @@ void mirror_v(StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t 
                                             (d[left - s.stride] + d[right - s.stride]))};
     const Vec2<Real> face{static_cast<Real>(i) + Real(0.5), static_cast<Real>(j)};
     const Vec2<Real> wall = wall_velocity(walls, left, right, face);
-    grid.v[left] = mirrored(grid, mirror_of(s, face, minimum(distance, Real(0)), gradient), wall).y;
+    const Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
+    if (near_liquid(s, level, mirror.point)) {
+        grid.v[left] = mirrored(grid, mirror, wall).y;
+    }
 }
 
 }  // namespace
 
 template <class Real>
-void mirror_in_solids(StaggeredGrid<Real>& grid, const Walls<Real>& walls) {
+void mirror_in_solids(const Walls<Real>& walls, const Real* level, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             if (i > 0) {
-                mirror_u(grid, walls, i, j);
+                mirror_u(walls, level, i, j, grid);
             }
             if (j > 0) {
-                mirror_v(grid, walls, i, j);
+                mirror_v(walls, level, i, j, grid);
             }
         }
     }
 }
 
-template void mirror_in_solids(StaggeredGrid<float>&, const Walls<float>&);
-template void mirror_in_solids(StaggeredGrid<double>&, const Walls<double>&);
+template void mirror_in_solids(const Walls<float>&, const float*, StaggeredGrid<float>&);
+template void mirror_in_solids(const Walls<double>&, const double*, StaggeredGrid<double>&);
 
 }  // namespace weir

@@ -8,9 +8,11 @@ namespace weir {
 
 /// Faces inside solids, as particles near the wall will read them: the velocity at the mirror
 /// point in the liquid, its part along the wall kept (slip), its normal part turned round so that
-/// it vanishes on the wall. Relative to the wall's own velocity.
+/// it vanishes on the wall. Relative to the wall's own velocity. Where no liquid is near the
+/// mirror point (level > 0 in 3 × 3 cells) faces keep what they have: drops meet the wall one by
+/// one, and bounce as told.
 /// Order: by row. Cost: about 80 operations for each closed face within 1½ cells of a wall.
 template <class Real>
-void mirror_in_solids(StaggeredGrid<Real>& grid, const Walls<Real>& walls);
+void mirror_in_solids(const Walls<Real>& walls, const Real* level, StaggeredGrid<Real>& grid);
 
 }  // namespace weir

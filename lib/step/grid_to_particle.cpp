@@ -73,20 +73,16 @@ inline void wrap_around(Real& x, Real size) {
 template <class Real>
 void sharpen(const GridShape& s, const Real* level, std::int32_t back, std::int32_t first_i,
              std::int32_t first_j, const Real* field, Real* out) {
-    const auto deep = [&](std::int32_t i, std::int32_t j) {
-        if (i < 0 || i >= s.nx || j < 0 || j >= s.ny) {
-            return true;
-        }
-        const std::int32_t face = s.index(i, j);
+    const auto deep = [&](std::int32_t face) {
         return level[face] > Real(0) && level[face - back] > Real(0);
     };
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
-            if (!deep(i, j) || !deep(i - 1, j) || !deep(i + 1, j) || !deep(i, j - 1) ||
-                !deep(i, j + 1)) {
+            const std::int32_t face = s.index(i, j);
+            if (!deep(face) || !deep(face - 1) || !deep(face + 1) || !deep(face - s.stride) ||
+                !deep(face + s.stride)) {
                 continue;
             }
-            const std::int32_t face = s.index(i, j);
             const Real around = (field[face - 1] + field[face + 1]) +
                                 (field[face - s.stride] + field[face + s.stride]);
             out[face] = field[face] - kSmoothing<Real> * (around - Real(4) * field[face]);
@@ -116,8 +112,9 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
 }
 
 template <class Real>
-TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
-                               Particles<Real>& particles) {
+TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
+                                      const Transfer<Real>& transfer,
+                                      Particles<Real>& particles) {
     const GridShape& s = grid.shape;
     const Real width = static_cast<Real>(s.nx);
     const Real height = static_cast<Real>(s.ny);

@@ -20,8 +20,8 @@ struct Transfer {
     Real flip_ratio;
     Real limit;             ///< cells/s; nothing moves faster
     Real wall_restitution;
-    bool wrap_x;            ///< left and right side are one
-    bool wrap_y;
+    bool wrap_x = false;    ///< left and right side are one
+    bool wrap_y = false;
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a
@@ -38,7 +38,8 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
 /// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank.
 /// Order: by particle. Cost: 16 loads, about 70 operations a particle.
 template <class Real>
-TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
-                               Particles<Real>& particles);
+TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
+                                      const Transfer<Real>& transfer,
+                                      Particles<Real>& particles);
 
 }  // namespace weir

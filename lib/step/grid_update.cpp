@@ -50,12 +50,12 @@ void extrapolate_component(Real* velocity, const Real* level, const GridShape& s
 }  // namespace
 
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s,
+void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, const Real* level,
                  StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     update(grid.u, grid.mass_u, s, gravity.x * dt_s);
     update(grid.v, grid.mass_v, s, gravity.y * dt_s);
-    close_walls(borders, grid);
+    close_walls(borders, level, grid);
 }
 
 template <class Real>
@@ -65,7 +65,8 @@ void extrapolate(const Borders<Real>& borders, const Real* level, StaggeredGrid<
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                  \
-    template void grid_update(const Borders<Real>&, Vec2<Real>, Real, StaggeredGrid<Real>&);    \
+    template void grid_update(const Borders<Real>&, Vec2<Real>, Real, const Real*,              \
+                              StaggeredGrid<Real>&);                                            \
     template void extrapolate(const Borders<Real>&, const Real*, StaggeredGrid<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)

@@ -9,7 +9,7 @@ namespace weir {
 /// stands the velocity before gravity from now on: grid-to-particle needs the change (FLIP).
 /// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s,
+void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, const Real* level,
                  StaggeredGrid<Real>& grid);
 
 /// Gives faces in air beside the liquid the mean velocity of the liquid's faces next to them:

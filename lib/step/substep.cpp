@@ -55,8 +55,6 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Real dt_s) {
             body.position = body.position + dt_s * body.velocity;
             body.angle = wrapped_angle(body.angle + dt_s * body.spin);
             body.moved = true;
-        }
-        if (body.moved) {
             place(table, body);
         }
     }
@@ -81,7 +79,7 @@ template <class Real>
 void fill_borders(Simulation<Real>& simulation) {
     StaggeredGrid<Real>& grid = simulation.grid;
     if (simulation.layers.walls.active) {
-        mirror_in_solids(grid, simulation.layers.walls);
+        mirror_in_solids(simulation.layers.walls, simulation.pressure.level, grid);
     }
     extend_velocity(simulation.settings.borders, grid.shape, grid.u, grid.v);
     extend_velocity(simulation.settings.borders, grid.shape, grid.mass_u, grid.mass_v);
@@ -122,7 +120,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     clock.charge(Stage::particle_to_grid);
 
     surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure);
-    grid_update(settings.borders, settings.gravity, dt_s, grid);
+    grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid);
     if (plan.viscosity > Real(0)) {
         diffuse_velocity(settings.borders, simulation.pressure, plan.viscosity * dt_s, grid);
     }
@@ -143,9 +141,10 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     clock.charge(Stage::grid_to_particle);
 
     if (walls.active) {
-        const CollideCount count = collide(grid.shape, walls, simulation.particles);
-        report.particles_tested += count.tested;
-        report.particles_reflected += count.reflected;
+        const CollideResult<Real> result = collide(grid.shape, walls, simulation.particles);
+        report.particles_tested += result.tested;
+        report.particles_reflected += result.reflected;
+        simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
         clock.charge(Stage::collide);
     }
 }

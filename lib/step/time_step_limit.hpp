@@ -16,7 +16,8 @@ struct SubstepPlan {
 
 /// Substeps so that no particle travels further than cfl cells (Courant, Friedrichs & Lewy 1928),
 /// gravity moves nothing by more than a tenth of a cell, and sound, where there is any, no
-/// further than half a cell, and viscosity spreads over no more than a quarter of a cell². Bounded by max_substeps.
+/// further than half a cell, and viscosity spreads over no more than a quarter of a cell².
+/// Bounded by max_substeps.
 template <class Real>
 SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s);
 

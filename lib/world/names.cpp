@@ -9,49 +9,72 @@ const char* status_text(Status status) {
     switch (status) {
         case Status::ok: return "ok";
         case Status::cells_out_of_range: return "cells_x, cells_y: choose kMinCells … kMaxCells";
-        case Status::particle_capacity_out_of_range: return "capacity.particles: choose 1 … kMaxParticles";
+        case Status::particle_capacity_out_of_range:
+            return "capacity.particles: choose 1 … kMaxParticles";
         case Status::body_capacity_out_of_range: return "capacity.bodies: choose 0 … kMaxBodies";
-        case Status::vertex_capacity_out_of_range: return "capacity.vertices: choose 0 … kMaxVertices";
+        case Status::vertex_capacity_out_of_range:
+            return "capacity.vertices: choose 0 … kMaxVertices";
         case Status::cell_size_out_of_range: return "cell_m: choose 1e-6 … 1e3 m";
         case Status::gravity_not_finite: return "gravity is NaN or infinite: give a finite vector";
-        case Status::gravity_out_of_range: return "gravity: choose at most kMaxGravity along each axis";
-        case Status::particles_per_cell_out_of_range: return "particles_per_cell: choose 1, 4, 9 or 16";
+        case Status::gravity_out_of_range:
+            return "gravity: choose at most kMaxGravity along each axis";
+        case Status::particles_per_cell_out_of_range:
+            return "particles_per_cell: choose 1, 4, 9 or 16";
         case Status::sweeps_out_of_range: return "pressure_sweeps: choose 1 … 1000";
         case Status::substeps_out_of_range: return "max_substeps: choose 1 … 1000";
         case Status::cfl_out_of_range: return "cfl: choose 0.1 … 2 cells";
         case Status::flip_ratio_out_of_range: return "flip_ratio: choose 0 … 1";
         case Status::volume_gain_out_of_range: return "volume_gain: choose 0 … 1";
-        case Status::sound_speed_out_of_range: return "sound_speed_mps: choose 0 (automatic) or at most kMaxSpeed cells a second";
+        case Status::sound_speed_out_of_range:
+            return "sound_speed_mps: choose 0 (automatic) or at most kMaxSpeed cells a second";
         case Status::restitution_out_of_range: return "restitution: choose 0 (slide) … 1 (mirror)";
-        case Status::viscosity_out_of_range: return "viscosity_m2ps: choose 0 … 1e6 cells² a second";
-        case Status::wall_speed_out_of_range: return "slide_..._mps: choose at most kMaxSpeed cells a second";
-        case Status::periodic_with_bodies: return "periodic worlds hold no bodies: set capacity.bodies = 0";
-        case Status::periodic_needs_even_cells: return "periodic: choose an even number of cells along that axis";
-        case Status::unknown_option: return "pressure or contour is no enumerator: pick one from config.hpp";
-        case Status::memory_missing: return "memory is null: hand over world_bytes<Real>(capacity) bytes";
+        case Status::viscosity_out_of_range:
+            return "viscosity_m2ps: choose 0 … 1e6 cells² a second";
+        case Status::wall_speed_out_of_range:
+            return "slide_..._mps: choose at most kMaxSpeed cells a second";
+        case Status::periodic_with_bodies:
+            return "periodic worlds hold no bodies: set capacity.bodies = 0";
+        case Status::periodic_needs_even_cells:
+            return "periodic: choose an even number of cells along that axis";
+        case Status::unknown_option:
+            return "pressure or contour is no enumerator: pick one from config.hpp";
+        case Status::memory_missing:
+            return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";
-        case Status::memory_too_small: return "memory: world_bytes<Real>(capacity) bytes are needed";
+        case Status::memory_too_small:
+            return "memory: world_bytes<Real>(capacity) bytes are needed";
         case Status::not_initialised: return "call init first, and check what it answers";
-        case Status::no_free_body: return "all bodies are in use: raise capacity.bodies or remove one";
+        case Status::no_free_body:
+            return "all bodies are in use: raise capacity.bodies or remove one";
         case Status::no_free_vertex: return "all vertices are in use: raise capacity.vertices";
-        case Status::stale_body: return "no such body here: it was removed, or belongs to another world";
-        case Status::body_is_static: return "a static body does not move: add it with add_moving_body";
+        case Status::stale_body:
+            return "no such body here: it was removed, or belongs to another world";
+        case Status::body_is_static:
+            return "a static body does not move: add it with add_moving_body";
         case Status::polygon_missing: return "polygon is null: point it at the vertices";
         case Status::polygon_too_few_vertices: return "polygon: at least 3 vertices";
-        case Status::polygon_too_many_vertices: return "polygon: at most kMaxBodyVertices; simplify it";
+        case Status::polygon_too_many_vertices:
+            return "polygon: at most kMaxBodyVertices; simplify it";
         case Status::polygon_not_finite: return "polygon has a NaN or infinite vertex";
-        case Status::polygon_repeats_a_vertex: return "polygon has the same vertex twice in a row: drop one";
-        case Status::polygon_clockwise: return "polygon is clockwise: reverse the order of its vertices";
+        case Status::polygon_repeats_a_vertex:
+            return "polygon has the same vertex twice in a row: drop one";
+        case Status::polygon_clockwise:
+            return "polygon is clockwise: reverse the order of its vertices";
         case Status::polygon_zero_area: return "polygon has no area";
         case Status::polygon_crosses_itself: return "polygon crosses or touches itself: split it";
-        case Status::polygon_outside_domain: return "polygon lies wholly outside the tank: move it in";
-        case Status::position_out_of_range: return "position: at most 1e5 cells from the tank's origin";
+        case Status::polygon_outside_domain:
+            return "polygon lies wholly outside the tank: move it in";
+        case Status::position_out_of_range:
+            return "position: at most 1e5 cells from the tank's origin";
         case Status::motion_not_finite: return "motion has a NaN or infinite number";
-        case Status::motion_out_of_range: return "motion: at most kMaxSpeed cells/s, 1e4 rad and rad/s";
+        case Status::motion_out_of_range:
+            return "motion: at most kMaxSpeed cells/s, 1e4 rad and rad/s";
         case Status::output_missing: return "the pointer for the result is null";
-        case Status::no_free_particle: return "no room for that many particles: raise capacity.particles";
+        case Status::no_free_particle:
+            return "no room for that many particles: raise capacity.particles";
         case Status::no_such_particle: return "index: choose 0 … number of particles − 1";
-        case Status::particle_not_finite: return "particle has a NaN or infinite position or velocity";
+        case Status::particle_not_finite:
+            return "particle has a NaN or infinite position or velocity";
         case Status::particle_outside_domain: return "particle: place it within the tank";
         case Status::particle_inside_solid: return "particle: place it outside the solids";
         case Status::velocity_out_of_range: return "velocity: at most kMaxSpeed cells a second";

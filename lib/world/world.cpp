@@ -19,7 +19,8 @@ using detail::WorldState;
 
 class Carver {
 public:
-    Carver(void* memory, const Layout& plan) : memory_(static_cast<std::byte*>(memory)), plan_(plan) {}
+    Carver(void* memory, const Layout& plan)
+        : memory_(static_cast<std::byte*>(memory)), plan_(plan) {}
 
     template <class T>
     void take(Block block, T*& pointer) const {
@@ -126,6 +127,11 @@ std::int32_t lattice_per_axis(std::int32_t particles_per_cell) {
     return per_axis;
 }
 
+/// A side of the tank, with room for the caller's rounding of the same product.
+float side_m(std::int32_t cells, float cell_m) {
+    return static_cast<float>(cells) * cell_m * 1.000001F;
+}
+
 template <class Real>
 Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f velocity_mps) {
     if (!is_finite(position_m) || !is_finite(velocity_mps)) {
@@ -133,8 +139,8 @@ Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f vel
     }
     const Capacity& capacity = state.def.capacity;
     const float cell_m = state.def.cell_m;
-    if (!within(position_m.x, 0.0F, static_cast<float>(capacity.cells_x) * cell_m) ||
-        !within(position_m.y, 0.0F, static_cast<float>(capacity.cells_y) * cell_m)) {
+    if (!within(position_m.x, 0.0F, side_m(capacity.cells_x, cell_m)) ||
+        !within(position_m.y, 0.0F, side_m(capacity.cells_y, cell_m))) {
         return Status::particle_outside_domain;
     }
     const float fastest = kMaxSpeed * cell_m;
@@ -213,8 +219,8 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added) {
     }
     const Capacity& capacity = state_->def.capacity;
     const float cell_m = state_->def.cell_m;
-    const Status valid = check_box(box_m, static_cast<float>(capacity.cells_x) * cell_m,
-                                   static_cast<float>(capacity.cells_y) * cell_m);
+    const Status valid = check_box(box_m, side_m(capacity.cells_x, cell_m),
+                                   side_m(capacity.cells_y, cell_m));
     if (valid != Status::ok) {
         return valid;
     }
@@ -360,7 +366,6 @@ std::uint64_t World<Real>::state_hash() const {
     for (const Real number : numbers) {
         hash.add(number);
     }
-    hash.add(state_->pending);
     hash_bodies(hash, simulation.bodies);
     return hash.value();
 }

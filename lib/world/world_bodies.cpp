@@ -135,6 +135,7 @@ Status World<Real>::set_motion(BodyId id, const Motion& motion) {
     set_velocity(*state_, motion, body);
     if (position.x != body.position.x || position.y != body.position.y || angle != body.angle) {
         body.moved = true;
+        place(state_->simulation.bodies, body);
     }
     return Status::ok;
 }

@@ -12,11 +12,14 @@ void mark(StepReport& report, Clamped what) {
     report.clamped |= static_cast<std::uint32_t>(what);
 }
 
+/// Shorter steps are none: velocities per step would round to nothing.
+constexpr float kShortestStep = 1.0e-9F;
+
 /// A usable dt: 0 for nonsense, and not so long that max_substeps could not carry it. Time then
 /// runs slower than the caller's, which is the one thing that stays stable.
 template <class Real>
 Real sane_time_step(const Settings<Real>& settings, float dt_s, StepReport& report) {
-    if (!is_finite(dt_s) || !(dt_s > 0.0F)) {
+    if (!is_finite(dt_s) || !(dt_s >= kShortestStep)) {
         mark(report, Clamped::time_step);
         return Real(0);
     }

@@ -176,9 +176,10 @@ TEST(Field, MidEdgeIsPlusOrMinusHalf) {
     ASSERT_EQ(world->add_static_body(body, &id), Status::ok);
     const std::vector<Point> ring = placed(kArrow, body.motion);
     const FieldView<float> field = world->signed_distance();
+    const Point tank{double(world->cells_x()), double(world->cells_y())};
     for (std::int32_t j = 0; j < field.rows; ++j) {
         for (std::int32_t i = 0; i < field.columns; ++i) {
-            const double exact = brute_distance(ring, {double(i), double(j)});
+            const double exact = brute_distance(ring, {double(i), double(j)}, tank);
             if (exact < -1.0e-4) {
                 ASSERT_EQ(field.at(i, j), -0.5F);
             } else if (exact > 1.0e-4 && exact < 1.4) {

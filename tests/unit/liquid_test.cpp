@@ -27,7 +27,8 @@ struct Bench {
     std::vector<Vec2<Real>> x, w;
     StaggeredGrid<Real> grid;
     PressureFields<Real> fields;
-    Walls<Real> walls;  // none active
+    Walls<Real> walls;      // none active
+    Borders<Real> borders;  // slippery walls
 
     Bench(std::int32_t nx, std::int32_t ny) : shape{nx, ny, nx + 2} {
         for (auto* field : {&u, &v, &mass_u, &mass_v, &pressure, &divergence, &inverse, &density,
@@ -45,7 +46,7 @@ struct Bench {
         const auto count = static_cast<std::int32_t>(x.size());
         return {x.data(), w.data(), count, count};
     }
-    void scatter() { particle_to_grid(particles(), grid); }
+    void scatter() { particle_to_grid(particles(), borders, grid); }
     /// n × n particles in each cell of a box of cells, at rest.
     void lattice(std::int32_t i0, std::int32_t j0, std::int32_t i1, std::int32_t j1,
                  std::int32_t n) {
@@ -135,8 +136,8 @@ TEST(Transfer, UniformVelocityIsReturnedExactly) {
         std::fill(bench.w.begin(), bench.w.end(), Vec2<float>{2.0F, -3.0F});
         const std::vector<Vec2<float>> start = bench.x;
         bench.scatter();
-        grid_update(bench.grid, {0, 0}, 0.01F);
-        blend_change(bench.grid, flip);
+        grid_update(bench.borders, {0, 0}, 0.01F, bench.fields.level, bench.grid);
+        blend_change(bench.borders, flip, bench.fields, bench.grid);
         Particles<float> particles = bench.particles();
         const TransferResult<float> result =
             grid_to_particle(bench.grid, {0.01F, flip, 200.0F, 0.0F}, particles);
@@ -174,7 +175,7 @@ TEST(Density, AFullLatticeShowsOne) {
         Bench<float> bench(9, 7);
         bench.lattice(0, 0, 9, 7, n);
         bench.scatter();
-        surface_level(bench.grid, bench.walls, static_cast<float>(n * n), bench.fields);
+        surface_level(bench.grid, bench.borders, bench.walls, static_cast<float>(n * n), bench.fields);
         for (std::int32_t j = 0; j < 7; ++j) {
             for (std::int32_t i = 0; i < 9; ++i) {
                 const auto c = std::size_t(bench.shape.index(i, j));
@@ -217,7 +218,7 @@ TEST(Density, LevelOfAPool) {
     Bench<float> bench(10, 12);
     bench.lattice(0, 0, 10, 5, 4);
     bench.scatter();
-    surface_level(bench.grid, bench.walls, 16.0F, bench.fields);
+    surface_level(bench.grid, bench.borders, bench.walls, 16.0F, bench.fields);
     for (std::int32_t i = 0; i < 10; ++i) {
         EXPECT_NEAR(bench.level[std::size_t(bench.shape.index(i, 4))], 0.5F, 0.02F);
         EXPECT_NEAR(bench.level[std::size_t(bench.shape.index(i, 5))], -0.5F, 0.02F);
@@ -254,10 +255,10 @@ double divergence_left(std::int32_t sweeps) {
         w = {speed(random), speed(random)};
     }
     bench.scatter();
-    surface_level(bench.grid, bench.walls, 4.0, bench.fields);
-    grid_update(bench.grid, {0, 0}, 0.01);
+    surface_level(bench.grid, bench.borders, bench.walls, 4.0, bench.fields);
+    grid_update(bench.borders, {0, 0}, 0.01, bench.fields.level, bench.grid);
     const double before = divergence_of(bench);
-    projection(bench.grid, bench.walls, 0.01, sweeps, bench.fields);
+    projection(bench.borders, bench.walls, 0.01, sweeps, bench.grid, bench.fields);
     return divergence_of(bench) / before;
 }
 
@@ -272,9 +273,9 @@ TEST(Projection, APoolAtRestGetsHydrostaticPressure) {
     Bench<double> bench(8, 16);
     bench.lattice(0, 0, 8, 10, 2);
     bench.scatter();
-    surface_level(bench.grid, bench.walls, 4.0, bench.fields);
-    grid_update(bench.grid, {0, -490.0}, 0.01);
-    projection(bench.grid, bench.walls, 0.01, 1000, bench.fields);
+    surface_level(bench.grid, bench.borders, bench.walls, 4.0, bench.fields);
+    grid_update(bench.borders, {0, -490.0}, 0.01, bench.fields.level, bench.grid);
+    projection(bench.borders, bench.walls, 0.01, 1000, bench.grid, bench.fields);
     // The level of a 2 × 2 lattice is a little off the drawn surface: 5 % of a cell.
     for (std::int32_t j = 0; j < 10; ++j) {
         const double depth = 10.0 - (j + 0.5);

@@ -34,13 +34,13 @@ enum class Clamped : std::uint32_t {
 };
 
 struct StepReport {
-    std::uint64_t ticks[kStageCount] = {};  ///< per stage, summed over substeps; 0 without a counter
+    std::uint64_t ticks[kStageCount] = {};  ///< per stage, over all substeps; 0: no counter
     std::int32_t substeps = 0;
     std::uint32_t clamped = 0;        ///< set of Clamped bits
     float dt_s = 0.0F;                ///< time that was simulated
     float max_speed_mps = 0.0F;       ///< of any particle, at the end
     std::int32_t particles = 0;       ///< alive at the end
-    std::int32_t nodes_rasterized = 0;  ///< contour nodes that were computed anew; 0 if nothing moved
+    std::int32_t nodes_rasterized = 0;  ///< contour nodes computed anew; 0 if nothing moved
     std::int32_t particles_tested = 0;     ///< in a cell that a contour line crosses or fills
     std::int32_t particles_reflected = 0;  ///< found behind a contour line and turned back
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
