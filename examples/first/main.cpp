@@ -1,6 +1,5 @@
-#include "weir/weir.hpp"
-
 #include "port/port.hpp"
+#include "weir/weir.hpp"
 
 constexpr weir::Capacity kCapacity = [] {
     weir::Capacity c;
@@ -12,28 +11,27 @@ static_assert(sizeof g_memory <= 96 * 1024, "must leave room in 128 KB of RAM");
 weir::World<float> g_world;
 
 constexpr weir::Vec2f kRamp[] = {{0.40F, 0.00F}, {0.60F, 0.00F}, {0.60F, 0.10F}};
-constexpr weir::Vec2f kPaddle[] = {{-0.1F, -0.02F}, {0.1F, -0.02F}, {0.1F, 0.02F}, {-0.1F, 0.02F}};
+constexpr weir::Vec2f kBar[] = {{-0.1F, -0.02F}, {0.1F, -0.02F}, {0.1F, 0.02F}, {-0.1F, 0.02F}};
+
+void require(weir::Status status) { if (status != weir::Status::ok) port::exit(1); }
 
 int main() {
     port::init();
-    weir::WorldDef def;  // water, in cells of 2 cm; every field is explained in weir/config.hpp
+    weir::WorldDef def;  // water, in cells of 2 cm; weir/config.hpp explains every field
     def.capacity = kCapacity;
-    weir::BodyDef ramp, paddle;
+    require(g_world.init(def, g_memory));
+    weir::BodyDef ramp, bar;
+    weir::BodyId ramp_id, bar_id;
     ramp.polygon = {kRamp, 3};
-    paddle.polygon = {kPaddle, 4};
-    paddle.motion.position_m = {0.70F, 0.25F};
-    paddle.motion.spin_radps = 4.0F;  // it keeps turning
-    weir::BodyId ramp_id, paddle_id;
-    if (g_world.init(def, g_memory) != weir::Status::ok ||
-        g_world.add_static_body(ramp, &ramp_id) != weir::Status::ok ||
-        g_world.add_moving_body(paddle, &paddle_id) != weir::Status::ok ||
-        g_world.fill({{0.02F, 0.00F}, {0.32F, 0.30F}}) != weir::Status::ok) {
-        port::exit(1);
-    }
+    bar.polygon = {kBar, 4};
+    bar.motion.position_m = {0.70F, 0.25F};
+    bar.motion.spin_radps = 4.0F;  // set once, it keeps turning
+    require(g_world.add_static_body(ramp, &ramp_id));
+    require(g_world.add_moving_body(bar, &bar_id));
+    require(g_world.fill({{0.02F, 0.00F}, {0.32F, 0.30F}}));
     for (int frame = 0; frame < 300; ++frame) {
         port::wait_for_tick();
-        const weir::StepReport report = g_world.step(1.0F / 60.0F);  // never fails
-        if (report.particles != g_world.particle_positions().size) port::exit(2);
+        g_world.step(1.0F / 60.0F);  // never fails; its report says what had to be clamped
         // draw g_world.particle_positions() here
     }
     port::exit(0);
