@@ -1,0 +1,154 @@
+#include "report.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+namespace accuracy {
+
+namespace {
+
+std::string folder_of(const std::string& path) {
+    const std::filesystem::path p(path);
+    return (p.parent_path() / p.stem()).string();
+}
+
+const double* limit_at(const Metric& metric, int cells) {
+    for (const auto& limit : metric.limits) {
+        if (limit.first == cells) {
+            return &limit.second;
+        }
+    }
+    return nullptr;
+}
+
+/// Spaces and slashes have no place in file names and columns.
+std::string plain(std::string text) {
+    for (char& c : text) {
+        c = c == ' ' || c == '/' || c == ',' ? '_' : c;
+    }
+    return text;
+}
+
+}  // namespace
+
+Report::Report(const std::string& path) : folder_(folder_of(path)) {
+    std::filesystem::create_directories(folder_);
+    csv_ = std::fopen(path.c_str(), "w");
+    if (csv_ == nullptr) {
+        throw std::runtime_error("cannot write " + path);
+    }
+    std::fprintf(csv_, "name,value,unit,target,ok\n");
+}
+
+Report::~Report() {
+    std::fclose(csv_);
+}
+
+void Report::heading(const std::string& text) const {
+    std::printf("\n%s\n  %-52s %12s %12s %12s %12s %10s\n", text.c_str(), "", "aligned", "shifted",
+                "rotated", "worst", "target");
+    std::fflush(stdout);
+}
+
+void Report::row(const std::string& name, double value, const std::string& unit,
+                 const double* limit) {
+    if (limit == nullptr) {
+        std::fprintf(csv_, "%s,%.6g,%s,,\n", name.c_str(), value, unit.c_str());
+    } else {
+        const bool ok = std::fabs(value) <= *limit;
+        std::fprintf(csv_, "%s,%.6g,%s,<=%g,%s\n", name.c_str(), value, unit.c_str(), *limit,
+                     ok ? "yes" : "short");
+        ++(ok ? met_ : short_);
+        if (!ok) {
+            char text[160];
+            std::snprintf(text, sizeof text, "%-60s %11.4g  <= %g", name.c_str(), value, *limit);
+            short_names_.emplace_back(text);
+        }
+    }
+    std::fflush(csv_);
+}
+
+void Report::worst_of(const std::string& prefix, const Metric& metric, int cells,
+                      const std::vector<double>& per_lattice) {
+    double worst = 0.0;
+    for (const double value : per_lattice) {
+        worst = std::isnan(value) || std::fabs(value) > std::fabs(worst) ? value : worst;
+    }
+    const std::string name = prefix + "." + std::to_string(cells) + "." + metric.name;
+    const double* limit = limit_at(metric, cells);
+    std::printf("  %-52s", name.c_str());
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (k < per_lattice.size()) {
+            std::printf(" %12.4g", per_lattice[k]);
+        } else {
+            std::printf(" %12s", "");
+        }
+    }
+    std::printf(" %12.4g", worst);
+    if (limit != nullptr) {
+        std::printf(" %10.4g  %s", *limit, std::fabs(worst) <= *limit ? "yes" : "SHORT");
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+    row(name, worst, metric.unit, limit);
+}
+
+void Report::order(const std::string& prefix, const Metric& metric, double value) {
+    const std::string name = prefix + ".order." + metric.name;
+    std::printf("  %-52s %38s %12.2f\n", name.c_str(), "", value);
+    row(name, value, "1", nullptr);
+}
+
+void Report::plot(const std::string& name, const std::string& x_label,
+                  const std::string& y_label, const std::vector<Curve>& curves,
+                  const std::string& extra) {
+    const std::string base = folder_ + "/" + plain(name);
+    std::FILE* data = std::fopen((base + ".dat").c_str(), "w");
+    std::FILE* script = std::fopen((base + ".gp").c_str(), "w");
+    if (data == nullptr || script == nullptr) {
+        throw std::runtime_error("cannot write " + base);
+    }
+    std::fprintf(script,
+                 "set terminal png size 900,600\nset output '%s.png'\nset grid\n"
+                 "set key noenhanced\nset xlabel '%s' noenhanced\nset ylabel '%s' noenhanced\n%s\n",
+                 plain(name).c_str(), x_label.c_str(), y_label.c_str(), extra.c_str());
+    const char* separator = "plot";
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const Curve& curve = curves[k];
+        std::fprintf(data, "# %s\n", curve.title.c_str());
+        for (std::size_t n = 0; n < curve.data.t.size(); ++n) {
+            std::fprintf(data, "%.8g %.8g\n", curve.data.t[n], curve.data.y[n]);
+        }
+        std::fprintf(data, "\n\n");
+        std::fprintf(script, "%s '%s.dat' index %zu using 1:2 with %s title '%s'", separator,
+                     plain(name).c_str(), k,
+                     curve.is_reference ? "points pt 7 ps 0.7 lc rgb 'black'" : "lines lw 1.5",
+                     curve.title.c_str());
+        separator = ", \\\n    ";
+    }
+    std::fprintf(script, "\n");
+    std::fclose(data);
+    std::fclose(script);
+    const std::string command =
+        "cd '" + folder_ + "' && gnuplot '" + plain(name) + ".gp' 2> /dev/null";
+    if (std::system(command.c_str()) != 0) {
+        std::printf("  (not drawn: %s.gp)\n", base.c_str());
+    }
+}
+
+void Report::broken(const std::string& what) {
+    std::printf("  BROKEN: %s\n", what.c_str());
+    std::fprintf(csv_, "%s,1,1,==0,short\n", plain(what).c_str());
+    broken_ = true;
+}
+
+void Report::summary() const {
+    std::printf("\n%d targets met, %d short\n", met_, short_);
+    for (const std::string& name : short_names_) {
+        std::printf("  short: %s\n", name.c_str());
+    }
+}
+
+}  // namespace accuracy

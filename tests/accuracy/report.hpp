@@ -1,0 +1,63 @@
+// The table for people, the CSV for programs, the curves for gnuplot.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis.hpp"
+#include "case.hpp"
+
+namespace accuracy {
+
+/// What one figure is called, its unit, and how large it may be at which resolution.
+struct Metric {
+    const char* name;
+    const char* unit;
+    std::vector<std::pair<int, double>> limits;  ///< cells, |value| at most
+};
+
+/// One line of a plot.
+struct Curve {
+    std::string title;
+    Signal data;
+    bool is_reference = false;
+};
+
+class Report {
+public:
+    /// Writes `path` and, beside it, a folder of curves and pictures of the same name.
+    explicit Report(const std::string& path);
+    Report(const Report&) = delete;
+    Report& operator=(const Report&) = delete;
+    ~Report();
+
+    void heading(const std::string& text) const;
+    /// A line of the CSV; `limit` empty where there is none. Not printed.
+    void row(const std::string& name, double value, const std::string& unit,
+             const double* limit);
+    /// A line of the table and of the CSV: a figure for each lattice, the worst counts.
+    void worst_of(const std::string& prefix, const Metric& metric, int cells,
+                  const std::vector<double>& per_lattice);
+    /// Convergence orders: printed and in the CSV, without a target.
+    void order(const std::string& prefix, const Metric& metric, double order);
+    /// Curves of one picture; written with a gnuplot script and, if gnuplot is there, drawn.
+    void plot(const std::string& name, const std::string& x_label, const std::string& y_label,
+              const std::vector<Curve>& curves, const std::string& extra = "");
+    /// A run broke (not finite, lost particles): the program's exit status becomes 1.
+    void broken(const std::string& what);
+
+    bool is_broken() const { return broken_; }
+    void summary() const;
+
+private:
+    std::FILE* csv_ = nullptr;
+    std::string folder_;
+    bool broken_ = false;
+    int met_ = 0;
+    int short_ = 0;
+    std::vector<std::string> short_names_;
+};
+
+}  // namespace accuracy

@@ -1,0 +1,165 @@
+// The library as a scheme: World with cell_m = 1, so that metres are cells.
+#include "weir_scheme.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <new>
+#include <stdexcept>
+
+#include "weir/weir.hpp"
+#include "world/world_state.hpp"
+
+namespace accuracy {
+
+namespace {
+
+/// Enough for any interval here: no scheme shall be softened behind the problem's back.
+constexpr std::int32_t kMostSubsteps = 1000;
+
+float narrow(double value) {
+    return static_cast<float>(value);
+}
+
+weir::WorldDef definition(const Setup& setup, weir::Pressure pressure, std::size_t particles) {
+    weir::WorldDef def;
+    def.capacity.particles = static_cast<std::int32_t>(particles);
+    def.capacity.cells_x = setup.nx;
+    def.capacity.cells_y = setup.ny;
+    def.cell_m = 1.0F;
+    def.gravity_mps2 = {narrow(setup.gravity.x), narrow(setup.gravity.y)};
+    def.pressure = pressure;
+    def.pressure_sweeps = setup.options.sweeps;
+    def.cfl = narrow(setup.options.cfl);
+    def.max_substeps = kMostSubsteps;
+    def.flip_ratio = narrow(setup.options.flip_ratio);
+    def.volume_gain = narrow(setup.options.volume_gain);
+    def.sound_speed_mps = narrow(setup.sound_speed * setup.options.sound_scale);
+    def.periodic_x = setup.periodic_x;
+    def.periodic_y = setup.periodic_y;
+    def.viscosity_m2ps = narrow(setup.viscosity);
+    def.no_slip = setup.no_slip;
+    def.slide_top_mps = narrow(setup.slide_top);
+    return def;
+}
+
+template <class Real>
+class WeirScheme final : public Scheme {
+public:
+    explicit WeirScheme(weir::Pressure pressure) : pressure_(pressure) {}
+    WeirScheme(const WeirScheme&) = delete;
+    WeirScheme& operator=(const WeirScheme&) = delete;
+    ~WeirScheme() override { release(); }
+
+    void start(const Setup& setup, const Particles& particles) override {
+        const weir::WorldDef def = definition(setup, pressure_, particles.size());
+        const std::size_t bytes = weir::world_bytes<Real>(def.capacity);
+        release();
+        memory_ = ::operator new(bytes, std::align_val_t{weir::world_alignment});
+        check(world_.init(def, memory_, bytes));
+        for (const Particle& p : particles) {
+            check(world_.add_particle({narrow(p.x.x), narrow(p.x.y)},
+                                      {narrow(p.v.x), narrow(p.v.y)}));
+        }
+        periodic_x_ = setup.periodic_x;
+        periodic_y_ = setup.periodic_y;
+        replace(particles);
+        step_ = narrow(setup.interval * setup.options.step_scale);
+        interval_ = static_cast<double>(step_);
+        seconds_ = 0.0;
+        steps_ = 0;
+        reset_ = 0;
+    }
+
+    void advance() override {
+        const auto begin = std::chrono::steady_clock::now();
+        const weir::StepReport report = world_.step(step_);
+        const auto end = std::chrono::steady_clock::now();
+        seconds_ += std::chrono::duration<double>(end - begin).count();
+        steps_ += report.substeps;
+        reset_ += report.particles_reset;
+        if (report.dt_s != step_) {
+            throw std::runtime_error("the library shortened a step");
+        }
+    }
+
+    Particles particles() const override {
+        const auto x = world_.particle_positions();
+        const auto v = world_.particle_velocities();
+        Particles result(static_cast<std::size_t>(x.size));
+        for (std::int32_t k = 0; k < x.size; ++k) {
+            result[static_cast<std::size_t>(k)] = {{double(x[k].x), double(x[k].y)},
+                                                   {double(v[k].x), double(v[k].y)}};
+        }
+        return result;
+    }
+
+    /// The face takes particles in float and one at a time; the state behind it is at the head of
+    /// the memory.
+    void replace(const Particles& particles) override {
+        weir::Simulation<Real>& simulation = state().simulation;
+        Real fastest = Real(0);
+        for (std::size_t k = 0; k < particles.size(); ++k) {
+            const Particle& p = particles[k];
+            const weir::GridShape& tank = simulation.grid.shape;
+            simulation.particles.position[k] = {inside(p.x.x, tank.nx, periodic_x_),
+                                                inside(p.x.y, tank.ny, periodic_y_)};
+            simulation.particles.velocity[k] = {Real(p.v.x), Real(p.v.y)};
+            fastest = weir::maximum(fastest, weir::absolute(Real(p.v.x)));
+            fastest = weir::maximum(fastest, weir::absolute(Real(p.v.y)));
+        }
+        simulation.max_speed = fastest;
+    }
+
+    void set_gravity(Vector gravity) override {
+        check(world_.set_gravity({narrow(gravity.x), narrow(gravity.y)}));
+    }
+
+    double pressure(int i, int j) const override {
+        return double(world_.pressure().at(i, j)) * double(world_.pressure_scale());
+    }
+
+    bool compressible() const override {
+        return pressure_ == weir::Pressure::equation_of_state;
+    }
+
+private:
+    using State = weir::detail::WorldState<Real>;
+
+    static Real inside(double x, std::int32_t cells, bool periodic) {
+        if (periodic) {
+            const Real size = static_cast<Real>(cells);
+            return Real(x) < size ? Real(x) : Real(x) - size;
+        }
+        return weir::clamp(Real(x), weir::kWallGap<Real>, Real(cells) - weir::kWallGap<Real>);
+    }
+    State& state() { return *std::launder(static_cast<State*>(memory_)); }
+    static void check(weir::Status status) {
+        if (status != weir::Status::ok) {
+            throw std::runtime_error(weir::status_text(status));
+        }
+    }
+    void release() {
+        ::operator delete(memory_, std::align_val_t{weir::world_alignment});
+        memory_ = nullptr;
+    }
+
+    weir::Pressure pressure_;
+    weir::World<Real> world_{};
+    void* memory_ = nullptr;
+    float step_ = 0.0F;
+    bool periodic_x_ = false;
+    bool periodic_y_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Scheme> make_weir(bool projection, bool in_double) {
+    const weir::Pressure pressure =
+        projection ? weir::Pressure::projection : weir::Pressure::equation_of_state;
+    if (in_double) {
+        return std::make_unique<WeirScheme<double>>(pressure);
+    }
+    return std::make_unique<WeirScheme<float>>(pressure);
+}
+
+}  // namespace accuracy
