@@ -17,8 +17,9 @@ void update(Real* momentum, Real* mass, const GridShape& s, Real gained) {
 
 /// One component: `back` is the step from a face to the face before it across its own cells.
 template <class Real>
-void extrapolate_component(Real* velocity, const Real* level, const GridShape& s,
-                           std::int32_t back, std::int32_t first_i, std::int32_t first_j) {
+void extrapolate_component(Real* velocity, const Real* before, const Real* level,
+                           const GridShape& s, std::int32_t back, std::int32_t first_i,
+                           std::int32_t first_j) {
     const auto wet = [&](std::int32_t face) {
         return level[face] > Real(0) || level[face - back] > Real(0);
     };
@@ -32,7 +33,7 @@ void extrapolate_component(Real* velocity, const Real* level, const GridShape& s
             Real count = Real(0);
             const auto look = [&](bool exists, std::int32_t neighbour) {
                 if (exists && wet(neighbour)) {
-                    sum += velocity[neighbour];
+                    sum += velocity[neighbour] - before[neighbour];
                     count += Real(1);
                 }
             };
@@ -41,7 +42,7 @@ void extrapolate_component(Real* velocity, const Real* level, const GridShape& s
             look(j > first_j, face - s.stride);
             look(j + 1 < s.ny, face + s.stride);
             if (count > Real(0)) {
-                velocity[face] = sum / count;
+                velocity[face] = before[face] + sum / count;
             }
         }
     }
@@ -60,8 +61,9 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, co
 
 template <class Real>
 void extrapolate(const Borders<Real>& borders, const Real* level, StaggeredGrid<Real>& grid) {
-    extrapolate_component(grid.u, level, grid.shape, 1, borders.wrap_x ? 0 : 1, 0);
-    extrapolate_component(grid.v, level, grid.shape, grid.shape.stride, 0, borders.wrap_y ? 0 : 1);
+    extrapolate_component(grid.u, grid.mass_u, level, grid.shape, 1, borders.wrap_x ? 0 : 1, 0);
+    extrapolate_component(grid.v, grid.mass_v, level, grid.shape, grid.shape.stride, 0,
+                          borders.wrap_y ? 0 : 1);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                  \

@@ -12,8 +12,10 @@ template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, const Real* level,
                  StaggeredGrid<Real>& grid);
 
-/// Gives faces in air beside the liquid the mean velocity of the liquid's faces next to them:
-/// particles at the surface read both. Reads levels of the cells.
+/// Faces in air beside the liquid change their velocity by as much as the liquid's faces next to
+/// them do on average: particles at the surface read both. It is the acceleration that goes on
+/// smoothly into the air; to continue the velocity itself would brake whatever turns or shears.
+/// Reads levels of the cells and the velocity before, which stands where the mass was.
 template <class Real>
 void extrapolate(const Borders<Real>& borders, const Real* level, StaggeredGrid<Real>& grid);
 
