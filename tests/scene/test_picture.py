@@ -26,7 +26,8 @@ class PictureTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
     def test_pictures(self):
-        self.run_quietly("cmake", "-S", PICTURE, "-B", self.folder, "-DCMAKE_CXX_FLAGS=-Werror")
+        self.run_quietly("cmake", "-G", "Ninja", "-S", PICTURE, "-B", self.folder,
+                         "-DCMAKE_CXX_FLAGS=-Werror")
         self.run_quietly("cmake", "--build", self.folder, "-j2")
         program = os.path.join(self.folder, "checks")
         self.run_quietly("g++", *STRICT, "-I", os.path.join(PICTURE, "include"),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "weir/config.hpp"
+#include "weir/diagnostics.hpp"
 #include "weir/fault.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "weir/config.hpp"
+#include "weir/diagnostics.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"
 #include "weir/status.hpp"
@@ -72,6 +73,10 @@ public:
     /// at most `kFarFromSolids`. Contour::mid_edge: −½ and ½, the binary matrix. Empty if the
     /// world has no room for bodies.
     FieldView<Real> signed_distance() const;
+
+    /// Mass, momentum, energies, volume and what is left of the divergence. Costs about as much
+    /// as a scatter; changes no state, but the views of the grid are stale afterwards.
+    Status diagnose(Diagnostics* diagnostics);
 
     float cell_m() const;
     std::int32_t cells_x() const;

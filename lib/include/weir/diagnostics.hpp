@@ -1,0 +1,22 @@
+// What the liquid holds, on demand: for tests, tuning and curiosity, never needed by a step.
+#pragma once
+
+#include "weir/types.hpp"
+
+namespace weir {
+
+/// Sums over all particles, in double. Per unit of density and of depth into the page: multiply by
+/// ρ for kg/m and so on. A particle's share is cell² / particles_per_cell.
+struct Diagnostics {
+    double mass_m2 = 0.0;                   ///< particles × share
+    Vec2<double> momentum_m3ps;             ///< Σ share · v
+    double angular_momentum_m4ps = 0.0;     ///< Σ share · x × v about the tank's lower left corner
+    double kinetic_energy_m4ps2 = 0.0;      ///< Σ share · |v|² / 2
+    double potential_energy_m4ps2 = 0.0;    ///< −Σ share · g · x
+    double volume_m2 = 0.0;       ///< area that is filled: cells count as far as they are full
+    double largest_density = 0.0;  ///< of any cell; 1 = at rest
+    /// Largest |∇·u| of the velocity that the particles carry over the cells that hold liquid, 1/s.
+    double divergence_per_s = 0.0;
+};
+
+}  // namespace weir

@@ -1,0 +1,87 @@
+// Diagnostics: sums over particles, and one scatter for what only the grid can tell. The grid's
+// arrays are free between steps, so looking changes nothing.
+#include "pressure/surface_level.hpp"
+#include "step/grid_update.hpp"
+#include "step/particle_to_grid.hpp"
+#include "world/world_state.hpp"
+
+namespace weir {
+
+namespace {
+
+template <class Real>
+void sum_particles(const Simulation<Real>& simulation, double cell_m, Diagnostics& out) {
+    const Particles<Real>& particles = simulation.particles;
+    const double share = cell_m * cell_m / static_cast<double>(simulation.settings.rest_count);
+    const Vec2<double> gravity = convert<double>(simulation.settings.gravity);
+    double square = 0.0;
+    double fall = 0.0;
+    double turn = 0.0;
+    Vec2<double> momentum;
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<double> x = convert<double>(particles.position[k]);
+        const Vec2<double> v = convert<double>(particles.velocity[k]);
+        momentum = momentum + v;
+        square += dot(v, v);
+        turn += cross(x, v);
+        fall += dot(gravity, x);
+    }
+    out.mass_m2 = share * static_cast<double>(particles.count);
+    out.momentum_m3ps = (share * cell_m) * momentum;
+    out.angular_momentum_m4ps = share * cell_m * cell_m * turn;
+    out.kinetic_energy_m4ps2 = 0.5 * share * cell_m * cell_m * square;
+    out.potential_energy_m4ps2 = -(share * cell_m * cell_m * fall);
+}
+
+template <class Real>
+void sum_cells(const Simulation<Real>& simulation, double cell_m, Diagnostics& out) {
+    const StaggeredGrid<Real>& grid = simulation.grid;
+    const PressureFields<Real>& fields = simulation.pressure;
+    const Walls<Real>& walls = simulation.layers.walls;
+    const GridShape& s = grid.shape;
+    double filled = 0.0;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            const double density = static_cast<double>(fields.density[c]);
+            const double room = walls.active ? static_cast<double>(walls.full_density[c]) : 1.0;
+            filled += room * minimum(density, 1.0);
+            out.largest_density = maximum(out.largest_density, density);
+            if (fields.level[c] > Real(0)) {
+                const Real outflow = (grid.u[c + 1] - grid.u[c]) +
+                                     (grid.v[c + s.stride] - grid.v[c]);
+                out.divergence_per_s = maximum(out.divergence_per_s,
+                                               static_cast<double>(absolute(outflow)));
+            }
+        }
+    }
+    out.volume_m2 = filled * cell_m * cell_m;
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::diagnose(Diagnostics* diagnostics) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    if (diagnostics == nullptr) {
+        return Status::output_missing;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    const Borders<Real>& borders = simulation.settings.borders;
+    const double cell_m = static_cast<double>(state_->def.cell_m);
+    *diagnostics = {};
+    sum_particles(simulation, cell_m, *diagnostics);
+    particle_to_grid(simulation.particles, borders, simulation.grid);
+    surface_level(simulation.grid, borders, simulation.layers.walls,
+                  simulation.settings.rest_count, simulation.pressure);
+    grid_update(borders, Vec2<Real>{}, Real(0), simulation.pressure.level, simulation.grid);
+    sum_cells(simulation, cell_m, *diagnostics);
+    return Status::ok;
+}
+
+template Status World<float>::diagnose(Diagnostics*);
+template Status World<double>::diagnose(Diagnostics*);
+
+}  // namespace weir

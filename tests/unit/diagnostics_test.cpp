@@ -1,0 +1,76 @@
+// Diagnostics against sums by hand, and that looking changes nothing.
+#include <gtest/gtest.h>
+
+#include "test_world.hpp"
+#include "weir/weir.hpp"
+
+namespace weir {
+namespace {
+
+constexpr double kCellM = 0.02;
+
+WorldDef pool_def() {
+    WorldDef def;
+    def.capacity.particles = 2000;
+    def.capacity.cells_x = 20;
+    def.capacity.cells_y = 20;
+    return def;
+}
+
+TEST(Diagnostics, OneParticleByHand) {
+    TestWorld<float> world(pool_def());
+    ASSERT_EQ(world->add_particle({0.1F, 0.3F}, {2.0F, -1.0F}), Status::ok);
+    Diagnostics d;
+    ASSERT_EQ(world->diagnose(&d), Status::ok);
+    const double share = kCellM * kCellM / 4.0;
+    EXPECT_NEAR(d.mass_m2, share, 1e-10);
+    EXPECT_NEAR(d.momentum_m3ps.x, 2.0 * share, 1e-9);
+    EXPECT_NEAR(d.momentum_m3ps.y, -share, 1e-9);
+    EXPECT_NEAR(d.angular_momentum_m4ps, share * (0.1 * -1.0 - 0.3 * 2.0), 1e-9);
+    EXPECT_NEAR(d.kinetic_energy_m4ps2, share * 2.5, 1e-9);
+    EXPECT_NEAR(d.potential_energy_m4ps2, share * 9.81 * 0.3, 1e-9);
+}
+
+TEST(Diagnostics, AFullPoolHasItsVolumeAndNoDivergence) {
+    TestWorld<float> world(pool_def());
+    ASSERT_EQ(world->fill({{0, 0}, {0.4F, 0.2F}}), Status::ok);
+    Diagnostics d;
+    ASSERT_EQ(world->diagnose(&d), Status::ok);
+    EXPECT_NEAR(d.volume_m2, 0.4 * 0.2, 1e-5);
+    EXPECT_NEAR(d.largest_density, 1.0, 1e-5);
+    EXPECT_EQ(d.divergence_per_s, 0.0);
+    for (int step = 0; step < 30; ++step) {
+        world->step(1.0F / 60.0F);
+    }
+    ASSERT_EQ(world->diagnose(&d), Status::ok);
+    EXPECT_LT(d.divergence_per_s, 0.2);
+    EXPECT_LT(d.kinetic_energy_m4ps2, 1e-6 * d.potential_energy_m4ps2);
+}
+
+TEST(Diagnostics, LookingChangesNothing) {
+    TestWorld<float> watched(pool_def());
+    TestWorld<float> alone(pool_def());
+    for (TestWorld<float>* world : {&watched, &alone}) {
+        ASSERT_EQ((*world)->fill({{0, 0}, {0.16F, 0.3F}}), Status::ok);
+    }
+    Diagnostics d;
+    for (int step = 0; step < 60; ++step) {
+        watched->step(1.0F / 60.0F);
+        alone->step(1.0F / 60.0F);
+        const std::uint64_t before = watched->state_hash();
+        ASSERT_EQ(watched->diagnose(&d), Status::ok);
+        EXPECT_EQ(watched->state_hash(), before);
+    }
+    EXPECT_EQ(watched->state_hash(), alone->state_hash());
+}
+
+TEST(Diagnostics, RefusesWhatCannotBe) {
+    World<float> none;
+    Diagnostics d;
+    EXPECT_EQ(none.diagnose(&d), Status::not_initialised);
+    TestWorld<float> world(pool_def());
+    EXPECT_EQ(world->diagnose(nullptr), Status::output_missing);
+}
+
+}  // namespace
+}  // namespace weir
