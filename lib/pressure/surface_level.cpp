@@ -15,6 +15,10 @@ constexpr Real kFilledShare = Real(0.8);
 template <class Real>
 constexpr Real kFilledLevel = Real(0.5);
 
+/// What level_of_density answers for a cell that no particle reaches.
+template <class Real>
+constexpr Real kEmptyLevel = Real(-1.5);
+
 template <class Real>
 void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
                         Real rest_count, PressureFields<Real>& fields) {
@@ -25,6 +29,11 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
             const std::int32_t c = s.index(i, j);
             const Real mass = (grid.mass_u[c] + grid.mass_u[c + 1]) +
                               (grid.mass_v[c] + grid.mass_v[c + s.stride]);
+            if (!(mass > Real(0))) {
+                fields.density[c] = Real(0);
+                fields.level[c] = kEmptyLevel<Real>;
+                continue;
+            }
             Real density = mass * per_face;
             if (walls.active && walls.full_density[c] < Real(1)) {
                 density = walls.full_density[c] < kLeastFullDensity<Real>

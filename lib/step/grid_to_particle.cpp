@@ -31,18 +31,21 @@ inline Sample<Real> sample(const Real* field, std::int32_t stride, const Stencil
     return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
 }
 
-/// Written so that a NaN takes the first branch.
+/// What `limited` does to the few that are too fast or broken.
 template <class Real>
-Vec2<Real> limited(Vec2<Real> v, Real limit, TransferResult<Real>& count) {
-    if (absolute(v.x) <= limit && absolute(v.y) <= limit) {
-        return v;
-    }
+Vec2<Real> refused(Vec2<Real> v, Real limit, TransferResult<Real>& count) {
     if (!is_finite(v)) {
         ++count.reset;
         return {};
     }
     ++count.slowed;
     return {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit)};
+}
+
+/// Written so that a NaN is refused.
+template <class Real>
+inline Vec2<Real> limited(Vec2<Real> v, Real limit, TransferResult<Real>& count) {
+    return absolute(v.x) <= limit && absolute(v.y) <= limit ? v : refused(v, limit, count);
 }
 
 /// One axis at the tank's walls: back to the wall, and the velocity towards it given back.

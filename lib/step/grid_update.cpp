@@ -23,10 +23,14 @@ void extrapolate_component(Real* velocity, const Real* before, const Real* level
     const auto wet = [&](std::int32_t face) {
         return level[face] > Real(0) || level[face - back] > Real(0);
     };
+    // A face that has mass shows in both its cells; one that has none is read by no particle.
+    const auto empty = [&](std::int32_t face) {
+        return level[face] <= Real(-1.5) || level[face - back] <= Real(-1.5);
+    };
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
-            if (wet(face)) {
+            if (wet(face) || empty(face)) {
                 continue;
             }
             Real sum = Real(0);
