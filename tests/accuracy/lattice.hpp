@@ -1,4 +1,4 @@
-// The three lattices on which every problem starts: a grid flatters the one that is aligned with it.
+// The three lattices on which every problem starts: a grid flatters the one aligned with it.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,7 @@ Particles seed(Lattice lattice, Vector low, Vector high, const Region& region);
 /// The whole box.
 Particles seed_box(Lattice lattice, Vector low, Vector high);
 
-/// A disc.
+/// A disc. Its centre of mass is not quite its centre: take that of the particles.
 Particles seed_disc(Lattice lattice, Vector centre, double radius);
 
 }  // namespace accuracy

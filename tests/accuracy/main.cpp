@@ -68,7 +68,8 @@ bool take_setting(const std::string& word, accuracy::Effort& effort) {
 }
 
 int usage() {
-    std::fprintf(stderr, "usage: weir_accuracy OUT.csv [quick] [soak] [problem ...] [setting=value ...]\n"
+    std::fprintf(stderr, "usage: weir_accuracy OUT.csv [quick] [soak] [problem ...] "
+                         "[setting=value ...]\n"
                          "settings: flip_ratio sweeps volume_gain step_scale sound_scale cfl "
                          "scheme\nproblems:");
     for (const Problem& problem : kProblems) {

@@ -41,7 +41,7 @@ Outcome run_dam_break(Scheme& scheme, const Case& c);
 /// Until the front reaches the far wall: what the front alone needs.
 Outcome run_dam_break_front(Scheme& scheme, const Case& c);
 Outcome run_standing_wave(Scheme& scheme, const Case& c);
-Outcome run_oscillating_drop(Scheme& scheme, const Case& c);
+Outcome run_oscillating_drop(Scheme& scheme, const Case& c, int periods);
 
 void report_hydrostatic(Report& report, const Effort& effort);
 void report_dam_break(Report& report, const Effort& effort);

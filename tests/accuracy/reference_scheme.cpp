@@ -36,8 +36,7 @@ public:
         config_.bulk_viscosity = paper::kBulkShare * static_cast<float>(cfl);
         config_.gravity = in_steps(setup.gravity, step_ * step_);
         replace(particles);
-        seconds_ = 0.0;
-        steps_ = 0;
+        reset_clock();
     }
 
     void advance() override {
@@ -47,6 +46,7 @@ public:
         }
         const auto end = std::chrono::steady_clock::now();
         seconds_ += std::chrono::duration<double>(end - begin).count();
+        time_ += interval_;
         steps_ += substeps_;
         pressure_known_ = false;
     }

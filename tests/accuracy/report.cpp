@@ -122,10 +122,14 @@ void Report::plot(const std::string& name, const std::string& x_label,
             std::fprintf(data, "%.8g %.8g\n", curve.data.t[n], curve.data.y[n]);
         }
         std::fprintf(data, "\n\n");
+        std::string style = curve.is_points ? "points pt 7 ps 0.7" : "lines lw 1.5";
+        if (curve.colour > 0) {
+            style += " lc " + std::to_string(curve.colour);
+        } else if (curve.is_points) {
+            style += " lc rgb 'black'";
+        }
         std::fprintf(script, "%s '%s.dat' index %zu using 1:2 with %s title '%s'", separator,
-                     plain(name).c_str(), k,
-                     curve.is_reference ? "points pt 7 ps 0.7 lc rgb 'black'" : "lines lw 1.5",
-                     curve.title.c_str());
+                     plain(name).c_str(), k, style.c_str(), curve.title.c_str());
         separator = ", \\\n    ";
     }
     std::fprintf(script, "\n");

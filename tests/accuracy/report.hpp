@@ -18,11 +18,12 @@ struct Metric {
     std::vector<std::pair<int, double>> limits;  ///< cells, |value| at most
 };
 
-/// One line of a plot.
+/// One line of a plot; the reference is drawn as black points.
 struct Curve {
     std::string title;
     Signal data;
-    bool is_reference = false;
+    bool is_points = false;
+    int colour = 0;  ///< gnuplot's line colour; 0: its next one, black for points
 };
 
 class Report {

@@ -96,10 +96,12 @@ Outcome run_patch(Scheme& scheme, const Case& c) {
     setup.interval = 0.5 / c.cells;
     setup.sound_speed = 7.0 * c.cells;
     setup.options = c.options;
-    const Vector centre{0.5 * setup.nx, 0.5 * setup.ny};
+    const Vector middle{0.5 * setup.nx, 0.5 * setup.ny};
     const Vector arm{0.5 * c.cells, 0.5 * c.cells};
-    const Particles start =
-        rotating(seed(c.lattice, centre - arm, centre + arm, [](Vector) { return true; }), centre);
+    const Particles patch =
+        seed(c.lattice, middle - arm, middle + arm, [](Vector) { return true; });
+    const Vector centre = centre_of_mass(patch);
+    const Particles start = rotating(patch, centre);
     scheme.start(setup, start);
     const double kinetic = energy(start, {}).kinetic;
     const double spin = angular_momentum(start, centre);

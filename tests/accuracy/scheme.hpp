@@ -29,14 +29,14 @@ struct Particle {
 };
 using Particles = std::vector<Particle>;
 
-/// What may be varied without changing the problem. The defaults are the library's own.
+/// What may be varied without changing the problem. Negative: the library's own default.
 struct Options {
-    double flip_ratio = 0.97;
-    int sweeps = 16;
-    double volume_gain = 0.25;
+    double flip_ratio = -1.0;
+    int sweeps = -1;
+    double volume_gain = -1.0;
     double step_scale = 1.0;   ///< times the interval that the problem asks for
     double sound_scale = 1.0;  ///< times the sound speed that the problem asks for
-    double cfl = 1.0;          ///< cells per substep above which the library cuts an interval
+    double cfl = -1.0;         ///< cells per substep above which the library cuts an interval
 };
 
 struct Setup {
@@ -81,13 +81,22 @@ public:
     double interval() const { return interval_; }
     /// Wall time spent in the scheme's own steps since the start.
     double seconds() const { return seconds_; }
+    /// Physical time since the start, as far as `seconds` counts it.
+    double time() const { return time_; }
     std::int64_t steps() const { return steps_; }
+    /// Forgets what was counted: a problem's preparation does not count.
+    void reset_clock() {
+        seconds_ = 0.0;
+        time_ = 0.0;
+        steps_ = 0;
+    }
     /// Particles that had to be put to rest because their state was not finite.
     std::int64_t reset() const { return reset_; }
 
 protected:
     double interval_ = 0.0;
     double seconds_ = 0.0;
+    double time_ = 0.0;
     std::int64_t steps_ = 0;
     std::int64_t reset_ = 0;
 };

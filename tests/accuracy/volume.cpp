@@ -1,5 +1,6 @@
-// Volume over long times (R14): how high the liquid stands against its volume. A dam break that has settled, a half full tank
-// turned over 80 times, and a resting pool for 10^5 steps (10^6 as an option).
+// Volume over long times (R14): how high the liquid stands against its volume. A dam break that
+// has settled, a half full tank turned over 80 times, and a resting pool for 10^5 steps (10^6 as
+// an option).
 #include <algorithm>
 #include <cmath>
 
@@ -129,7 +130,8 @@ void report_volume(Report& report, const Effort& effort) {
     for (const Plan& plan : {Plan{Kind::projection, cells, 3},
                              Plan{Kind::equation_of_state, {16}, 1},
                              Plan{Kind::reference, {16}, 1}}) {
-        const auto last = sweep(report, effort, "R14.dam_break", plan, {height}, run_settled_dam_break);
+        const auto last =
+            sweep(report, effort, "R14.dam_break", plan, {height}, run_settled_dam_break);
         for (const Outcome& outcome : last) {
             curves.push_back({kind_name(plan.kind), *outcome.curve("height"), false});
         }
@@ -139,13 +141,15 @@ void report_volume(Report& report, const Effort& effort) {
     report.heading("R14 volume: 80 gravity flips");
     sweep(report, effort, "R14.flips", {Kind::projection, cells, 3}, {height, quiet}, run_flips);
     if (!effort.quick) {
-        sweep(report, effort, "R14.flips", {Kind::equation_of_state, {16}, 1}, {height, quiet}, run_flips);
+        sweep(report, effort, "R14.flips", {Kind::equation_of_state, {16}, 1}, {height, quiet},
+              run_flips);
     }
 
     const int steps = effort.long_soak ? 1000000 : effort.quick ? 10000 : 100000;
     report.heading("R14 volume: resting pool, " + std::to_string(steps) + " steps");
     const auto pool = sweep(
-        report, effort, "R14.pool", {Kind::projection, {effort.quick ? 16 : 32}, effort.quick ? 1 : 3},
+        report, effort, "R14.pool",
+        {Kind::projection, {effort.quick ? 16 : 32}, effort.quick ? 1 : 3},
         {height, {"creep_since_step_1000", "%", one_percent}, quiet},
         [&](Scheme& s, const Case& c) { return run_pool(s, c, steps); });
     for (const Outcome& outcome : pool) {

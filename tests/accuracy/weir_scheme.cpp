@@ -28,12 +28,13 @@ weir::WorldDef definition(const Setup& setup, weir::Pressure pressure, std::size
     def.cell_m = 1.0F;
     def.gravity_mps2 = {narrow(setup.gravity.x), narrow(setup.gravity.y)};
     def.pressure = pressure;
-    def.pressure_sweeps = setup.options.sweeps;
-    def.cfl = narrow(setup.options.cfl);
     def.max_substeps = kMostSubsteps;
-    def.flip_ratio = narrow(setup.options.flip_ratio);
-    def.volume_gain = narrow(setup.options.volume_gain);
-    def.sound_speed_mps = narrow(setup.sound_speed * setup.options.sound_scale);
+    const Options& options = setup.options;
+    def.pressure_sweeps = options.sweeps < 0 ? def.pressure_sweeps : options.sweeps;
+    def.cfl = options.cfl < 0.0 ? def.cfl : narrow(options.cfl);
+    def.flip_ratio = options.flip_ratio < 0.0 ? def.flip_ratio : narrow(options.flip_ratio);
+    def.volume_gain = options.volume_gain < 0.0 ? def.volume_gain : narrow(options.volume_gain);
+    def.sound_speed_mps = narrow(setup.sound_speed * options.sound_scale);
     def.periodic_x = setup.periodic_x;
     def.periodic_y = setup.periodic_y;
     def.viscosity_m2ps = narrow(setup.viscosity);
@@ -65,8 +66,7 @@ public:
         replace(particles);
         step_ = narrow(setup.interval * setup.options.step_scale);
         interval_ = static_cast<double>(step_);
-        seconds_ = 0.0;
-        steps_ = 0;
+        reset_clock();
         reset_ = 0;
     }
 
@@ -75,6 +75,7 @@ public:
         const weir::StepReport report = world_.step(step_);
         const auto end = std::chrono::steady_clock::now();
         seconds_ += std::chrono::duration<double>(end - begin).count();
+        time_ += interval_;
         steps_ += report.substeps;
         reset_ += report.particles_reset;
         if (report.dt_s != step_) {
