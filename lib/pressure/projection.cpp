@@ -4,8 +4,16 @@ namespace weir {
 
 namespace {
 
+/// The first solve of a world's life starts from nothing: it gets this many times the sweeps.
+constexpr std::int32_t kColdStart = 8;
+
+/// Best for liquid n rows deep, closed below and with its surface on top: 2 / (1 + sin(π / 2n))
+/// (Young 1954), and sin x ≈ x. The same sweeps converge ten times better than with 1.8.
 template <class Real>
-constexpr Real kOverRelaxation = Real(1.8);
+Real over_relaxation(std::int32_t depth) {
+    const Real n = static_cast<Real>(clamp(depth, 16, 256));
+    return Real(2) / (Real(1) + Real(1.5707963) / n);
+}
 
 /// One face of a cell: how much it adds to the diagonal.
 template <class Real>
@@ -65,8 +73,8 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
 }
 
 template <bool Solids, class Real>
-void relax(const GridShape& s, const Walls<Real>& walls, Rows rows, std::int32_t colour,
-           PressureFields<Real>& fields) {
+void relax(const GridShape& s, const Walls<Real>& walls, Rows rows, Real omega,
+           std::int32_t colour, PressureFields<Real>& fields) {
     Real* p = fields.pressure;
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         for (std::int32_t i = (j + colour) & 1; i < s.nx; i += 2) {
@@ -85,7 +93,7 @@ void relax(const GridShape& s, const Walls<Real>& walls, Rows rows, std::int32_t
                 sum = (p[c - 1] + p[c + 1]) + (p[c - s.stride] + p[c + s.stride]);
             }
             const Real target = (sum - fields.divergence[c]) * inverse;
-            p[c] += kOverRelaxation<Real> * (target - p[c]);
+            p[c] += omega * (target - p[c]);
         }
     }
 }
@@ -130,9 +138,10 @@ template <bool Solids, class Real>
 void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
            std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
     const Rows rows = build<Solids>(grid, borders, walls, rescale, fields);
+    const Real omega = over_relaxation<Real>(rows.high - rows.low + 1);
     extend_cells(borders, grid.shape, fields.pressure);
     for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
-        relax<Solids>(grid.shape, walls, rows, half_sweep & 1, fields);
+        relax<Solids>(grid.shape, walls, rows, omega, half_sweep & 1, fields);
         extend_cells(borders, grid.shape, fields.pressure);
     }
     project<Solids>(borders, walls, fields, grid);
@@ -146,11 +155,12 @@ void projection(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_
     // A much longer step than the last starts from less than the last pressure would suggest.
     const Real rescale =
         fields.last_dt > Real(0) ? minimum(dt_s / fields.last_dt, Real(16)) : Real(0);
+    const std::int32_t times = fields.last_dt > Real(0) ? sweeps : kColdStart * sweeps;
     fields.last_dt = dt_s;
     if (walls.active) {
-        solve<true>(borders, walls, rescale, sweeps, grid, fields);
+        solve<true>(borders, walls, rescale, times, grid, fields);
     } else {
-        solve<false>(borders, walls, rescale, sweeps, grid, fields);
+        solve<false>(borders, walls, rescale, times, grid, fields);
     }
 }
 

@@ -69,7 +69,7 @@ struct WorldDef {
     float flip_ratio = 0.97F;
 
     /// Strength of the drift towards uniform particle density; 0 (off) … 1.
-    float volume_gain = 0.1F;
+    float volume_gain = 0.15F;
 
     /// Equation of state only: speed of sound, m/s; 0 = 10 times the speed of a fall through the
     /// whole tank, which keeps the density within about 1 %.
