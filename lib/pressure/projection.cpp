@@ -13,6 +13,17 @@ inline Real face_coefficient(Real open, Real level, Real neighbour_level) {
     return neighbour_level > Real(0) ? open : open / liquid_fraction(level, neighbour_level);
 }
 
+/// What the pressure on the surface adds to a liquid cell's equation beyond what the sweeps read
+/// from the air cell itself.
+template <class Real>
+inline Real surface_share(Real open, Real level, std::int32_t neighbour,
+                          const PressureFields<Real>& fields) {
+    const Real air = fields.level[neighbour];
+    return air > Real(0) ? Real(0)
+                         : open * fields.pressure[neighbour] *
+                               (Real(1) / liquid_fraction(level, air) - Real(1));
+}
+
 /// Rows low … high hold all the liquid; no other needs to be swept.
 struct Rows {
     std::int32_t low = 0;
@@ -30,7 +41,7 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
             const Real level = fields.level[c];
             fields.inverse_diagonal[c] = Real(0);
             if (!(level > Real(0))) {
-                fields.pressure[c] = Real(0);
+                fields.pressure[c] = fields.on_surface ? fields.pressure[c] : Real(0);
                 continue;
             }
             const std::int32_t up = c + s.stride;
@@ -54,6 +65,12 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                               (upper_open * grid.v[up] - lower_open * grid.v[c]);
             if (Solids && walls.moving && walls.cell_case[c] != 0) {
                 divergence += wall_flow(s, walls, i, j);
+            }
+            if (fields.on_surface) {
+                divergence -= (surface_share(left_open, level, c - 1, fields) +
+                               surface_share(right_open, level, c + 1, fields)) +
+                              (surface_share(lower_open, level, c - s.stride, fields) +
+                               surface_share(upper_open, level, up, fields));
             }
             fields.divergence[c] = divergence;
             fields.inverse_diagonal[c] = Real(1) / diagonal;

@@ -4,6 +4,7 @@
 #include "pressure/equation_of_state.hpp"
 #include "pressure/projection.hpp"
 #include "pressure/surface_level.hpp"
+#include "pressure/surface_tension.hpp"
 #include "pressure/volume_correction.hpp"
 #include "solid/collide.hpp"
 #include "step/boundary_condition.hpp"
@@ -61,16 +62,20 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Real dt_s) {
 }
 
 template <class Real>
-void solve_pressure(Simulation<Real>& simulation, Real dt_s, Real sound_speed) {
+void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
     const Settings<Real>& settings = simulation.settings;
     const Walls<Real>& walls = simulation.layers.walls;
     if (settings.pressure == Pressure::projection) {
-        projection(settings.borders, walls, dt_s, settings.sweeps, simulation.grid,
+        if (plan.surface_tension > Real(0)) {
+            surface_tension(simulation.grid.shape, settings.borders, walls,
+                            plan.surface_tension * plan.dt_s, simulation.pressure);
+        }
+        projection(settings.borders, walls, plan.dt_s, settings.sweeps, simulation.grid,
                    simulation.pressure);
         extrapolate(settings.borders, simulation.pressure.level, simulation.grid);
     } else {
-        equation_of_state(settings.borders, walls, dt_s, sound_speed, simulation.grid,
-                          simulation.pressure);
+        equation_of_state(settings.borders, walls, plan.dt_s, plan.sound_speed,
+                          simulation.grid, simulation.pressure);
     }
 }
 
@@ -126,7 +131,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     }
     clock.charge(Stage::grid_update);
 
-    solve_pressure(simulation, dt_s, plan.sound_speed);
+    solve_pressure(simulation, plan);
     fill_borders(simulation);
     clock.charge(Stage::pressure);
 

@@ -51,6 +51,13 @@ Status check_borders(const WorldDef& def) {
     if (!within(def.viscosity_m2ps, 0.0F, 1.0e6F * def.cell_m * def.cell_m)) {
         return Status::viscosity_out_of_range;
     }
+    const float cell_volume = def.cell_m * def.cell_m * def.cell_m;
+    if (!within(def.surface_tension_m3ps2, 0.0F, 1.0e12F * cell_volume)) {
+        return Status::surface_tension_out_of_range;
+    }
+    if (def.surface_tension_m3ps2 > 0.0F && def.pressure != Pressure::projection) {
+        return Status::surface_tension_needs_projection;
+    }
     const float fastest = kMaxSpeed * def.cell_m;
     const float slides[] = {def.slide_bottom_mps, def.slide_top_mps, def.slide_left_mps,
                             def.slide_right_mps};

@@ -99,6 +99,8 @@ Settings<Real> settings_of(const WorldDef& def, Real cells_per_m) {
     settings.volume_gain = static_cast<Real>(def.volume_gain);
     settings.wall_restitution = static_cast<Real>(def.wall_restitution);
     settings.viscosity = cells_per_m * cells_per_m * static_cast<Real>(def.viscosity_m2ps);
+    settings.surface_tension = cells_per_m * cells_per_m * cells_per_m *
+                               static_cast<Real>(def.surface_tension_m3ps2);
     settings.borders = borders_of(def, cells_per_m);
     settings.cfl = static_cast<Real>(def.cfl);
     settings.sweeps = def.pressure_sweeps;

@@ -71,6 +71,9 @@ StepReport World<Real>::step(float dt_s) {
         if (plan.viscosity < simulation.settings.viscosity) {
             mark(report, Clamped::viscosity);
         }
+        if (plan.surface_tension < simulation.settings.surface_tension) {
+            mark(report, Clamped::surface_tension);
+        }
         for (std::int32_t k = 0; k < plan.substeps; ++k) {
             substep(simulation, plan, report);
         }

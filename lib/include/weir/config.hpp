@@ -79,6 +79,11 @@ struct WorldDef {
     /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps.
     float viscosity_m2ps = 0.0F;
 
+    /// Surface tension over density, m³/s²; 0 (not computed) … 1e12 cells³/s². Water has 7.3e-5,
+    /// which shows on cells of a few millimetres and below. Solids and walls are met at a right
+    /// angle. Explicit: on small cells it costs substeps. With Pressure::projection only.
+    float surface_tension_m3ps2 = 0.0F;
+
     /// Normal velocity that the tank's walls give back; 0 (slide along) … 1 (mirror).
     float wall_restitution = 0.0F;
     /// Whether viscous liquid sticks to the tank's walls.

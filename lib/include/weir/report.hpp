@@ -31,6 +31,7 @@ enum class Clamped : std::uint32_t {
     not_finite = 1U << 4U,     ///< particles with a non-finite state were put to rest
     not_initialised = 1U << 5U,  ///< there is no world: nothing was done
     viscosity = 1U << 6U,      ///< the liquid was made thinner to fit max_substeps
+    surface_tension = 1U << 7U,  ///< it was lowered to fit max_substeps
 };
 
 struct StepReport {

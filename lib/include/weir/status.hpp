@@ -25,6 +25,8 @@ enum class [[nodiscard]] Status : std::uint8_t {
     sound_speed_out_of_range,
     restitution_out_of_range,
     viscosity_out_of_range,
+    surface_tension_out_of_range,
+    surface_tension_needs_projection,
     wall_speed_out_of_range,
     periodic_with_bodies,
     periodic_needs_even_cells,
