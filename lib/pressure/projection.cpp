@@ -7,20 +7,44 @@ namespace {
 template <class Real>
 constexpr Real kOverRelaxation = Real(1.8);
 
+/// What a pressure difference of 1 across a face moves through it: open share × 1/density.
+template <bool Solids, bool Mixed, class Real>
+struct Weights {
+    const Walls<Real>& walls;
+    const StaggeredGrid<Real>& grid;
+
+    Real open_u(std::int32_t face) const { return Solids ? walls.open_u[face] : Real(1); }
+    Real open_v(std::int32_t face) const { return Solids ? walls.open_v[face] : Real(1); }
+    Real light_u(std::int32_t face) const {
+        return Mixed ? grid.inverse_density_u[face] : Real(1);
+    }
+    Real light_v(std::int32_t face) const {
+        return Mixed ? grid.inverse_density_v[face] : Real(1);
+    }
+    Real u(std::int32_t face) const {
+        return Solids && Mixed ? open_u(face) * light_u(face)
+                               : (Solids ? open_u(face) : light_u(face));
+    }
+    Real v(std::int32_t face) const {
+        return Solids && Mixed ? open_v(face) * light_v(face)
+                               : (Solids ? open_v(face) : light_v(face));
+    }
+};
+
 /// One face of a cell: how much it adds to the diagonal.
 template <class Real>
-inline Real face_coefficient(Real open, Real level, Real neighbour_level) {
-    return neighbour_level > Real(0) ? open : open / liquid_fraction(level, neighbour_level);
+inline Real face_coefficient(Real weight, Real level, Real neighbour_level) {
+    return neighbour_level > Real(0) ? weight : weight / liquid_fraction(level, neighbour_level);
 }
 
 /// What the pressure on the surface adds to a liquid cell's equation beyond what the sweeps read
 /// from the air cell itself.
 template <class Real>
-inline Real surface_share(Real open, Real level, std::int32_t neighbour,
+inline Real surface_share(Real weight, Real level, std::int32_t neighbour,
                           const PressureFields<Real>& fields) {
     const Real air = fields.level[neighbour];
     return air > Real(0) ? Real(0)
-                         : open * fields.pressure[neighbour] *
+                         : weight * fields.pressure[neighbour] *
                                (Real(1) / liquid_fraction(level, air) - Real(1));
 }
 
@@ -30,10 +54,11 @@ struct Rows {
     std::int32_t high = -1;
 };
 
-template <bool Solids, class Real>
+template <bool Solids, bool Mixed, class Real>
 Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
            const Walls<Real>& walls, Real rescale, PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
+    const Weights<Solids, Mixed, Real> weights{walls, grid};
     Rows rows{s.ny, -1};
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
@@ -45,32 +70,35 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                 continue;
             }
             const std::int32_t up = c + s.stride;
-            const auto open = [](bool inside, const Real* fraction, std::int32_t face) {
-                return inside ? (Solids ? fraction[face] : Real(1)) : Real(0);
-            };
-            const Real left_open = open(i > 0 || borders.wrap_x, walls.open_u, c);
-            const Real right_open = open(i + 1 < s.nx || borders.wrap_x, walls.open_u, c + 1);
-            const Real lower_open = open(j > 0 || borders.wrap_y, walls.open_v, c);
-            const Real upper_open = open(j + 1 < s.ny || borders.wrap_y, walls.open_v, up);
-            const Real diagonal =
-                (face_coefficient(left_open, level, fields.level[c - 1]) +
-                 face_coefficient(right_open, level, fields.level[c + 1])) +
-                (face_coefficient(lower_open, level, fields.level[c - s.stride]) +
-                 face_coefficient(upper_open, level, fields.level[up]));
+            const bool has_left = i > 0 || borders.wrap_x;
+            const bool has_right = i + 1 < s.nx || borders.wrap_x;
+            const bool has_lower = j > 0 || borders.wrap_y;
+            const bool has_upper = j + 1 < s.ny || borders.wrap_y;
+            const Real left = has_left ? weights.u(c) : Real(0);
+            const Real right = has_right ? weights.u(c + 1) : Real(0);
+            const Real lower = has_lower ? weights.v(c) : Real(0);
+            const Real upper = has_upper ? weights.v(up) : Real(0);
+            const Real diagonal = (face_coefficient(left, level, fields.level[c - 1]) +
+                                   face_coefficient(right, level, fields.level[c + 1])) +
+                                  (face_coefficient(lower, level, fields.level[c - s.stride]) +
+                                   face_coefficient(upper, level, fields.level[up]));
             if (!(diagonal > Real(0))) {
                 fields.pressure[c] = Real(0);
                 continue;
             }
-            Real divergence = (right_open * grid.u[c + 1] - left_open * grid.u[c]) +
-                              (upper_open * grid.v[up] - lower_open * grid.v[c]);
+            const Real out_right = (has_right ? weights.open_u(c + 1) : Real(0)) * grid.u[c + 1];
+            const Real out_left = (has_left ? weights.open_u(c) : Real(0)) * grid.u[c];
+            const Real out_upper = (has_upper ? weights.open_v(up) : Real(0)) * grid.v[up];
+            const Real out_lower = (has_lower ? weights.open_v(c) : Real(0)) * grid.v[c];
+            Real divergence = (out_right - out_left) + (out_upper - out_lower);
             if (Solids && walls.moving && walls.cell_case[c] != 0) {
                 divergence += wall_flow(s, walls, i, j);
             }
             if (fields.on_surface) {
-                divergence -= (surface_share(left_open, level, c - 1, fields) +
-                               surface_share(right_open, level, c + 1, fields)) +
-                              (surface_share(lower_open, level, c - s.stride, fields) +
-                               surface_share(upper_open, level, up, fields));
+                divergence -= (surface_share(left, level, c - 1, fields) +
+                               surface_share(right, level, c + 1, fields)) +
+                              (surface_share(lower, level, c - s.stride, fields) +
+                               surface_share(upper, level, up, fields));
             }
             fields.divergence[c] = divergence;
             fields.inverse_diagonal[c] = Real(1) / diagonal;
@@ -81,9 +109,11 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
     return rows;
 }
 
-template <bool Solids, class Real>
-void relax(const GridShape& s, const Walls<Real>& walls, Rows rows, std::int32_t colour,
-           PressureFields<Real>& fields) {
+template <bool Solids, bool Mixed, class Real>
+void relax(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Rows rows,
+           std::int32_t colour, PressureFields<Real>& fields) {
+    const GridShape& s = grid.shape;
+    const Weights<Solids, Mixed, Real> weights{walls, grid};
     Real* p = fields.pressure;
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         for (std::int32_t i = (j + colour) & 1; i < s.nx; i += 2) {
@@ -92,14 +122,14 @@ void relax(const GridShape& s, const Walls<Real>& walls, Rows rows, std::int32_t
             if (inverse == Real(0)) {
                 continue;
             }
+            const std::int32_t up = c + s.stride;
             Real sum;
-            if (Solids) {
-                sum = (walls.open_u[c] * p[c - 1] + walls.open_u[c + 1] * p[c + 1]) +
-                      (walls.open_v[c] * p[c - s.stride] +
-                       walls.open_v[c + s.stride] * p[c + s.stride]);
+            if (Solids || Mixed) {
+                sum = (weights.u(c) * p[c - 1] + weights.u(c + 1) * p[c + 1]) +
+                      (weights.v(c) * p[c - s.stride] + weights.v(up) * p[up]);
             } else {
                 // Beyond the tank and in air the pressure is 0: only the diagonal tells them apart.
-                sum = (p[c - 1] + p[c + 1]) + (p[c - s.stride] + p[c + s.stride]);
+                sum = (p[c - 1] + p[c + 1]) + (p[c - s.stride] + p[up]);
             }
             const Real target = (sum - fields.divergence[c]) * inverse;
             p[c] += kOverRelaxation<Real> * (target - p[c]);
@@ -107,9 +137,9 @@ void relax(const GridShape& s, const Walls<Real>& walls, Rows rows, std::int32_t
     }
 }
 
-/// u −= ∂p/∂x on the face between two neighbouring cells.
+/// u −= 1/density · ∂p/∂x on the face between two neighbouring cells.
 template <class Real>
-inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before,
+inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before, Real light,
                        const PressureFields<Real>& fields) {
     const Real level_before = fields.level[before];
     const Real level_after = fields.level[face];
@@ -123,36 +153,37 @@ inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before,
         difference = difference / (liquid_before ? liquid_fraction(level_before, level_after)
                                                  : liquid_fraction(level_after, level_before));
     }
-    velocity[face] -= difference;
+    velocity[face] -= light * difference;
 }
 
-template <bool Solids, class Real>
+template <bool Solids, bool Mixed, class Real>
 void project(const Borders<Real>& borders, const Walls<Real>& walls,
              const PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
+    const Weights<Solids, Mixed, Real> weights{walls, grid};
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             if ((i > 0 || borders.wrap_x) && (!Solids || walls.open_u[c] > Real(0))) {
-                accelerate(grid.u, c, c - 1, fields);
+                accelerate(grid.u, c, c - 1, weights.light_u(c), fields);
             }
             if ((j > 0 || borders.wrap_y) && (!Solids || walls.open_v[c] > Real(0))) {
-                accelerate(grid.v, c, c - s.stride, fields);
+                accelerate(grid.v, c, c - s.stride, weights.light_v(c), fields);
             }
         }
     }
 }
 
-template <bool Solids, class Real>
+template <bool Solids, bool Mixed, class Real>
 void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
            std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
-    const Rows rows = build<Solids>(grid, borders, walls, rescale, fields);
+    const Rows rows = build<Solids, Mixed>(grid, borders, walls, rescale, fields);
     extend_cells(borders, grid.shape, fields.pressure);
     for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
-        relax<Solids>(grid.shape, walls, rows, half_sweep & 1, fields);
+        relax<Solids, Mixed>(grid, walls, rows, half_sweep & 1, fields);
         extend_cells(borders, grid.shape, fields.pressure);
     }
-    project<Solids>(borders, walls, fields, grid);
+    project<Solids, Mixed>(borders, walls, fields, grid);
 }
 
 }  // namespace
@@ -164,11 +195,11 @@ void projection(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_
     const Real rescale =
         fields.last_dt > Real(0) ? minimum(dt_s / fields.last_dt, Real(16)) : Real(0);
     fields.last_dt = dt_s;
-    if (walls.active) {
-        solve<true>(borders, walls, rescale, sweeps, grid, fields);
-    } else {
-        solve<false>(borders, walls, rescale, sweeps, grid, fields);
-    }
+    const bool mixed = grid.inverse_density_u != nullptr;
+    const auto solver = walls.active ? (mixed ? solve<true, true, Real> : solve<true, false, Real>)
+                                     : (mixed ? solve<false, true, Real>
+                                              : solve<false, false, Real>);
+    solver(borders, walls, rescale, sweeps, grid, fields);
 }
 
 template void projection(const Borders<float>&, const Walls<float>&, float, std::int32_t,

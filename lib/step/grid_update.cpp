@@ -15,6 +15,20 @@ void update(Real* momentum, Real* mass, const GridShape& s, Real gained) {
     }
 }
 
+/// The same where mass_u counts particles and their mass stands beside it. A face without any is
+/// as dense as the first liquid.
+template <class Real>
+void update_mixed(Real* momentum, Real* volume, Real* mass, const GridShape& s, Real gained) {
+    const std::int32_t end = s.index(s.nx, s.ny);
+    for (std::int32_t face = s.index(0, 0); face <= end; ++face) {
+        const Real m = mass[face];
+        const Real before = m > Real(0) ? momentum[face] / m : Real(0);
+        mass[face] = m > Real(0) ? volume[face] / m : Real(1);
+        volume[face] = before;
+        momentum[face] = m > Real(0) ? before + gained : Real(0);
+    }
+}
+
 /// One component: `back` is the step from a face to the face before it across its own cells.
 template <class Real>
 void extrapolate_component(Real* velocity, const Real* level, const GridShape& s,
@@ -53,8 +67,13 @@ template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, const Real* level,
                  StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
-    update(grid.u, grid.mass_u, s, gravity.x * dt_s);
-    update(grid.v, grid.mass_v, s, gravity.y * dt_s);
+    if (grid.inverse_density_u != nullptr) {
+        update_mixed(grid.u, grid.mass_u, grid.inverse_density_u, s, gravity.x * dt_s);
+        update_mixed(grid.v, grid.mass_v, grid.inverse_density_v, s, gravity.y * dt_s);
+    } else {
+        update(grid.u, grid.mass_u, s, gravity.x * dt_s);
+        update(grid.v, grid.mass_v, s, gravity.y * dt_s);
+    }
     close_walls(borders, level, grid);
 }
 

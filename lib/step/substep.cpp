@@ -121,7 +121,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
         report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
         clock.charge(Stage::contour);
     }
-    particle_to_grid(simulation.particles, settings.borders, grid);
+    particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid);
     clock.charge(Stage::particle_to_grid);
 
     surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure);

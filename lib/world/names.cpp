@@ -37,6 +37,10 @@ const char* init_text(Status status) {
             return "surface_tension_m3ps2: choose 0 … 1e12 cells³/s²";
         case Status::surface_tension_needs_projection:
             return "surface tension: choose Pressure::projection, or set it to 0";
+        case Status::density_ratio_out_of_range:
+            return "second_density_ratio: choose 0.01 … 100";
+        case Status::second_liquid_needs_projection:
+            return "two liquids: choose Pressure::projection";
         case Status::wall_speed_out_of_range:
             return "slide_..._mps: choose at most kMaxSpeed cells a second";
         case Status::periodic_with_bodies:
@@ -44,7 +48,7 @@ const char* init_text(Status status) {
         case Status::periodic_needs_even_cells:
             return "periodic: choose an even number of cells along that axis";
         case Status::unknown_option:
-            return "pressure or contour is no enumerator: pick one from config.hpp";
+            return "pressure, contour or liquid is no enumerator: pick one from config.hpp";
         case Status::memory_missing:
             return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";
@@ -87,6 +91,8 @@ const char* content_text(Status status) {
         case Status::no_free_particle:
             return "no room for that many particles: raise capacity.particles";
         case Status::no_such_particle: return "index: choose 0 … number of particles − 1";
+        case Status::no_second_liquid:
+            return "this world holds one liquid: set capacity.second_liquid";
         case Status::particle_not_finite:
             return "particle has a NaN or infinite position or velocity";
         case Status::particle_outside_domain: return "particle: place it within the tank";

@@ -108,6 +108,15 @@ const std::vector<Row>& init_rows() {
         {"surface tension without projection",
          CHANGED_INIT(surface_tension_m3ps2 = 7.3e-5F; def.pressure, Pressure::equation_of_state),
          Status::surface_tension_needs_projection},
+        {"density ratio below", CHANGED_INIT(second_density_ratio, 0.0099F),
+         Status::density_ratio_out_of_range},
+        {"density ratio beyond", CHANGED_INIT(second_density_ratio, 100.1F),
+         Status::density_ratio_out_of_range},
+        {"density ratio NaN", CHANGED_INIT(second_density_ratio, kNan),
+         Status::density_ratio_out_of_range},
+        {"two liquids without projection",
+         CHANGED_INIT(capacity.second_liquid = true; def.pressure, Pressure::equation_of_state),
+         Status::second_liquid_needs_projection},
         {"bottom beyond", CHANGED_INIT(slide_bottom_mps, 2.1e4F), Status::wall_speed_out_of_range},
         {"top NaN", CHANGED_INIT(slide_top_mps, kNan), Status::wall_speed_out_of_range},
         {"left beyond", CHANGED_INIT(slide_left_mps, -2.1e4F), Status::wall_speed_out_of_range},
@@ -233,6 +242,8 @@ TEST(BadInput, LimitsAreInside) {
     EXPECT_EQ(accepted([](WorldDef& def) { def.volume_gain = 1.0F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.wall_restitution = 1.0F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.surface_tension_m3ps2 = 7.9e6F; }), Status::ok);
+    EXPECT_EQ(accepted([](WorldDef& def) { def.second_density_ratio = 0.01F; }), Status::ok);
+    EXPECT_EQ(accepted([](WorldDef& def) { def.second_density_ratio = 100.0F; }), Status::ok);
     for (const std::int32_t per_cell : {1, 4, 9, 16}) {
         EXPECT_EQ(accepted([&](WorldDef& def) { def.particles_per_cell = per_cell; }), Status::ok);
     }
