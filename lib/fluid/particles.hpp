@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/vec2.hpp"
+#include "weir/config.hpp"
 
 namespace weir {
 
@@ -11,11 +12,15 @@ struct Particles {
     Vec2<Real>* velocity = nullptr;
     std::int32_t count = 0;
     std::int32_t capacity = 0;
+    Liquid* kind = nullptr;  ///< null: there is one liquid
 
     bool full() const { return count == capacity; }
-    void add(Vec2<Real> at, Vec2<Real> moving) {
+    void add(Vec2<Real> at, Vec2<Real> moving, Liquid of) {
         position[count] = at;
         velocity[count] = moving;
+        if (kind != nullptr) {
+            kind[count] = of;
+        }
         ++count;
     }
     /// The last particle takes the removed one's place.
@@ -23,6 +28,9 @@ struct Particles {
         --count;
         position[index] = position[count];
         velocity[index] = velocity[count];
+        if (kind != nullptr) {
+            kind[index] = kind[count];
+        }
     }
 };
 

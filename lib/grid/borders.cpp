@@ -127,6 +127,18 @@ void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
 }
 
 template <class Real>
+void fold_counts(const Borders<Real>& b, const GridShape& s, Real* on_u, Real* on_v) {
+    const std::int32_t right = s.nx - 1;
+    const std::int32_t top = s.ny - 1;
+    move(on_u, row(s, b.wrap_y ? top : 0), row(s, -1));
+    move(on_u, row(s, b.wrap_y ? 0 : top), row(s, s.ny));
+    move(on_v, column(s, b.wrap_x ? right : 0), column(s, -1));
+    move(on_v, column(s, b.wrap_x ? 0 : right), column(s, s.nx));
+    fold_across(on_u, column(s, 0), column(s, s.nx), b.wrap_x);
+    fold_across(on_v, row(s, 0), row(s, s.ny), b.wrap_y);
+}
+
+template <class Real>
 void extend_velocity(const Borders<Real>& b, const GridShape& s, Real* u, Real* v) {
     if (b.wrap_x) {
         copy(u, column(s, s.nx), column(s, 0));
@@ -188,6 +200,7 @@ void close_walls(const Borders<Real>& b, const Real* level, StaggeredGrid<Real>&
 
 #define WEIR_INSTANTIATE(Real)                                                              \
     template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);                 \
+    template void fold_counts(const Borders<Real>&, const GridShape&, Real*, Real*);        \
     template void extend_velocity(const Borders<Real>&, const GridShape&, Real*, Real*);    \
     template void extend_cells(const Borders<Real>&, const GridShape&, Real*);              \
     template void mirror_cells(const Borders<Real>&, const GridShape&, Real*);              \

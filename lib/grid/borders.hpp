@@ -22,6 +22,10 @@ struct Borders {
 template <class Real>
 void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
 
+/// The same for a pair of face fields without momentum.
+template <class Real>
+void fold_counts(const Borders<Real>& borders, const GridShape& shape, Real* on_u, Real* on_v);
+
 /// Before a gather: ghost rows of a velocity take what they mirror or repeat.
 template <class Real>
 void extend_velocity(const Borders<Real>& borders, const GridShape& shape, Real* u, Real* v);

@@ -26,6 +26,10 @@ struct StaggeredGrid {
     Real* v = nullptr;
     Real* mass_u = nullptr;  ///< in particles; free for reuse once velocity is known
     Real* mass_v = nullptr;
+    /// With two liquids, where mass_u and mass_v only count: mass, then, once velocity is known,
+    /// volume over mass. A particle of the first liquid has mass and volume 1. Null: one liquid.
+    Real* inverse_density_u = nullptr;
+    Real* inverse_density_v = nullptr;
 };
 
 /// The four nodes around a point and its weights: bilinear.

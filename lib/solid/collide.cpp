@@ -9,9 +9,10 @@ namespace {
 constexpr std::uint8_t kOutside = 0;
 constexpr std::uint8_t kInside = 15;
 
-/// A particle inside a solid leaves at this speed at most, cells per substep: gently.
+/// A particle inside a solid leaves at this speed at most, cells per substep: as fast as it can
+/// have come in at the default CFL number, and no faster.
 template <class Real>
-constexpr Real kLongestWayOut = Real(0.5);
+constexpr Real kLongestWayOut = Real(1);
 
 /// Where a particle is put: this far in front of the wall, so that it is not found behind it again.
 template <class Real>

@@ -17,7 +17,7 @@ struct CollideResult {
 /// the line, and its velocity relative to the wall is reflected, v' = v − (1 + e)(v·n)n when it
 /// points into the solid: e = 1 is the paper's mirror v' = v − 2(v·n)n, e = 0 slides along.
 /// A particle in a cell that is solid all over goes out along the gradient of the distance, at
-/// most half a cell a substep. Cost: one table look-up a particle, about 60 operations near walls.
+/// most one cell a substep. Cost: one table look-up a particle, about 60 operations near walls.
 template <class Real>
 CollideResult<Real> collide(const GridShape& shape, const Walls<Real>& walls,
                             Particles<Real>& particles);

@@ -1,5 +1,7 @@
 #include "step/boundary_condition.hpp"
 
+#include <cstring>
+
 #include "fluid/particles.hpp"
 
 namespace weir {
@@ -64,7 +66,7 @@ Vec2<Real> mirrored(const StaggeredGrid<Real>& grid, const Mirror<Real>& mirror,
 
 template <class Real>
 void mirror_u(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
-              StaggeredGrid<Real>& grid) {
+              const StaggeredGrid<Real>& grid, Real* out) {
     const GridShape& s = grid.shape;
     const std::int32_t low = s.index(i, j);
     const std::int32_t high = low + s.stride;
@@ -79,13 +81,13 @@ void mirror_u(const Walls<Real>& walls, const Real* level, std::int32_t i, std::
     const Vec2<Real> wall = wall_velocity(walls, low, high, face);
     const Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
     if (near_liquid(s, level, mirror.point)) {
-        grid.u[low] = mirrored(grid, mirror, wall).x;
+        out[low] = mirrored(grid, mirror, wall).x;
     }
 }
 
 template <class Real>
 void mirror_v(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
-              StaggeredGrid<Real>& grid) {
+              const StaggeredGrid<Real>& grid, Real* out) {
     const GridShape& s = grid.shape;
     const std::int32_t left = s.index(i, j);
     const std::int32_t right = left + 1;
@@ -101,28 +103,38 @@ void mirror_v(const Walls<Real>& walls, const Real* level, std::int32_t i, std::
     const Vec2<Real> wall = wall_velocity(walls, left, right, face);
     const Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
     if (near_liquid(s, level, mirror.point)) {
-        grid.v[left] = mirrored(grid, mirror, wall).y;
+        out[left] = mirrored(grid, mirror, wall).y;
     }
 }
 
 }  // namespace
 
 template <class Real>
-void mirror_in_solids(const Walls<Real>& walls, const Real* level, StaggeredGrid<Real>& grid) {
+void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
+                      StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
+    const Real* level = fields.level;
+    const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof(Real);
+    std::memcpy(fields.divergence, grid.u, bytes);
+    std::memcpy(fields.inverse_diagonal, grid.v, bytes);
+    StaggeredGrid<Real> liquid = grid;
+    liquid.u = fields.divergence;
+    liquid.v = fields.inverse_diagonal;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             if (i > 0) {
-                mirror_u(walls, level, i, j, grid);
+                mirror_u(walls, level, i, j, liquid, grid.u);
             }
             if (j > 0) {
-                mirror_v(walls, level, i, j, grid);
+                mirror_v(walls, level, i, j, liquid, grid.v);
             }
         }
     }
 }
 
-template void mirror_in_solids(const Walls<float>&, const float*, StaggeredGrid<float>&);
-template void mirror_in_solids(const Walls<double>&, const double*, StaggeredGrid<double>&);
+template void mirror_in_solids(const Walls<float>&, PressureFields<float>&,
+                               StaggeredGrid<float>&);
+template void mirror_in_solids(const Walls<double>&, PressureFields<double>&,
+                               StaggeredGrid<double>&);
 
 }  // namespace weir

@@ -1,7 +1,7 @@
 // Stage: grid update, last part. Reads projected velocities; writes faces that no liquid owns.
 #pragma once
 
-#include "grid/staggered_grid.hpp"
+#include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -11,8 +11,10 @@ namespace weir {
 /// it vanishes on the wall. Relative to the wall's own velocity. Where no liquid is near the
 /// mirror point (level > 0 in 3 × 3 cells) faces keep what they have: drops meet the wall one by
 /// one, and bounce as told.
-/// Order: by row. Cost: about 80 operations for each closed face within 1½ cells of a wall.
+/// Order: none, a copy is read; the fields' divergence and inverse diagonal are the scratch.
+/// Cost: about 80 operations for each closed face within 1½ cells of a wall.
 template <class Real>
-void mirror_in_solids(const Walls<Real>& walls, const Real* level, StaggeredGrid<Real>& grid);
+void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
+                      StaggeredGrid<Real>& grid);
 
 }  // namespace weir

@@ -7,6 +7,7 @@ namespace weir {
 
 /// velocity = momentum / mass on every face that has mass, then gravity on top. Where the mass was
 /// stands the velocity before gravity from now on: grid-to-particle needs the change (FLIP).
+/// With two liquids the mass gives way to the inverse density.
 /// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
 template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, const Real* level,
@@ -15,8 +16,10 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, co
 /// Faces in air beside the liquid change their velocity by as much as the liquid's faces next to
 /// them do on average: particles at the surface read both. It is the acceleration that goes on
 /// smoothly into the air; to continue the velocity itself would brake whatever turns or shears.
+/// Surface tension, which feeds on every ripple, wants the braking: `velocity_itself`.
 /// Reads levels of the cells and the velocity before, which stands where the mass was.
 template <class Real>
-void extrapolate(const Borders<Real>& borders, const Real* level, StaggeredGrid<Real>& grid);
+void extrapolate(const Borders<Real>& borders, const Real* level, bool velocity_itself,
+                 StaggeredGrid<Real>& grid);
 
 }  // namespace weir

@@ -30,16 +30,59 @@ inline void scatter(Real* mass, Real* momentum, std::int32_t stride, const Stenc
     p[stride + 1] += w1 * velocity;
 }
 
+/// The same, and the mass of a particle of that density.
+template <class Real>
+inline void scatter_mixed(Real* volume, Real* mass, Real* momentum, std::int32_t stride,
+                          const Stencil<Real>& at, Real density, Real velocity) {
+    const Real w1 = at.fx * at.fy;
+    const Real right = at.fx - w1;
+    const Real upper = at.fy - w1;
+    const Real weight[] = {(Real(1) - at.fx) - upper, right, upper, w1};
+    const std::int32_t node[] = {at.base, at.base + 1, at.base + stride, at.base + stride + 1};
+    for (std::int32_t k = 0; k < 4; ++k) {
+        const Real share = weight[k] * density;
+        volume[node[k]] += weight[k];
+        mass[node[k]] += share;
+        momentum[node[k]] += share * velocity;
+    }
+}
+
+template <class Real>
+void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
+                         Real second_density, StaggeredGrid<Real>& grid) {
+    const GridShape& shape = grid.shape;
+    clear(grid.inverse_density_u, shape);
+    clear(grid.inverse_density_v, shape);
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<Real> x = particles.position[k];
+        const Vec2<Real> v = particles.velocity[k];
+        const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
+        scatter_mixed(grid.mass_u, grid.inverse_density_u, grid.u, shape.stride,
+                      stencil_u(shape, x), density, v.x);
+        scatter_mixed(grid.mass_v, grid.inverse_density_v, grid.v, shape.stride,
+                      stencil_v(shape, x), density, v.y);
+    }
+    StaggeredGrid<Real> by_mass = grid;
+    by_mass.mass_u = grid.inverse_density_u;
+    by_mass.mass_v = grid.inverse_density_v;
+    fold_borders(borders, by_mass);
+    fold_counts(borders, shape, grid.mass_u, grid.mass_v);
+}
+
 }  // namespace
 
 template <class Real>
 void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
-                      StaggeredGrid<Real>& grid) {
+                      Real second_density, StaggeredGrid<Real>& grid) {
     const GridShape& shape = grid.shape;
     clear(grid.u, shape);
     clear(grid.v, shape);
     clear(grid.mass_u, shape);
     clear(grid.mass_v, shape);
+    if (particles.kind != nullptr) {
+        scatter_two_liquids(particles, borders, second_density, grid);
+        return;
+    }
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
@@ -49,9 +92,9 @@ void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& bor
     fold_borders(borders, grid);
 }
 
-template void particle_to_grid(const Particles<float>&, const Borders<float>&,
+template void particle_to_grid(const Particles<float>&, const Borders<float>&, float,
                                StaggeredGrid<float>&);
-template void particle_to_grid(const Particles<double>&, const Borders<double>&,
+template void particle_to_grid(const Particles<double>&, const Borders<double>&, double,
                                StaggeredGrid<double>&);
 
 }  // namespace weir

@@ -8,9 +8,10 @@ namespace weir {
 
 /// Clears the grid, then adds every particle's mass 1 and momentum to its four u faces and four
 /// v faces with bilinear weights. Ghost rows are folded back.
-/// Order: by particle, then by node. Cost: 8 weights and 16 sums a particle.
+/// With two liquids momentum and, beside the count, mass are weighted by the particle's density.
+/// Order: by particle, then by node. Cost: 8 weights and 16 sums a particle; two liquids: 24.
 template <class Real>
 void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
-                      StaggeredGrid<Real>& grid);
+                      Real second_density, StaggeredGrid<Real>& grid);
 
 }  // namespace weir

@@ -15,6 +15,8 @@ struct Settings {
     Real sound_speed = Real(0);  ///< cells/s; equation of state
     Real wall_restitution = Real(0);
     Real viscosity = Real(0);    ///< kinematic, cells²/s
+    Real surface_tension = Real(0);  ///< over density, cells³/s²
+    Real second_density = Real(1);   ///< of the second liquid over the first's
     Borders<Real> borders;
     Real cfl = Real(1);          ///< cells per substep
     std::int32_t sweeps = 16;

@@ -4,6 +4,7 @@
 #include "pressure/equation_of_state.hpp"
 #include "pressure/projection.hpp"
 #include "pressure/surface_level.hpp"
+#include "pressure/surface_tension.hpp"
 #include "pressure/volume_correction.hpp"
 #include "solid/collide.hpp"
 #include "step/boundary_condition.hpp"
@@ -61,26 +62,33 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Real dt_s) {
 }
 
 template <class Real>
-void solve_pressure(Simulation<Real>& simulation, Real dt_s, Real sound_speed) {
+void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
     const Settings<Real>& settings = simulation.settings;
     const Walls<Real>& walls = simulation.layers.walls;
     if (settings.pressure == Pressure::projection) {
-        projection(settings.borders, walls, dt_s, settings.sweeps, simulation.grid,
+        if (plan.surface_tension > Real(0)) {
+            surface_tension(simulation.grid.shape, settings.borders, walls,
+                            plan.surface_tension * plan.dt_s, simulation.pressure);
+        }
+        projection(settings.borders, walls, plan.dt_s, settings.sweeps, simulation.grid,
                    simulation.pressure);
-        extrapolate(settings.borders, simulation.pressure.level, simulation.grid);
+        extrapolate(settings.borders, simulation.pressure.level,
+                    settings.surface_tension > Real(0), simulation.grid);
     } else {
-        equation_of_state(settings.borders, walls, dt_s, sound_speed, simulation.grid,
-                          simulation.pressure);
+        equation_of_state(settings.borders, walls, plan.dt_s, plan.sound_speed,
+                          simulation.grid, simulation.pressure);
     }
 }
 
-/// The gain holds for a substep in which something moves half a cell or a fall from rest would:
-/// shorter ones, as viscosity asks for, get their share.
+/// The gain holds for a substep in which something moves half a cell, or a wave of the size of a
+/// cell would, under gravity or surface tension. Shorter ones, as viscosity asks for, get their
+/// share.
 template <class Real>
 Real volume_gain(const Simulation<Real>& simulation, Real dt_s) {
     const Vec2<Real> g = simulation.settings.gravity;
-    const Real fall = square_root(maximum(absolute(g.x), absolute(g.y)));
-    const Real way = dt_s * (simulation.max_speed + fall);
+    const Real wave = square_root(maximum(absolute(g.x), absolute(g.y)) +
+                                  simulation.settings.surface_tension);
+    const Real way = dt_s * (simulation.max_speed + wave);
     return simulation.settings.volume_gain * minimum(Real(1), way + way);
 }
 
@@ -89,7 +97,7 @@ template <class Real>
 void fill_borders(Simulation<Real>& simulation) {
     StaggeredGrid<Real>& grid = simulation.grid;
     if (simulation.layers.walls.active) {
-        mirror_in_solids(simulation.layers.walls, simulation.pressure.level, grid);
+        mirror_in_solids(simulation.layers.walls, simulation.pressure, grid);
     }
     extend_velocity(simulation.settings.borders, grid.shape, grid.u, grid.v);
     extend_velocity(simulation.settings.borders, grid.shape, grid.mass_u, grid.mass_v);
@@ -126,7 +134,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
         report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
         clock.charge(Stage::contour);
     }
-    particle_to_grid(simulation.particles, settings.borders, grid);
+    particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid);
     clock.charge(Stage::particle_to_grid);
 
     surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure);
@@ -136,7 +144,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     }
     clock.charge(Stage::grid_update);
 
-    solve_pressure(simulation, dt_s, plan.sound_speed);
+    solve_pressure(simulation, plan);
     fill_borders(simulation);
     clock.charge(Stage::pressure);
 

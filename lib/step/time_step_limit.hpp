@@ -11,13 +11,14 @@ struct SubstepPlan {
     Real dt_s = Real(0);
     Real sound_speed = Real(0);  ///< cells/s, softened if max_substeps is too few for it
     Real viscosity = Real(0);    ///< cells²/s, lowered likewise
+    Real surface_tension = Real(0);  ///< cells³/s², lowered likewise
     bool too_few = false;        ///< max_substeps was less than the limits asked for
 };
 
 /// Substeps so that no particle travels further than cfl cells (Courant, Friedrichs & Lewy 1928),
 /// gravity moves nothing by more than a tenth of a cell, and sound, where there is any, no
-/// further than half a cell, and viscosity spreads over no more than a quarter of a cell².
-/// Bounded by max_substeps.
+/// further than half a cell, and viscosity spreads over no more than a quarter of a cell²,
+/// and the shortest ripple of surface tension is followed. Bounded by max_substeps.
 template <class Real>
 SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s);
 

@@ -5,7 +5,10 @@
 
 namespace weir {
 
-const char* status_text(Status status) {
+namespace {
+
+/// Answers of `init`, and what any call answers before it. Null for another.
+const char* init_text(Status status) {
     switch (status) {
         case Status::ok: return "ok";
         case Status::cells_out_of_range: return "cells_x, cells_y: choose kMinCells … kMaxCells";
@@ -30,6 +33,14 @@ const char* status_text(Status status) {
         case Status::restitution_out_of_range: return "restitution: choose 0 (slide) … 1 (mirror)";
         case Status::viscosity_out_of_range:
             return "viscosity_m2ps: choose 0 … 1e6 cells² a second";
+        case Status::surface_tension_out_of_range:
+            return "surface_tension_m3ps2: choose 0 … 1e12 cells³/s²";
+        case Status::surface_tension_needs_projection:
+            return "surface tension: choose Pressure::projection, or set it to 0";
+        case Status::density_ratio_out_of_range:
+            return "second_density_ratio: choose 0.01 … 100";
+        case Status::second_liquid_needs_projection:
+            return "two liquids: choose Pressure::projection";
         case Status::wall_speed_out_of_range:
             return "slide_..._mps: choose at most kMaxSpeed cells a second";
         case Status::periodic_with_bodies:
@@ -37,13 +48,20 @@ const char* status_text(Status status) {
         case Status::periodic_needs_even_cells:
             return "periodic: choose an even number of cells along that axis";
         case Status::unknown_option:
-            return "pressure or contour is no enumerator: pick one from config.hpp";
+            return "pressure, contour or liquid is no enumerator: pick one from config.hpp";
         case Status::memory_missing:
             return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";
         case Status::memory_too_small:
             return "memory: world_bytes<Real>(capacity) bytes are needed";
         case Status::not_initialised: return "call init first, and check what it answers";
+        default: return nullptr;
+    }
+}
+
+/// Answers of the calls that add, move and remove bodies and liquid. Null for another.
+const char* content_text(Status status) {
+    switch (status) {
         case Status::no_free_body:
             return "all bodies are in use: raise capacity.bodies or remove one";
         case Status::no_free_vertex: return "all vertices are in use: raise capacity.vertices";
@@ -73,6 +91,8 @@ const char* status_text(Status status) {
         case Status::no_free_particle:
             return "no room for that many particles: raise capacity.particles";
         case Status::no_such_particle: return "index: choose 0 … number of particles − 1";
+        case Status::no_second_liquid:
+            return "this world holds one liquid: set capacity.second_liquid";
         case Status::particle_not_finite:
             return "particle has a NaN or infinite position or velocity";
         case Status::particle_outside_domain: return "particle: place it within the tank";
@@ -81,9 +101,16 @@ const char* status_text(Status status) {
         case Status::box_not_finite: return "box has a NaN or infinite corner";
         case Status::box_is_empty: return "box: min must be below max along both axes";
         case Status::box_outside_domain: return "box: keep it within the tank";
-        case Status::count: break;
+        default: return nullptr;
     }
-    return "not a status";
+}
+
+}  // namespace
+
+const char* status_text(Status status) {
+    const char* text = init_text(status);
+    text = text != nullptr ? text : content_text(status);
+    return text != nullptr ? text : "not a status";
 }
 
 const char* stage_name(Stage stage) {

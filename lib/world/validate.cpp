@@ -47,10 +47,27 @@ Status check_numerics(const WorldDef& def) {
                                                     : Status::restitution_out_of_range;
 }
 
-Status check_borders(const WorldDef& def) {
+Status check_liquids(const WorldDef& def) {
     if (!within(def.viscosity_m2ps, 0.0F, 1.0e6F * def.cell_m * def.cell_m)) {
         return Status::viscosity_out_of_range;
     }
+    const float cell_volume = def.cell_m * def.cell_m * def.cell_m;
+    if (!within(def.surface_tension_m3ps2, 0.0F, 1.0e12F * cell_volume)) {
+        return Status::surface_tension_out_of_range;
+    }
+    if (def.surface_tension_m3ps2 > 0.0F && def.pressure != Pressure::projection) {
+        return Status::surface_tension_needs_projection;
+    }
+    if (!within(def.second_density_ratio, 0.01F, 100.0F)) {
+        return Status::density_ratio_out_of_range;
+    }
+    if (def.capacity.second_liquid && def.pressure != Pressure::projection) {
+        return Status::second_liquid_needs_projection;
+    }
+    return Status::ok;
+}
+
+Status check_borders(const WorldDef& def) {
     const float fastest = kMaxSpeed * def.cell_m;
     const float slides[] = {def.slide_bottom_mps, def.slide_top_mps, def.slide_left_mps,
                             def.slide_right_mps};
@@ -102,6 +119,10 @@ Status check_world(const WorldDef& def) {
     if ((def.pressure != Pressure::projection && def.pressure != Pressure::equation_of_state) ||
         (def.contour != Contour::interpolated && def.contour != Contour::mid_edge)) {
         return Status::unknown_option;
+    }
+    const Status liquids = check_liquids(def);
+    if (liquids != Status::ok) {
+        return liquids;
     }
     const Status borders = check_borders(def);
     return borders != Status::ok ? borders : check_numerics(def);

@@ -1,13 +1,11 @@
-// The world's life: memory, liquid, views, hash. Bodies are in world_bodies.cpp, the step in
-// world_step.cpp.
+// The world's life: memory, views of the grid, hash. Liquid is in world_liquid.cpp, bodies in
+// world_bodies.cpp, the step in world_step.cpp.
 #include "weir/world.hpp"
 
 #include <cstring>
 #include <new>
 
 #include "base/hash.hpp"
-#include "fluid/seeding.hpp"
-#include "solid/collide.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
 
@@ -65,6 +63,11 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::particle_position, simulation.particles.position);
     carver.take(Block::particle_velocity, simulation.particles.velocity);
     simulation.particles.capacity = capacity.particles;
+    if (capacity.second_liquid) {
+        carver.take(Block::particle_kind, simulation.particles.kind);
+        carver.take(Block::inverse_density_u, simulation.grid.inverse_density_u);
+        carver.take(Block::inverse_density_v, simulation.grid.inverse_density_v);
+    }
     carver.take(Block::velocity_u, simulation.grid.u);
     carver.take(Block::velocity_v, simulation.grid.v);
     carver.take(Block::mass_u, simulation.grid.mass_u);
@@ -99,6 +102,9 @@ Settings<Real> settings_of(const WorldDef& def, Real cells_per_m) {
     settings.volume_gain = static_cast<Real>(def.volume_gain);
     settings.wall_restitution = static_cast<Real>(def.wall_restitution);
     settings.viscosity = cells_per_m * cells_per_m * static_cast<Real>(def.viscosity_m2ps);
+    settings.surface_tension = cells_per_m * cells_per_m * cells_per_m *
+                               static_cast<Real>(def.surface_tension_m3ps2);
+    settings.second_density = static_cast<Real>(def.second_density_ratio);
     settings.borders = borders_of(def, cells_per_m);
     settings.cfl = static_cast<Real>(def.cfl);
     settings.sweeps = def.pressure_sweeps;
@@ -117,37 +123,6 @@ Settings<Real> settings_of(const WorldDef& def, Real cells_per_m) {
 std::uint16_t tag_of(const void* memory) {
     const auto address = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(memory));
     return static_cast<std::uint16_t>((address / world_alignment * 0x9E3779B97F4A7C15ULL) >> 48U);
-}
-
-std::int32_t lattice_per_axis(std::int32_t particles_per_cell) {
-    std::int32_t per_axis = 1;
-    while (per_axis * per_axis < particles_per_cell) {
-        ++per_axis;
-    }
-    return per_axis;
-}
-
-/// A side of the tank, with room for the caller's rounding of the same product.
-float side_m(std::int32_t cells, float cell_m) {
-    return static_cast<float>(cells) * cell_m * 1.000001F;
-}
-
-template <class Real>
-Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f velocity_mps) {
-    if (!is_finite(position_m) || !is_finite(velocity_mps)) {
-        return Status::particle_not_finite;
-    }
-    const Capacity& capacity = state.def.capacity;
-    const float cell_m = state.def.cell_m;
-    if (!within(position_m.x, 0.0F, side_m(capacity.cells_x, cell_m)) ||
-        !within(position_m.y, 0.0F, side_m(capacity.cells_y, cell_m))) {
-        return Status::particle_outside_domain;
-    }
-    const float fastest = kMaxSpeed * cell_m;
-    if (!within(velocity_mps.x, -fastest, fastest) || !within(velocity_mps.y, -fastest, fastest)) {
-        return Status::velocity_out_of_range;
-    }
-    return state.simulation.particles.full() ? Status::no_free_particle : Status::ok;
 }
 
 template <class Real>
@@ -213,97 +188,6 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
 }
 
 template <class Real>
-Status World<Real>::fill(const Box& box_m, std::int32_t* added) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
-    }
-    const Capacity& capacity = state_->def.capacity;
-    const float cell_m = state_->def.cell_m;
-    const Status valid = check_box(box_m, side_m(capacity.cells_x, cell_m),
-                                   side_m(capacity.cells_y, cell_m));
-    if (valid != Status::ok) {
-        return valid;
-    }
-    Simulation<Real>& simulation = state_->simulation;
-    Particles<Real>& particles = simulation.particles;
-    const Vec2<Real> low = state_->cells_per_m * convert<Real>(box_m.min_m);
-    const Vec2<Real> high = state_->cells_per_m * convert<Real>(box_m.max_m);
-    const std::int32_t per_axis = lattice_per_axis(state_->def.particles_per_cell);
-    const GridShape& shape = simulation.grid.shape;
-    const Walls<Real>& walls = simulation.layers.walls;
-    const auto each_seed = [&](auto visit) {
-        for_each_seed(shape, low, high, per_axis, [&](Vec2<Real> at) {
-            if (!walls.active || !inside_solid(shape, walls, at)) {
-                visit(at);
-            }
-        });
-    };
-    std::int32_t seeds = 0;
-    each_seed([&](Vec2<Real>) { ++seeds; });
-    if (seeds > particles.capacity - particles.count) {
-        return Status::no_free_particle;
-    }
-    each_seed([&](Vec2<Real> at) { particles.add(at, {}); });
-    if (added != nullptr) {
-        *added = seeds;
-    }
-    return Status::ok;
-}
-
-template <class Real>
-Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
-    }
-    const Status valid = check_particle(*state_, position_m, velocity_mps);
-    if (valid != Status::ok) {
-        return valid;
-    }
-    Simulation<Real>& simulation = state_->simulation;
-    const Capacity& capacity = state_->def.capacity;
-    const Vec2<Real> at = state_->cells_per_m * convert<Real>(position_m);
-    const Vec2<Real> inside{
-        clamp(at.x, kWallGap<Real>, static_cast<Real>(capacity.cells_x) - kWallGap<Real>),
-        clamp(at.y, kWallGap<Real>, static_cast<Real>(capacity.cells_y) - kWallGap<Real>)};
-    const Walls<Real>& walls = simulation.layers.walls;
-    if (walls.active && inside_solid(simulation.grid.shape, walls, inside)) {
-        return Status::particle_inside_solid;
-    }
-    const Vec2<Real> velocity = state_->cells_per_m * convert<Real>(velocity_mps);
-    simulation.particles.add(inside, velocity);
-    simulation.max_speed = maximum(simulation.max_speed,
-                                   maximum(absolute(velocity.x), absolute(velocity.y)));
-    return Status::ok;
-}
-
-template <class Real>
-Status World<Real>::remove_particle(std::int32_t index) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
-    }
-    Particles<Real>& particles = state_->simulation.particles;
-    if (index < 0 || index >= particles.count) {
-        return Status::no_such_particle;
-    }
-    particles.remove(index);
-    return Status::ok;
-}
-
-template <class Real>
-View<Vec2<Real>> World<Real>::particle_positions() const {
-    return state_ == nullptr ? View<Vec2<Real>>{}
-                             : View<Vec2<Real>>{state_->simulation.particles.position,
-                                                state_->simulation.particles.count};
-}
-
-template <class Real>
-View<Vec2<Real>> World<Real>::particle_velocities() const {
-    return state_ == nullptr ? View<Vec2<Real>>{}
-                             : View<Vec2<Real>>{state_->simulation.particles.velocity,
-                                                state_->simulation.particles.count};
-}
-
-template <class Real>
 FieldView<Real> World<Real>::pressure() const {
     if (state_ == nullptr) {
         return {};
@@ -359,9 +243,13 @@ std::uint64_t World<Real>::state_hash() const {
         hash.add(particles.position[k].y);
         hash.add(particles.velocity[k].x);
         hash.add(particles.velocity[k].y);
+        if (particles.kind != nullptr) {
+            hash.add(static_cast<std::uint32_t>(particles.kind[k]));
+        }
     }
     hash_field(hash, simulation.pressure.pressure, simulation.grid.shape);
-    const Real numbers[] = {simulation.pressure.last_dt, simulation.max_speed,
+    const Real numbers[] = {simulation.pressure.last_dt, simulation.pressure.gravity_change,
+                            simulation.max_speed,
                             simulation.settings.gravity.x, simulation.settings.gravity.y};
     for (const Real number : numbers) {
         hash.add(number);
@@ -370,7 +258,17 @@ std::uint64_t World<Real>::state_hash() const {
     return hash.value();
 }
 
-template class World<float>;
-template class World<double>;
+#define WEIR_INSTANTIATE(Real)                                                       \
+    template Status World<Real>::init(const WorldDef&, void*, std::size_t);          \
+    template FieldView<Real> World<Real>::pressure() const;                          \
+    template float World<Real>::pressure_scale() const;                              \
+    template FieldView<Real> World<Real>::signed_distance() const;                   \
+    template float World<Real>::cell_m() const;                                      \
+    template std::int32_t World<Real>::cells_x() const;                              \
+    template std::int32_t World<Real>::cells_y() const;                              \
+    template std::uint64_t World<Real>::state_hash() const;
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -17,16 +17,21 @@ void sum_particles(const Simulation<Real>& simulation, double cell_m, Diagnostic
     double square = 0.0;
     double fall = 0.0;
     double turn = 0.0;
+    double count = 0.0;
     Vec2<double> momentum;
+    const double second = static_cast<double>(simulation.settings.second_density);
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<double> x = convert<double>(particles.position[k]);
         const Vec2<double> v = convert<double>(particles.velocity[k]);
-        momentum = momentum + v;
-        square += dot(v, v);
-        turn += cross(x, v);
-        fall += dot(gravity, x);
+        const bool heavy = particles.kind != nullptr && particles.kind[k] == Liquid::second;
+        const double weight = heavy ? second : 1.0;
+        count += weight;
+        momentum = momentum + weight * v;
+        square += weight * dot(v, v);
+        turn += weight * cross(x, v);
+        fall += weight * dot(gravity, x);
     }
-    out.mass_m2 = share * static_cast<double>(particles.count);
+    out.mass_m2 = share * count;
     out.momentum_m3ps = (share * cell_m) * momentum;
     out.angular_momentum_m4ps = share * cell_m * cell_m * turn;
     out.kinetic_energy_m4ps2 = 0.5 * share * cell_m * cell_m * square;
@@ -73,7 +78,8 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     const double cell_m = static_cast<double>(state_->def.cell_m);
     *diagnostics = {};
     sum_particles(simulation, cell_m, *diagnostics);
-    particle_to_grid(simulation.particles, borders, simulation.grid);
+    particle_to_grid(simulation.particles, borders, simulation.settings.second_density,
+                     simulation.grid);
     surface_level(simulation.grid, borders, simulation.layers.walls,
                   simulation.settings.rest_count, simulation.pressure);
     grid_update(borders, Vec2<Real>{}, Real(0), simulation.pressure.level, simulation.grid);

@@ -48,7 +48,15 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
     if (limited.x != gravity_mps2.x || limited.y != gravity_mps2.y) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
     }
-    state_->simulation.settings.gravity = state_->cells_per_m * convert<Real>(limited);
+    Simulation<Real>& simulation = state_->simulation;
+    const Vec2<Real> gravity = state_->cells_per_m * convert<Real>(limited);
+    // The pressure that a blow built up must not act after it.
+    const Real before = length(simulation.settings.gravity);
+    const Real now = length(gravity);
+    if (now < before) {
+        simulation.pressure.gravity_change = simulation.pressure.gravity_change * (now / before);
+    }
+    simulation.settings.gravity = gravity;
     return Status::ok;
 }
 
@@ -70,6 +78,9 @@ StepReport World<Real>::step(float dt_s) {
         }
         if (plan.viscosity < simulation.settings.viscosity) {
             mark(report, Clamped::viscosity);
+        }
+        if (plan.surface_tension < simulation.settings.surface_tension) {
+            mark(report, Clamped::surface_tension);
         }
         for (std::int32_t k = 0; k < plan.substeps; ++k) {
             substep(simulation, plan, report);

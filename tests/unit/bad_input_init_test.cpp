@@ -99,6 +99,24 @@ const std::vector<Row>& init_rows() {
         {"viscosity below", CHANGED_INIT(viscosity_m2ps, -1.0e-9F), Status::viscosity_out_of_range},
         {"viscosity beyond", CHANGED_INIT(viscosity_m2ps, 401.0F), Status::viscosity_out_of_range},
         {"viscosity NaN", CHANGED_INIT(viscosity_m2ps, kNan), Status::viscosity_out_of_range},
+        {"surface tension below", CHANGED_INIT(surface_tension_m3ps2, -1.0e-9F),
+         Status::surface_tension_out_of_range},
+        {"surface tension beyond", CHANGED_INIT(surface_tension_m3ps2, 8.1e6F),
+         Status::surface_tension_out_of_range},
+        {"surface tension NaN", CHANGED_INIT(surface_tension_m3ps2, kNan),
+         Status::surface_tension_out_of_range},
+        {"surface tension without projection",
+         CHANGED_INIT(surface_tension_m3ps2 = 7.3e-5F; def.pressure, Pressure::equation_of_state),
+         Status::surface_tension_needs_projection},
+        {"density ratio below", CHANGED_INIT(second_density_ratio, 0.0099F),
+         Status::density_ratio_out_of_range},
+        {"density ratio beyond", CHANGED_INIT(second_density_ratio, 100.1F),
+         Status::density_ratio_out_of_range},
+        {"density ratio NaN", CHANGED_INIT(second_density_ratio, kNan),
+         Status::density_ratio_out_of_range},
+        {"two liquids without projection",
+         CHANGED_INIT(capacity.second_liquid = true; def.pressure, Pressure::equation_of_state),
+         Status::second_liquid_needs_projection},
         {"bottom beyond", CHANGED_INIT(slide_bottom_mps, 2.1e4F), Status::wall_speed_out_of_range},
         {"top NaN", CHANGED_INIT(slide_top_mps, kNan), Status::wall_speed_out_of_range},
         {"left beyond", CHANGED_INIT(slide_left_mps, -2.1e4F), Status::wall_speed_out_of_range},
@@ -223,6 +241,9 @@ TEST(BadInput, LimitsAreInside) {
     EXPECT_EQ(accepted([](WorldDef& def) { def.flip_ratio = 1.0F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.volume_gain = 1.0F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.wall_restitution = 1.0F; }), Status::ok);
+    EXPECT_EQ(accepted([](WorldDef& def) { def.surface_tension_m3ps2 = 7.9e6F; }), Status::ok);
+    EXPECT_EQ(accepted([](WorldDef& def) { def.second_density_ratio = 0.01F; }), Status::ok);
+    EXPECT_EQ(accepted([](WorldDef& def) { def.second_density_ratio = 100.0F; }), Status::ok);
     for (const std::int32_t per_cell : {1, 4, 9, 16}) {
         EXPECT_EQ(accepted([&](WorldDef& def) { def.particles_per_cell = per_cell; }), Status::ok);
     }

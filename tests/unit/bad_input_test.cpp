@@ -204,6 +204,24 @@ const std::vector<Row>& liquid_rows() {
         {"particle too fast",
          [](Fixture& f) { return (*f).add_particle({0.1F, 0.1F}, {2.1e4F, 0}); },
          Status::velocity_out_of_range},
+        {"particle of a second liquid without room for one",
+         [](Fixture& f) { return (*f).add_particle({0.1F, 0.1F}, {0, 0}, Liquid::second); },
+         Status::no_second_liquid},
+        {"particle of no liquid",
+         [](Fixture& f) {
+             return (*f).add_particle({0.1F, 0.1F}, {0, 0}, static_cast<Liquid>(2));
+         },
+         Status::unknown_option},
+        {"box of a second liquid without room for one",
+         [](Fixture& f) {
+             return (*f).fill({{0, 0}, {0.1F, 0.1F}}, nullptr, Liquid::second);
+         },
+         Status::no_second_liquid},
+        {"box of no liquid",
+         [](Fixture& f) {
+             return (*f).fill({{0, 0}, {0.1F, 0.1F}}, nullptr, static_cast<Liquid>(7));
+         },
+         Status::unknown_option},
         {"one particle too many",
          [](Fixture& f) {
              World<float>& world = *f;

@@ -46,7 +46,7 @@ struct Bench {
         const auto count = static_cast<std::int32_t>(x.size());
         return {x.data(), w.data(), count, count};
     }
-    void scatter() { particle_to_grid(particles(), borders, grid); }
+    void scatter() { particle_to_grid(particles(), borders, Real(1), grid); }
     /// n × n particles in each cell of a box of cells, at rest.
     void lattice(std::int32_t i0, std::int32_t j0, std::int32_t i1, std::int32_t j1,
                  std::int32_t n) {

@@ -27,6 +27,7 @@ struct Capacity {
     std::int32_t cells_y = 32;      ///< kMinCells … kMaxCells
     std::int32_t bodies = 0;        ///< 0 … kMaxBodies, static and moving together
     std::int32_t vertices = 0;      ///< 0 … kMaxVertices, summed over all bodies
+    bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
 };
 
 /// How the liquid keeps its volume within a substep.
@@ -40,6 +41,9 @@ enum class Contour : std::uint8_t {
     interpolated,  ///< where the exact signed distance is zero: straight walls are exact
     mid_edge,      ///< through the middle of cell edges, from the binary matrix: as in the paper
 };
+
+/// Which of the two liquids of a tank a particle belongs to.
+enum class Liquid : std::uint8_t { first, second };
 
 /// A free-running counter, any unit, never decreasing. Null: the report's ticks stay 0.
 using TickFunction = std::uint64_t (*)();
@@ -78,6 +82,15 @@ struct WorldDef {
     /// Kinematic shear viscosity, m²/s; 0 (not computed) … 1e6 cells²/s. Water has 1e-6, which no
     /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps.
     float viscosity_m2ps = 0.0F;
+
+    /// Surface tension over density, m³/s²; 0 (not computed) … 1e12 cells³/s². Water has 7.3e-5,
+    /// which shows on cells of a few millimetres and below. Solids and walls are met at a right
+    /// angle. Explicit: on small cells it costs substeps. With Pressure::projection only.
+    float surface_tension_m3ps2 = 0.0F;
+
+    /// Density of the second liquid over that of the first; 0.01 … 100. Only with
+    /// `capacity.second_liquid`, and with Pressure::projection. Unlike densities want more sweeps.
+    float second_density_ratio = 1.0F;
 
     /// Normal velocity that the tank's walls give back; 0 (slide along) … 1 (mirror).
     float wall_restitution = 0.0F;

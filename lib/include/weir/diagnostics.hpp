@@ -5,10 +5,10 @@
 
 namespace weir {
 
-/// Sums over all particles, in double. Per unit of density and of depth into the page: multiply by
-/// ρ for kg/m and so on. A particle's share is cell² / particles_per_cell.
+/// Sums over all particles, in double. Per unit of the first liquid's density and of depth into the
+/// page: multiply by ρ for kg/m and so on. A particle's share is cell² / particles_per_cell.
 struct Diagnostics {
-    double mass_m2 = 0.0;                   ///< particles × share
+    double mass_m2 = 0.0;                   ///< particles × share, by density
     Vec2<double> momentum_m3ps;             ///< Σ share · v
     double angular_momentum_m4ps = 0.0;     ///< Σ share · x × v about the tank's lower left corner
     double kinetic_energy_m4ps2 = 0.0;      ///< Σ share · |v|² / 2

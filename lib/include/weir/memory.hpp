@@ -14,12 +14,12 @@ namespace weir {
 /// Who uses a block, for the table of memory by owner.
 enum class Owner : std::uint8_t {
     world,      ///< the world's own state and the step's report
-    particles,  ///< positions and velocities
+    particles,  ///< positions, velocities and kinds
     bodies,     ///< body table
     vertices,   ///< polygons, their pose in the tank, their convex pieces
     contour,    ///< signed distance at nodes (static and merged), contour matrix
     cut_cells,  ///< open fractions of faces and cells
-    grid,       ///< staggered momentum, velocity and mass
+    grid,       ///< staggered momentum, velocity, mass and inverse density
     pressure,   ///< pressure, its right-hand side and diagonal, surface level
     count
 };
@@ -33,6 +33,7 @@ enum class Block : std::uint8_t {
     world_state,
     particle_position,
     particle_velocity,
+    particle_kind,
     body_table,
     vertex_local,
     vertex_placed,
@@ -50,6 +51,8 @@ enum class Block : std::uint8_t {
     velocity_v,
     mass_u,  ///< then, once velocity is known, the velocity before the pressure
     mass_v,
+    inverse_density_u,  ///< first the mass, where mass_u counts particles
+    inverse_density_v,
     pressure,
     divergence,
     inverse_diagonal,
@@ -91,12 +94,14 @@ constexpr Layout layout(const Capacity& capacity) {
     // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
     const std::size_t cells = (count(capacity.cells_x) + 2) * (count(capacity.cells_y) + 2);
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
+    const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t index = sizeof(std::uint16_t);
     const Row rows[] = {
         {Block::world_state, Owner::world, kWorldStateBytes, 1},
         {Block::particle_position, Owner::particles, point, particles},
         {Block::particle_velocity, Owner::particles, point, particles},
+        {Block::particle_kind, Owner::particles, 1, capacity.second_liquid ? particles : 0},
         {Block::body_table, Owner::bodies, kBodyBytes, count(capacity.bodies)},
         {Block::vertex_local, Owner::vertices, point, vertices},
         {Block::vertex_placed, Owner::vertices, point, vertices},
@@ -114,6 +119,8 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::velocity_v, Owner::grid, sizeof(Real), cells},
         {Block::mass_u, Owner::grid, sizeof(Real), cells},
         {Block::mass_v, Owner::grid, sizeof(Real), cells},
+        {Block::inverse_density_u, Owner::grid, sizeof(Real), mixed_cells},
+        {Block::inverse_density_v, Owner::grid, sizeof(Real), mixed_cells},
         {Block::pressure, Owner::pressure, sizeof(Real), cells},
         {Block::divergence, Owner::pressure, sizeof(Real), cells},
         {Block::inverse_diagonal, Owner::pressure, sizeof(Real), cells},

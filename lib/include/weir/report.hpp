@@ -26,11 +26,12 @@ enum class Clamped : std::uint32_t {
     nothing = 0,
     time_step = 1U << 0U,      ///< dt was not finite, negative or too long for max_substeps
     gravity = 1U << 1U,        ///< gravity was not finite (kept the last) or too strong (limited)
-    speed = 1U << 2U,          ///< particles were limited to `cfl` cells a substep
+    speed = 1U << 2U,          ///< particles were limited to 2 cells a substep
     sound_speed = 1U << 3U,    ///< the equation of state was softened to fit max_substeps
     not_finite = 1U << 4U,     ///< particles with a non-finite state were put to rest
     not_initialised = 1U << 5U,  ///< there is no world: nothing was done
     viscosity = 1U << 6U,      ///< the liquid was made thinner to fit max_substeps
+    surface_tension = 1U << 7U,  ///< it was lowered to fit max_substeps
 };
 
 struct StepReport {
@@ -44,7 +45,7 @@ struct StepReport {
     std::int32_t particles_tested = 0;     ///< in a cell that a contour line crosses or fills
     std::int32_t particles_reflected = 0;  ///< found behind a contour line and turned back
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
-    std::int32_t particles_slowed = 0;     ///< limited to `cfl` cells a substep
+    std::int32_t particles_slowed = 0;     ///< limited to 2 cells a substep
 
     constexpr bool has(Clamped what) const {
         return (clamped & static_cast<std::uint32_t>(what)) != 0U;

@@ -25,6 +25,10 @@ enum class [[nodiscard]] Status : std::uint8_t {
     sound_speed_out_of_range,
     restitution_out_of_range,
     viscosity_out_of_range,
+    surface_tension_out_of_range,
+    surface_tension_needs_projection,
+    density_ratio_out_of_range,
+    second_liquid_needs_projection,
     wall_speed_out_of_range,
     periodic_with_bodies,
     periodic_needs_even_cells,
@@ -54,6 +58,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     // particles
     no_free_particle,
     no_such_particle,
+    no_second_liquid,
     particle_not_finite,
     particle_outside_domain,
     particle_inside_solid,

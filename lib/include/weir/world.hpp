@@ -50,8 +50,8 @@ public:
     /// Fills a box with particles on a lattice, leaving out what is inside solids.
     /// All or nothing: refuses if not every particle has room.
     /// @param added number of particles, may be null.
-    Status fill(const Box& box_m, std::int32_t* added = nullptr);
-    Status add_particle(Vec2f position_m, Vec2f velocity_mps);
+    Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
+    Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
     /// Removes the particle at that place in the views; the last particle takes its place.
     Status remove_particle(std::int32_t index);
 
@@ -65,8 +65,10 @@ public:
     View<Vec2<Real>> particle_positions() const;
     /// Their velocities, cells per second.
     View<Vec2<Real>> particle_velocities() const;
+    /// Which liquid they belong to. Empty if the world has no room for a second one.
+    View<Liquid> particle_kinds() const;
     /// Pressure at cell centres from the last substep, in the solver's own unit: multiply by
-    /// `pressure_scale()` for p / ρ in m²/s². Columns and rows are cells.
+    /// `pressure_scale()` for p / ρ in m²/s², ρ the first liquid's. Columns and rows are cells.
     FieldView<Real> pressure() const;
     float pressure_scale() const;
     /// Signed distance to the nearest solid at the grid's nodes, cells; negative inside, outside

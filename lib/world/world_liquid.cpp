@@ -1,0 +1,176 @@
+// The liquid in a world: particles added, removed and seen.
+#include "fluid/seeding.hpp"
+#include "solid/collide.hpp"
+#include "weir/world.hpp"
+#include "world/validate.hpp"
+#include "world/world_state.hpp"
+
+namespace weir {
+
+namespace {
+
+using detail::WorldState;
+
+std::int32_t lattice_per_axis(std::int32_t particles_per_cell) {
+    std::int32_t per_axis = 1;
+    while (per_axis * per_axis < particles_per_cell) {
+        ++per_axis;
+    }
+    return per_axis;
+}
+
+/// A side of the tank, with room for the caller's rounding of the same product.
+float side_m(std::int32_t cells, float cell_m) {
+    return static_cast<float>(cells) * cell_m * 1.000001F;
+}
+
+template <class Real>
+Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f velocity_mps) {
+    if (!is_finite(position_m) || !is_finite(velocity_mps)) {
+        return Status::particle_not_finite;
+    }
+    const Capacity& capacity = state.def.capacity;
+    const float cell_m = state.def.cell_m;
+    if (!within(position_m.x, 0.0F, side_m(capacity.cells_x, cell_m)) ||
+        !within(position_m.y, 0.0F, side_m(capacity.cells_y, cell_m))) {
+        return Status::particle_outside_domain;
+    }
+    const float fastest = kMaxSpeed * cell_m;
+    if (!within(velocity_mps.x, -fastest, fastest) || !within(velocity_mps.y, -fastest, fastest)) {
+        return Status::velocity_out_of_range;
+    }
+    return state.simulation.particles.full() ? Status::no_free_particle : Status::ok;
+}
+
+template <class Real>
+Status check_kind(const WorldState<Real>& state, Liquid kind) {
+    if (kind == Liquid::first) {
+        return Status::ok;
+    }
+    if (kind != Liquid::second) {
+        return Status::unknown_option;
+    }
+    return state.def.capacity.second_liquid ? Status::ok : Status::no_second_liquid;
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    const Capacity& capacity = state_->def.capacity;
+    const float cell_m = state_->def.cell_m;
+    const Status valid = check_box(box_m, side_m(capacity.cells_x, cell_m),
+                                   side_m(capacity.cells_y, cell_m));
+    if (valid != Status::ok) {
+        return valid;
+    }
+    const Status known = check_kind(*state_, kind);
+    if (known != Status::ok) {
+        return known;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    Particles<Real>& particles = simulation.particles;
+    const Vec2<Real> low = state_->cells_per_m * convert<Real>(box_m.min_m);
+    const Vec2<Real> high = state_->cells_per_m * convert<Real>(box_m.max_m);
+    const std::int32_t per_axis = lattice_per_axis(state_->def.particles_per_cell);
+    const GridShape& shape = simulation.grid.shape;
+    const Walls<Real>& walls = simulation.layers.walls;
+    const auto each_seed = [&](auto visit) {
+        for_each_seed(shape, low, high, per_axis, [&](Vec2<Real> at) {
+            if (!walls.active || !inside_solid(shape, walls, at)) {
+                visit(at);
+            }
+        });
+    };
+    std::int32_t seeds = 0;
+    each_seed([&](Vec2<Real>) { ++seeds; });
+    if (seeds > particles.capacity - particles.count) {
+        return Status::no_free_particle;
+    }
+    each_seed([&](Vec2<Real> at) { particles.add(at, {}, kind); });
+    if (added != nullptr) {
+        *added = seeds;
+    }
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    const Status valid = check_particle(*state_, position_m, velocity_mps);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    const Status known = check_kind(*state_, kind);
+    if (known != Status::ok) {
+        return known;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    const Capacity& capacity = state_->def.capacity;
+    const Vec2<Real> at = state_->cells_per_m * convert<Real>(position_m);
+    const Vec2<Real> inside{
+        clamp(at.x, kWallGap<Real>, static_cast<Real>(capacity.cells_x) - kWallGap<Real>),
+        clamp(at.y, kWallGap<Real>, static_cast<Real>(capacity.cells_y) - kWallGap<Real>)};
+    const Walls<Real>& walls = simulation.layers.walls;
+    if (walls.active && inside_solid(simulation.grid.shape, walls, inside)) {
+        return Status::particle_inside_solid;
+    }
+    const Vec2<Real> velocity = state_->cells_per_m * convert<Real>(velocity_mps);
+    simulation.particles.add(inside, velocity, kind);
+    simulation.max_speed = maximum(simulation.max_speed,
+                                   maximum(absolute(velocity.x), absolute(velocity.y)));
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::remove_particle(std::int32_t index) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    Particles<Real>& particles = state_->simulation.particles;
+    if (index < 0 || index >= particles.count) {
+        return Status::no_such_particle;
+    }
+    particles.remove(index);
+    return Status::ok;
+}
+
+template <class Real>
+View<Vec2<Real>> World<Real>::particle_positions() const {
+    return state_ == nullptr ? View<Vec2<Real>>{}
+                             : View<Vec2<Real>>{state_->simulation.particles.position,
+                                                state_->simulation.particles.count};
+}
+
+template <class Real>
+View<Vec2<Real>> World<Real>::particle_velocities() const {
+    return state_ == nullptr ? View<Vec2<Real>>{}
+                             : View<Vec2<Real>>{state_->simulation.particles.velocity,
+                                                state_->simulation.particles.count};
+}
+
+template <class Real>
+View<Liquid> World<Real>::particle_kinds() const {
+    return state_ == nullptr || state_->simulation.particles.kind == nullptr
+               ? View<Liquid>{}
+               : View<Liquid>{state_->simulation.particles.kind,
+                              state_->simulation.particles.count};
+}
+
+#define WEIR_INSTANTIATE(Real)                                                       \
+    template Status World<Real>::fill(const Box&, std::int32_t*, Liquid);            \
+    template Status World<Real>::add_particle(Vec2f, Vec2f, Liquid);                 \
+    template Status World<Real>::remove_particle(std::int32_t);                      \
+    template View<Vec2<Real>> World<Real>::particle_positions() const;               \
+    template View<Vec2<Real>> World<Real>::particle_velocities() const;              \
+    template View<Liquid> World<Real>::particle_kinds() const;
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

@@ -1,0 +1,159 @@
+// R14: a closed box for a million steps, left alone (i) and kicked (v); and a pool at rest.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "cases.hpp"
+
+namespace stability {
+
+using weir::Vec2f;
+
+namespace {
+
+constexpr float kBox = 1.0F;    // m
+constexpr float kDepth = 0.4F;  // m, once settled
+constexpr double kGravity = 9.81;
+
+/// A box of 1 m × 1 m in `cells` cells a side, N a power of two.
+template <class Real>
+weir::WorldDef box_def(const Scheme& scheme, std::int32_t cells) {
+    weir::WorldDef def = tank_def(scheme, cells, cells, 4 * cells * cells);
+    def.cell_m = kBox / static_cast<float>(cells);
+    // Ten times the speed of the fastest liquid to be expected: c = 10 √(g h).
+    def.sound_speed_mps = scheme.elastic() ? 20.0F : 0.0F;
+    return def;
+}
+
+struct Goal {
+    double volume;    ///< |drift| at the end
+    double residual;  ///< rms speed, of √(g h)
+};
+
+/// The projection damps little: what still sways after 20,000 steps is gone after 200,000.
+Goal goal_of(const Scheme& scheme, std::int32_t steps) {
+    const double sways = steps < 200000 ? 0.02 : 1.0e-4;
+    return scheme.elastic() ? Goal{0.05, 1.0e-3} : Goal{0.02, sways};
+}
+
+template <class Real>
+struct Soak {
+    Report& report;
+    std::string name;
+    Scheme scheme;
+    Tank<Real> tank;
+    std::int32_t steps;
+
+    Soak(Report& r, const std::string& n, const Scheme& s, std::int32_t cells, std::int32_t count)
+        : report(r), name(n), scheme(s), tank(box_def<Real>(s, cells)), steps(count) {
+        const auto width = static_cast<float>(cells);
+        tank.fill(0, 0, 0.5F * width, 0.8F * width);
+    }
+
+    /// Drift at each power of ten of steps; the last 1,000 steps' worst rms speed.
+    void run(std::int32_t kick_every) {
+        double residual = 0.0;
+        std::int32_t next = 1000;
+        for (std::int32_t k = 1; k <= steps; ++k) {
+            if (kick_every > 0 && k % kick_every == 0 && k + 1000 < steps) {
+                kick(k / kick_every);
+            } else {
+                tank.step(scheme.dt_s());
+            }
+            if (k > steps - 1000) {
+                residual = std::max(residual, tank.rms_speed());
+            }
+            if (k == next) {
+                report.figure(name + ".drift_at_" + std::to_string(k), tank.volume_error(), "1");
+                next *= 10;
+            }
+        }
+        finish(residual, kick_every > 0);
+    }
+
+    /// One step of gravity as strong as may be, 0.3 sound speeds' worth or as much as a step takes.
+    void kick(std::int32_t number) {
+        const float strength = std::min(900.0F, 6.0F / scheme.dt_s());
+        const float angle = 2.4F * static_cast<float>(number);
+        tank.set_gravity({strength * std::cos(angle), strength * std::sin(angle)});
+        tank.step(scheme.dt_s());
+        tank.set_gravity({0.0F, -9.81F});
+    }
+
+    void finish(double residual, bool kicked) {
+        const Goal goal = goal_of(scheme, steps);
+        const double depth = static_cast<double>(kDepth);
+        const double unit =
+            std::sqrt(kGravity * depth) / static_cast<double>(tank.def().cell_m);
+        // A kick presses liquid into a corner; the drift that keeps the volume lifts it again.
+        const double energy = scheme.elastic() || kicked ? 1.05 : 1.0 + 1.0e-6;
+        report.run(name, tank.tally(), Bounds{energy, 0.15, false});
+        report.at_most(name + ".volume_drift", std::fabs(tank.volume_error()), "1", goal.volume);
+        if (kicked) {
+            report.figure(name + ".residual_speed", residual / unit, "sqrt(gh)");
+        } else {
+            report.at_most(name + ".residual_speed", residual / unit, "sqrt(gh)", goal.residual);
+        }
+    }
+};
+
+std::int32_t step_count(const Effort& effort, const Scheme& scheme, std::int32_t cells) {
+    if (!effort.full) {
+        return 20000;
+    }
+    return scheme.elastic() || cells > 16 ? 200000 : 1000000;
+}
+
+template <class Real>
+void rest(Report& report, const Scheme& scheme, std::int32_t steps) {
+    Tank<Real> tank(box_def<Real>(scheme, 16));
+    tank.fill(0, 0, 16, 8);
+    tank.run(steps - 1000, scheme.dt_s());
+    const auto view = tank.world().particle_positions();
+    const std::vector<weir::Vec2<Real>> before(view.begin(), view.end());
+    const std::uint64_t hash = tank.world().state_hash();
+    tank.run(999, scheme.dt_s());
+    const std::uint64_t last_but_one = tank.world().state_hash();
+    tank.run(1, scheme.dt_s());
+    double most = 0.0;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        const auto now = tank.world().particle_positions()[static_cast<std::int32_t>(k)];
+        most = std::max(most, std::hypot(static_cast<double>(now.x - before[k].x),
+                                         static_cast<double>(now.y - before[k].y)));
+    }
+    const std::string name = label<Real>("R14.rest", scheme);
+    const std::uint64_t end = tank.world().state_hash();
+    // The lattice that it starts from is not quite where it rests.
+    report.run(name, tank.tally(), Bounds{1.001, 0.15, false});
+    report.at_most(name + ".largest_way_in_last_1000", most, "cells",
+                   scheme.elastic() ? 2.0 : 0.05);
+    report.figure(name + ".same_bits_as_1000_steps_ago", end == hash ? 1 : 0, "1");
+    report.figure(name + ".same_bits_as_the_step_before", end == last_but_one ? 1 : 0, "1");
+    report.figure(name + ".volume_drift", tank.volume_error(), "1");
+}
+
+}  // namespace
+
+void soak(Report& report, const Effort& effort) {
+    each_scheme(false, false, [&](const Scheme& scheme, auto real) {
+        using Real = decltype(real);
+        for (const std::int32_t cells : {16, 32}) {
+            if (cells > 16 && !effort.full) {
+                continue;
+            }
+            const std::int32_t steps = step_count(effort, scheme, cells);
+            const std::string name = label<Real>("R14.N", scheme) + "." + std::to_string(cells);
+            Soak<Real>(report, name + ".i", scheme, cells, steps).run(0);
+            Soak<Real>(report, name + ".v", scheme, cells, steps).run(steps / 10);
+        }
+    });
+}
+
+void resting_pool(Report& report, const Effort& effort) {
+    each_scheme(false, false, [&](const Scheme& scheme, auto real) {
+        const std::int32_t quick = scheme.elastic() ? 20000 : 100000;
+        rest<decltype(real)>(report, scheme, effort.full ? 10 * quick : quick);
+    });
+}
+
+}  // namespace stability

@@ -1,0 +1,325 @@
+#include "tank.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "contour/marching_squares.hpp"
+
+namespace stability {
+
+using weir::BodyId;
+using weir::Clamped;
+using weir::Status;
+using weir::StepReport;
+using weir::Vec2;
+using weir::Vec2f;
+
+namespace {
+
+void require(Status status) {
+    if (status != Status::ok) {
+        throw std::runtime_error(std::string("refused: ") + weir::status_text(status));
+    }
+}
+
+template <class Real>
+bool finite_pair(Vec2<Real> a) {
+    return std::isfinite(a.x) && std::isfinite(a.y);
+}
+
+}  // namespace
+
+std::string Scheme::name() const {
+    std::string text = elastic() ? "eos" : "projection";
+    return contour == weir::Contour::mid_edge ? text + ".mid_edge" : text;
+}
+
+weir::WorldDef tank_def(const Scheme& scheme, std::int32_t cells_x, std::int32_t cells_y,
+                        std::int32_t particles, std::int32_t bodies, std::int32_t vertices) {
+    weir::WorldDef def;
+    def.capacity.cells_x = cells_x;
+    def.capacity.cells_y = cells_y;
+    def.capacity.particles = particles;
+    def.capacity.bodies = bodies;
+    def.capacity.vertices = vertices;
+    def.cell_m = kCell;
+    def.pressure = scheme.pressure;
+    def.contour = scheme.contour;
+    def.sound_speed_mps = scheme.elastic() ? 10.0F : 0.0F;
+    def.max_substeps = 32;
+    return def;
+}
+
+template <class Real>
+Tank<Real>::Tank(const weir::WorldDef& def, unsigned char dirt)
+    : def_(def),
+      memory_(weir::world_bytes<Real>(def.capacity) / sizeof(Line)),
+      gravity_mps2_(def.gravity_mps2) {
+    std::memset(static_cast<void*>(memory_.data()), dirt, memory_.size() * sizeof(Line));
+    require(world_.init(def, memory_.data(), memory_.size() * sizeof(Line)));
+}
+
+template <class Real>
+std::int32_t Tank<Real>::fill(float x0, float y0, float x1, float y1) {
+    std::int32_t added = 0;
+    const double before = energy();
+    require(world_.fill({to_m({x0, y0}), to_m({x1, y1})}, &added));
+    expected_ += added;
+    put_in_ += energy() - before;
+    return added;
+}
+
+template <class Real>
+void Tank<Real>::fill_moving(float x0, float y0, float x1, float y1, Vec2f velocity) {
+    const float per_axis = std::sqrt(static_cast<float>(def_.particles_per_cell));
+    const auto count = [&](float from, float to) {
+        return static_cast<int>((to - from) * per_axis);
+    };
+    for (int b = 0; b < count(y0, y1); ++b) {
+        for (int a = 0; a < count(x0, x1); ++a) {
+            add({x0 + (static_cast<float>(a) + 0.5F) / per_axis,
+                 y0 + (static_cast<float>(b) + 0.5F) / per_axis},
+                velocity);
+        }
+    }
+}
+
+template <class Real>
+void Tank<Real>::add(Vec2f at, Vec2f velocity) {
+    require(world_.add_particle(to_m(at), to_m(velocity)));
+    put_in_ += energy_of(expected_++);
+}
+
+template <class Real>
+void Tank<Real>::remove(std::int32_t index) {
+    require(world_.remove_particle(index));
+    --expected_;
+    energy_from_now();
+}
+
+template <class Real>
+BodyId Tank<Real>::add_body(const Ring& ring, const weir::Motion& motion, float restitution,
+                            bool moving) {
+    Ring metres;
+    for (const Vec2f p : ring) {
+        metres.push_back(to_m(p));
+    }
+    weir::BodyDef def;
+    def.polygon = {metres.data(), static_cast<std::int32_t>(metres.size())};
+    def.motion = motion;
+    def.restitution = restitution;
+    BodyId id;
+    require(moving ? world_.add_moving_body(def, &id) : world_.add_static_body(def, &id));
+    tally_.solids = true;
+    return id;
+}
+
+template <class Real>
+BodyId Tank<Real>::add_static(const Ring& ring, Vec2f at, float angle_rad, float restitution) {
+    return add_body(ring, {to_m(at), angle_rad, {}, 0.0F}, restitution, false);
+}
+
+template <class Real>
+BodyId Tank<Real>::add_moving(const Ring& ring, Vec2f at, Vec2f velocity, float spin,
+                              float restitution) {
+    return add_body(ring, {to_m(at), 0.0F, to_m(velocity), spin}, restitution, true);
+}
+
+template <class Real>
+void Tank<Real>::move(BodyId id, Vec2f at, Vec2f velocity, float angle, float spin) {
+    require(world_.set_motion(id, {to_m(at), angle, to_m(velocity), spin}));
+}
+
+template <class Real>
+void Tank<Real>::set_gravity(Vec2f gravity_mps2) {
+    require(world_.set_gravity(gravity_mps2));
+    gravity_mps2_ = gravity_mps2;
+    energy_from_now();
+}
+
+/// What a report says must fit what was asked, what is there, and itself.
+template <class Real>
+bool Tank<Real>::consistent(const StepReport& r, float dt_s, double fastest) const {
+    const bool usable = std::isfinite(dt_s) && dt_s >= 1.0e-9F;
+    const bool time = usable ? r.dt_s > 0.0F && r.dt_s <= dt_s * 1.000001F && r.substeps >= 1 &&
+                                   r.substeps <= def_.max_substeps
+                             : r.dt_s == 0.0F && r.substeps == 0;
+    const bool shortened = !usable || r.dt_s < dt_s * 0.999999F;
+    const bool flags = r.has(Clamped::time_step) == shortened &&
+                       r.has(Clamped::speed) == (r.particles_slowed > 0) &&
+                       r.has(Clamped::not_finite) == (r.particles_reset > 0) &&
+                       !r.has(Clamped::not_initialised);
+    const double reported = static_cast<double>(r.max_speed_mps) / static_cast<double>(def_.cell_m);
+    return time && flags && r.particles == expected_ && std::isfinite(reported) &&
+           fastest <= reported * 1.0001 + 1.0e-9;
+}
+
+template <class Real>
+StepReport Tank<Real>::step(float dt_s) {
+    const StepReport report = world_.step(dt_s);
+    const auto x = world_.particle_positions();
+    const auto v = world_.particle_velocities();
+    const auto width = static_cast<Real>(world_.cells_x());
+    const auto height = static_cast<Real>(world_.cells_y());
+    double fastest = 0.0;
+    bool all_finite = true;
+    for (std::int32_t k = 0; k < x.size; ++k) {
+        const bool finite = finite_pair(x[k]) && finite_pair(v[k]);
+        // False for a NaN. A periodic tank's lower side belongs to it.
+        const bool inside = (x[k].x > 0 || (def_.periodic_x && x[k].x >= 0)) && x[k].x < width &&
+                            (x[k].y > 0 || (def_.periodic_y && x[k].y >= 0)) && x[k].y < height;
+        tally_.not_finite += finite ? 0 : 1;
+        tally_.outside += inside ? 0 : 1;
+        all_finite = all_finite && finite && inside;
+        fastest = std::max({fastest, std::fabs(static_cast<double>(v[k].x)),
+                            std::fabs(static_cast<double>(v[k].y))});
+    }
+    ++tally_.steps;
+    tally_.substeps += report.substeps;
+    tally_.lost += x.size == expected_ ? 0 : 1;
+    tally_.reset += report.particles_reset;
+    tally_.slowed += report.particles_slowed;
+    tally_.clamped |= report.clamped;
+    tally_.inconsistent += consistent(report, dt_s, fastest) ? 0 : 1;
+    tally_.fastest = std::max(tally_.fastest, fastest);
+    if (put_in_ > 0.0) {
+        const double ratio = energy() / put_in_;
+        tally_.energy_ratio = ratio <= tally_.energy_ratio ? tally_.energy_ratio : ratio;
+    }
+    if (tally_.solids && all_finite) {
+        look_at_depths();
+    }
+    return report;
+}
+
+template <class Real>
+void Tank<Real>::run(std::int32_t steps, float dt_s) {
+    for (std::int32_t k = 0; k < steps; ++k) {
+        step(dt_s);
+    }
+}
+
+template <class Real>
+double Tank<Real>::depth(Vec2<Real> x) const {
+    const auto field = world_.signed_distance();
+    const auto i = static_cast<std::int32_t>(x.x);
+    const auto j = static_cast<std::int32_t>(x.y);
+    const Real corner[4] = {field.at(i, j), field.at(i + 1, j), field.at(i + 1, j + 1),
+                            field.at(i, j + 1)};
+    const Vec2<Real> local{x.x - static_cast<Real>(i), x.y - static_cast<Real>(j)};
+    if (*std::max_element(corner, corner + 4) > Real(0)) {
+        return -static_cast<double>(
+            weir::contour_distance(weir::contour_cell(corner), local).distance);
+    }
+    const Real low = corner[0] + local.x * (corner[1] - corner[0]);
+    const Real high = corner[3] + local.x * (corner[2] - corner[3]);
+    return -static_cast<double>(low + local.y * (high - low));
+}
+
+/// Whether the solid about the cell of a point has a node a cell or more inside it.
+template <class Real>
+bool Tank<Real>::thick_at(Vec2<Real> x) const {
+    const auto field = world_.signed_distance();
+    const auto first_i = std::max(0, static_cast<std::int32_t>(x.x) - 1);
+    const auto first_j = std::max(0, static_cast<std::int32_t>(x.y) - 1);
+    const auto last_i = std::min(field.columns - 1, static_cast<std::int32_t>(x.x) + 2);
+    const auto last_j = std::min(field.rows - 1, static_cast<std::int32_t>(x.y) + 2);
+    Real deepest = Real(0);
+    for (std::int32_t j = first_j; j <= last_j; ++j) {
+        for (std::int32_t i = first_i; i <= last_i; ++i) {
+            deepest = std::min(deepest, field.at(i, j));
+        }
+    }
+    // The paper's matrix knows inside from outside only.
+    return deepest <= (def_.contour == weir::Contour::mid_edge ? Real(-0.5) : Real(-1));
+}
+
+template <class Real>
+void Tank<Real>::look_at_depths() {
+    for (const Vec2<Real> x : world_.particle_positions()) {
+        const double deep = depth(x);
+        if (deep > std::min(tally_.deepest, tally_.deepest_thin)) {
+            double& worst = thick_at(x) ? tally_.deepest : tally_.deepest_thin;
+            worst = std::max(worst, deep);
+        }
+    }
+}
+
+template <class Real>
+double Tank<Real>::kinetic_energy() const {
+    double sum = 0.0;
+    for (const Vec2<Real> v : world_.particle_velocities()) {
+        const auto vx = static_cast<double>(v.x);
+        const auto vy = static_cast<double>(v.y);
+        sum += 0.5 * (vx * vx + vy * vy);
+    }
+    return sum;
+}
+
+template <class Real>
+double Tank<Real>::energy_of(std::int32_t index) const {
+    const auto cell = static_cast<double>(def_.cell_m);
+    const double gx = static_cast<double>(gravity_mps2_.x) / cell;
+    const double gy = static_cast<double>(gravity_mps2_.y) / cell;
+    const double corner_x = gx > 0.0 ? world_.cells_x() : 0.0;
+    const double corner_y = gy > 0.0 ? world_.cells_y() : 0.0;
+    const Vec2<Real> x = world_.particle_positions()[index];
+    const Vec2<Real> v = world_.particle_velocities()[index];
+    const auto vx = static_cast<double>(v.x);
+    const auto vy = static_cast<double>(v.y);
+    return 0.5 * (vx * vx + vy * vy) - gx * (static_cast<double>(x.x) - corner_x) -
+           gy * (static_cast<double>(x.y) - corner_y);
+}
+
+template <class Real>
+double Tank<Real>::energy() const {
+    double sum = 0.0;
+    for (std::int32_t k = 0; k < world_.particle_positions().size; ++k) {
+        sum += energy_of(k);
+    }
+    return sum;
+}
+
+template <class Real>
+double Tank<Real>::mean_height() const {
+    double sum = 0.0;
+    for (const Vec2<Real> x : world_.particle_positions()) {
+        sum += static_cast<double>(x.y);
+    }
+    return sum / std::max(1, expected_);
+}
+
+template <class Real>
+double Tank<Real>::rms_speed() const {
+    return std::sqrt(2.0 * kinetic_energy() / std::max(1, expected_));
+}
+
+template <class Real>
+double Tank<Real>::depth_at_rest() const {
+    return static_cast<double>(expected_) / (def_.particles_per_cell * world_.cells_x());
+}
+
+template <class Real>
+double Tank<Real>::volume_error() const {
+    return mean_height() / (0.5 * depth_at_rest()) - 1.0;
+}
+
+template <class Real>
+double Tank<Real>::highest_density() const {
+    const auto columns = static_cast<std::size_t>(world_.cells_x());
+    std::vector<int> count(columns * static_cast<std::size_t>(world_.cells_y()));
+    int most = 0;
+    for (const Vec2<Real> x : world_.particle_positions()) {
+        const std::size_t cell =
+            static_cast<std::size_t>(x.y) * columns + static_cast<std::size_t>(x.x);
+        most = std::max(most, ++count[cell]);
+    }
+    return static_cast<double>(most) / def_.particles_per_cell;
+}
+
+template class Tank<float>;
+template class Tank<double>;
+
+}  // namespace stability

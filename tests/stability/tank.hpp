@@ -1,0 +1,160 @@
+// A world under watch: after each step everything that must hold is looked at and counted. Scenes
+// are written in cells; a cell's edge is a power of two of a metre, so nothing is rounded between.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "weir/weir.hpp"
+
+namespace stability {
+
+inline constexpr float kCell = 1.0F / 64.0F;
+inline constexpr float kFrame = 1.0F / 60.0F;
+
+/// What is run: how volume is kept, where walls are, in which arithmetic.
+struct Scheme {
+    weir::Pressure pressure = weir::Pressure::projection;
+    weir::Contour contour = weir::Contour::interpolated;
+
+    bool elastic() const { return pressure == weir::Pressure::equation_of_state; }
+    /// A frame for the projection, a quarter of it for the equation of state.
+    float dt_s() const { return elastic() ? 0.25F * kFrame : kFrame; }
+    std::string name() const;
+};
+
+using Ring = std::vector<weir::Vec2f>;
+
+/// A world's definition for the scheme: water, sound at 10 m/s, room for substeps.
+weir::WorldDef tank_def(const Scheme& scheme, std::int32_t cells_x, std::int32_t cells_y,
+                        std::int32_t particles, std::int32_t bodies = 0,
+                        std::int32_t vertices = 0);
+
+/// What was seen, over all steps so far. Particles that stay wrong are counted in every step.
+struct Tally {
+    std::int64_t steps = 0;
+    std::int64_t substeps = 0;
+    std::int64_t not_finite = 0;
+    std::int64_t outside = 0;
+    std::int64_t lost = 0;
+    std::int64_t reset = 0;
+    std::int64_t slowed = 0;
+    std::int64_t inconsistent = 0;  ///< steps whose report contradicts the state or itself
+    std::uint32_t clamped = 0;
+    double energy_ratio = 0.0;      ///< highest energy, of what was put in until then
+    double deepest = 0.0;       ///< behind the contour of a solid two cells thick or more, cells
+    double deepest_thin = 0.0;  ///< the same in thinner ones, which are not tight
+    double fastest = 0.0;           ///< along an axis, cells/s
+    bool solids = false;
+
+    bool whole() const {
+        return not_finite == 0 && outside == 0 && lost == 0 && inconsistent == 0;
+    }
+    bool saw(weir::Clamped what) const { return (clamped & static_cast<std::uint32_t>(what)) != 0; }
+};
+
+template <class Real>
+class Tank {
+public:
+    /// @param dirt every byte of the memory before init.
+    explicit Tank(const weir::WorldDef& def, unsigned char dirt = 0xA5);
+    Tank(const Tank&) = delete;
+    Tank& operator=(const Tank&) = delete;
+
+    weir::World<Real>& world() { return world_; }
+    const weir::World<Real>& world() const { return world_; }
+    const weir::WorldDef& def() const { return def_; }
+    const Tally& tally() const { return tally_; }
+
+    /// All of these throw if the world refuses. Cells, cells a second.
+    std::int32_t fill(float x0, float y0, float x1, float y1);
+    /// Liquid on the lattice that moves from the start.
+    void fill_moving(float x0, float y0, float x1, float y1, weir::Vec2f velocity);
+    void add(weir::Vec2f at, weir::Vec2f velocity);
+    void remove(std::int32_t index);
+    weir::BodyId add_static(const Ring& ring, weir::Vec2f at, float angle_rad = 0.0F,
+                            float restitution = 0.0F);
+    weir::BodyId add_moving(const Ring& ring, weir::Vec2f at, weir::Vec2f velocity, float spin,
+                            float restitution = 0.0F);
+    void move(weir::BodyId id, weir::Vec2f at, weir::Vec2f velocity, float angle, float spin);
+    /// What is put in is counted anew from here.
+    void set_gravity(weir::Vec2f gravity_mps2);
+    /// What is put in is what is there now.
+    void energy_from_now() { put_in_ = energy(); }
+
+    weir::StepReport step(float dt_s);
+    void run(std::int32_t steps, float dt_s);
+
+    /// Kinetic and potential energy per mass of a particle, cells²/s², potential from the corner of
+    /// the tank that gravity points to.
+    double energy() const;
+    double kinetic_energy() const;
+    double mean_height() const;
+    double rms_speed() const;
+    /// Height of the centre of mass against that of the same liquid at rest, −1 … A box without
+    /// solids, gravity downwards, settled.
+    double volume_error() const;
+    /// The same as a height of the surface, cells.
+    double level_error() const { return volume_error() * depth_at_rest(); }
+    double depth_at_rest() const;
+    /// Most particles in one cell, of those at rest in a full one.
+    double highest_density() const;
+    std::int32_t particles() const { return expected_; }
+
+private:
+    struct alignas(weir::world_alignment) Line {
+        std::byte bytes[weir::world_alignment];
+    };
+    weir::BodyId add_body(const Ring& ring, const weir::Motion& motion, float restitution,
+                          bool moving);
+    bool consistent(const weir::StepReport& report, float dt_s, double fastest) const;
+    void look_at_depths();
+    double depth(weir::Vec2<Real> x) const;
+    bool thick_at(weir::Vec2<Real> x) const;
+    double energy_of(std::int32_t index) const;
+    weir::Vec2f to_m(weir::Vec2f cells) const {
+        return {cells.x * def_.cell_m, cells.y * def_.cell_m};
+    }
+
+    weir::WorldDef def_;
+    std::vector<Line> memory_;
+    weir::World<Real> world_;
+    weir::Vec2f gravity_mps2_;
+    std::int32_t expected_ = 0;
+    double put_in_ = 0.0;
+    Tally tally_;
+};
+
+extern template class Tank<float>;
+extern template class Tank<double>;
+
+/// Calls visit(scheme, Real{}) for both pressures, both contours where solids take part, and both
+/// arithmetics if `twice`.
+template <class Visit>
+void each_scheme(bool solids, bool twice, Visit visit) {
+    for (const auto pressure : {weir::Pressure::projection, weir::Pressure::equation_of_state}) {
+        for (const auto contour : {weir::Contour::interpolated, weir::Contour::mid_edge}) {
+            if (contour == weir::Contour::interpolated || solids) {
+                visit(Scheme{pressure, contour}, float{});
+            }
+            if (twice && contour == weir::Contour::interpolated) {
+                visit(Scheme{pressure, contour}, double{});
+            }
+        }
+    }
+}
+
+template <class Real>
+const char* real_name() {
+    return sizeof(Real) == sizeof(float) ? ".float" : ".double";
+}
+
+/// `S5.projection.float` and the like.
+template <class Real>
+std::string label(const char* name, const Scheme& scheme) {
+    return std::string(name) + "." + scheme.name() + real_name<Real>();
+}
+
+}  // namespace stability
