@@ -1,7 +1,7 @@
 // The particle pool: positions in cells, velocities in cells per second.
 #pragma once
 
-#include "math/vec2.hpp"
+#include "grid/staggered_grid.hpp"
 #include "weir/config.hpp"
 
 namespace weir {
@@ -37,5 +37,12 @@ struct Particles {
 /// Particles stay this far inside the tank, cells: every stencil then lies within the arrays.
 template <class Real>
 inline constexpr Real kWallGap = Real(1.0 / 64.0);
+
+/// The nearest point that a particle may have.
+template <class Real>
+inline Vec2<Real> within_tank(const GridShape& s, Vec2<Real> x) {
+    return {clamp(x.x, kWallGap<Real>, static_cast<Real>(s.nx) - kWallGap<Real>),
+            clamp(x.y, kWallGap<Real>, static_cast<Real>(s.ny) - kWallGap<Real>)};
+}
 
 }  // namespace weir

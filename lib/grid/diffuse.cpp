@@ -5,9 +5,8 @@ namespace weir {
 template <class Real>
 void diffuse(const GridShape& s, const Real* level, std::int32_t back, std::int32_t first_i,
              std::int32_t first_j, Real amount, const Real* field, Real* out) {
-    constexpr Real kDry = Real(-1.5);
     const auto wet = [&](std::int32_t face) {
-        return level[face] > kDry && level[face - back] > kDry;
+        return level[face] > kEmptyLevel<Real> && level[face - back] > kEmptyLevel<Real>;
     };
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {

@@ -19,6 +19,10 @@ struct GridShape {
     std::int32_t index(std::int32_t i, std::int32_t j) const { return (j + 1) * stride + i + 1; }
 };
 
+/// Level of a cell that no particle reaches (level_of_density(0)), cells.
+template <class Real>
+inline constexpr Real kEmptyLevel = Real(-1.5);
+
 template <class Real>
 struct StaggeredGrid {
     GridShape shape;

@@ -15,10 +15,6 @@ constexpr Real kFilledShare = Real(0.8);
 template <class Real>
 constexpr Real kFilledLevel = Real(0.5);
 
-/// What level_of_density answers for a cell that no particle reaches.
-template <class Real>
-constexpr Real kEmptyLevel = Real(-1.5);
-
 template <class Real>
 void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
                         Real rest_count, PressureFields<Real>& fields) {

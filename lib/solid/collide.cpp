@@ -93,12 +93,6 @@ Vec2<Real> reflect(const Body<Real>& body, Vec2<Real> x, Vec2<Real> v, Vec2<Real
     return approach < Real(0) ? v - ((Real(1) + body.restitution) * approach) * normal : v;
 }
 
-template <class Real>
-Vec2<Real> within_tank(const GridShape& s, Vec2<Real> x) {
-    return {clamp(x.x, kWallGap<Real>, static_cast<Real>(s.nx) - kWallGap<Real>),
-            clamp(x.y, kWallGap<Real>, static_cast<Real>(s.ny) - kWallGap<Real>)};
-}
-
 }  // namespace
 
 template <class Real>

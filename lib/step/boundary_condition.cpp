@@ -32,8 +32,7 @@ Mirror<Real> mirror_of(const GridShape& s, Vec2<Real> face, Real distance, Vec2<
     const Real depth = -distance;
     const Real reach = maximum(depth, kLeastReach<Real>);
     const Vec2<Real> point = face + (depth + reach) * mirror.normal;
-    mirror.point = {clamp(point.x, kWallGap<Real>, static_cast<Real>(s.nx) - kWallGap<Real>),
-                    clamp(point.y, kWallGap<Real>, static_cast<Real>(s.ny) - kWallGap<Real>)};
+    mirror.point = within_tank(s, point);
     mirror.ratio = depth / reach;
     return mirror;
 }

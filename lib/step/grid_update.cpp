@@ -39,7 +39,7 @@ void extrapolate_component(Real* velocity, const Real* before, const Real* level
     };
     // A face that has mass shows in both its cells; one that has none is read by no particle.
     const auto empty = [&](std::int32_t face) {
-        return level[face] <= Real(-1.5) || level[face - back] <= Real(-1.5);
+        return level[face] <= kEmptyLevel<Real> || level[face - back] <= kEmptyLevel<Real>;
     };
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {

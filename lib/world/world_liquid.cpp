@@ -111,11 +111,8 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         return known;
     }
     Simulation<Real>& simulation = state_->simulation;
-    const Capacity& capacity = state_->def.capacity;
     const Vec2<Real> at = state_->cells_per_m * convert<Real>(position_m);
-    const Vec2<Real> inside{
-        clamp(at.x, kWallGap<Real>, static_cast<Real>(capacity.cells_x) - kWallGap<Real>),
-        clamp(at.y, kWallGap<Real>, static_cast<Real>(capacity.cells_y) - kWallGap<Real>)};
+    const Vec2<Real> inside = within_tank(simulation.grid.shape, at);
     const Walls<Real>& walls = simulation.layers.walls;
     if (walls.active && inside_solid(simulation.grid.shape, walls, inside)) {
         return Status::particle_inside_solid;
