@@ -1,0 +1,26 @@
+// The problems: one function each, called from the table in main.cpp. Names follow the reference
+// problems (R1 … R14) where there is one.
+#pragma once
+
+#include "report.hpp"
+
+namespace solids {
+
+struct Effort {
+    bool full = false;  ///< long runs and large counts; else all problems take a few minutes
+};
+
+// Contours.
+void contour_normals(Report& report, const Effort& effort);  // R3
+
+// Polygons.
+
+// Tightness.
+
+// Moving bodies.
+
+// Still water.
+
+// Cost.
+
+}  // namespace solids
