@@ -37,8 +37,8 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
     for (std::int32_t j = box.j0; j <= box.j1; ++j) {
         for (std::int32_t i = box.i0; i <= box.i1; ++i) {
             const Vec2<Real> point{static_cast<Real>(i), static_cast<Real>(j)};
-            Real distance = signed_distance(polygon.ring, polygon.count, polygon.pieces,
-                                            polygon.piece_length, point, far, polygon.tank);
+            Real distance = signed_distance(polygon.outline, polygon.pieces, polygon.piece_length,
+                                            point, far, polygon.tank);
             if (distance < kOnTheOutline<Real>) {
                 distance = minimum(distance, Real(0));
             }

@@ -18,8 +18,7 @@ struct NodeBox {
 /// A placed polygon and its convex pieces, in cells.
 template <class Real>
 struct RasterPolygon {
-    const Vec2<Real>* ring = nullptr;
-    std::int32_t count = 0;
+    Outline<Real> outline;
     const std::uint16_t* pieces = nullptr;
     std::int32_t piece_length = 0;
     std::uint16_t name = 0;  ///< written to the nodes of which it is the nearest

@@ -66,41 +66,38 @@ Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b) {
 }
 
 template <class Real>
-Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far,
-                      const Bounds<Real>& bounds) {
+Real distance_to_outline(const Outline<Real>& outline, Vec2<Real> p, Real far,
+                         const Bounds<Real>& bounds) {
     Real nearest = far;
-    Vec2<Real> from = ring[count - 1];
-    for (std::int32_t i = 0; i < count; ++i) {
-        const Vec2<Real> to = ring[i];
+    for_each_edge(outline, [&](Vec2<Real> from, Vec2<Real> to) {
         if (gap(p.x, from.x, to.x) < nearest && gap(p.y, from.y, to.y) < nearest &&
             !beyond(bounds, from, to)) {
             nearest = minimum(nearest, distance_to_segment(p, from, to));
         }
-        from = to;
-    }
+    });
     return nearest;
 }
 
 template <class Real>
-Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,
+Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
                      std::int32_t piece_length, Vec2<Real> p, Real far,
                      const Bounds<Real>& bounds) {
-    if (inside_any_piece(ring, pieces, piece_length, off_the_border(bounds, p))) {
-        // 0 - d, because -d would make a negative zero on the ring.
-        return Real(0) - distance_to_ring(ring, count, p, kDeepest<Real>, bounds);
+    if (inside_any_piece(outline.vertex, pieces, piece_length, off_the_border(bounds, p))) {
+        // 0 - d, because -d would make a negative zero on the outline.
+        return Real(0) - distance_to_outline(outline, p, kDeepest<Real>, bounds);
     }
-    return distance_to_ring(ring, count, p, far, bounds);
+    return distance_to_outline(outline, p, far, bounds);
 }
 
 template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
 template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
-template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float,
-                                const Bounds<float>&);
-template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double,
-                                 const Bounds<double>&);
-template float signed_distance(const Vec2<float>*, std::int32_t, const std::uint16_t*,
-                               std::int32_t, Vec2<float>, float, const Bounds<float>&);
-template double signed_distance(const Vec2<double>*, std::int32_t, const std::uint16_t*,
-                                std::int32_t, Vec2<double>, double, const Bounds<double>&);
+template float distance_to_outline(const Outline<float>&, Vec2<float>, float,
+                                   const Bounds<float>&);
+template double distance_to_outline(const Outline<double>&, Vec2<double>, double,
+                                    const Bounds<double>&);
+template float signed_distance(const Outline<float>&, const std::uint16_t*, std::int32_t,
+                               Vec2<float>, float, const Bounds<float>&);
+template double signed_distance(const Outline<double>&, const std::uint16_t*, std::int32_t,
+                                Vec2<double>, double, const Bounds<double>&);
 
 }  // namespace weir

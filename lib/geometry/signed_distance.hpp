@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "geometry/outline.hpp"
 #include "geometry/polygon.hpp"
 #include "math/vec2.hpp"
 
@@ -21,29 +22,29 @@ struct Bounds {
 template <class Real>
 Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b);
 
-/// Distance to the nearest edge of a ring, inside or outside, at most `far`.
+/// Distance to the nearest edge of an outline, inside or outside, at most `far`.
 /// Cost: a box test an edge, and a square root and a division for those that come nearer.
 template <class Real>
-Real distance_to_ring(const Vec2<Real>* ring, std::int32_t count, Vec2<Real> p, Real far,
-                      const Bounds<Real>& bounds = {});
+Real distance_to_outline(const Outline<Real>& outline, Vec2<Real> p, Real far,
+                         const Bounds<Real>& bounds = {});
 
-/// Distance to the ring: negative and exact in any of its convex pieces, 0 on the ring, outside
+/// Distance to the outline: negative and exact in any of its convex pieces, 0 on it, outside
 /// at most far. Whatever is inside has to know the way out.
-/// @param pieces what `decompose` wrote for that ring.
+/// @param pieces what `decompose` wrote for that outline.
 template <class Real>
-Real signed_distance(const Vec2<Real>* ring, std::int32_t count, const std::uint16_t* pieces,
+Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
                      std::int32_t piece_length, Vec2<Real> p, Real far,
                      const Bounds<Real>& bounds = {});
 
 extern template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
 extern template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
-extern template float distance_to_ring(const Vec2<float>*, std::int32_t, Vec2<float>, float,
-                                       const Bounds<float>&);
-extern template double distance_to_ring(const Vec2<double>*, std::int32_t, Vec2<double>, double,
-                                        const Bounds<double>&);
-extern template float signed_distance(const Vec2<float>*, std::int32_t, const std::uint16_t*,
-                                      std::int32_t, Vec2<float>, float, const Bounds<float>&);
-extern template double signed_distance(const Vec2<double>*, std::int32_t, const std::uint16_t*,
-                                       std::int32_t, Vec2<double>, double, const Bounds<double>&);
+extern template float distance_to_outline(const Outline<float>&, Vec2<float>, float,
+                                          const Bounds<float>&);
+extern template double distance_to_outline(const Outline<double>&, Vec2<double>, double,
+                                           const Bounds<double>&);
+extern template float signed_distance(const Outline<float>&, const std::uint16_t*, std::int32_t,
+                                      Vec2<float>, float, const Bounds<float>&);
+extern template double signed_distance(const Outline<double>&, const std::uint16_t*, std::int32_t,
+                                       Vec2<double>, double, const Bounds<double>&);
 
 }  // namespace weir

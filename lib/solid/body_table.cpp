@@ -39,6 +39,7 @@ bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Real cells_per_m
                  Body<Real>& body) {
     body.first_vertex = table.vertices_used;
     body.vertex_count = polygon_m.size;
+    body.room = body.vertex_count;
     Vec2<Real>* ring = table.local + body.first_vertex;
     for (std::int32_t k = 0; k < polygon_m.size; ++k) {
         ring[k] = cells_per_m * convert<Real>(polygon_m[k]);
@@ -48,7 +49,7 @@ bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Real cells_per_m
     if (body.piece_length < 0) {
         return false;
     }
-    table.vertices_used += body.vertex_count;
+    table.vertices_used += body.room;
     return true;
 }
 
@@ -65,7 +66,7 @@ template <class Real>
 void remove(BodyTable<Real>& table, std::int32_t slot) {
     Body<Real>& gone = table.body[slot];
     const std::int32_t first = gone.first_vertex;
-    const std::int32_t count = gone.vertex_count;
+    const std::int32_t count = gone.room;
     close_gap(table.local, first, count, table.vertices_used);
     close_gap(table.placed, first, count, table.vertices_used);
     close_gap(table.pieces, kPerVertex * first, kPerVertex * count,

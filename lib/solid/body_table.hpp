@@ -22,8 +22,10 @@ struct Body {
     Real restitution = Real(0);
     Real radius = Real(0);           ///< of the circle about `position` that holds it
     std::int32_t first_vertex = 0;
-    std::int32_t vertex_count = 0;
-    std::int32_t piece_length = 0;  ///< used entries of its piece list
+    std::int32_t vertex_count = 0;  ///< in all rings
+    std::int32_t room = 0;          ///< places that it takes in the pools
+    std::int32_t rings = 1;         ///< 1 + holes
+    std::int32_t piece_length = 0;  ///< used entries of its piece list; the ring ends follow
     NodeBox drawn;                  ///< nodes that it wrote when it was last rasterized
     NodeBox left;                   ///< and the time before
     std::uint16_t generation = 0;
@@ -46,6 +48,9 @@ struct BodyTable {
     std::int32_t vertices_used = 0;
 
     const Vec2<Real>* ring(const Body<Real>& of) const { return placed + of.first_vertex; }
+    Outline<Real> outline(const Body<Real>& of) const {
+        return {ring(of), of.vertex_count, of.rings, piece_list(of) + of.piece_length};
+    }
     std::uint16_t* piece_list(const Body<Real>& of) const {
         return pieces + static_cast<std::int32_t>(kPieceIndicesPerVertex) * of.first_vertex;
     }

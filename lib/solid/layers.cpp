@@ -31,9 +31,9 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
                   const NodeBox& box, Real* distance, std::uint16_t* nearest) {
     const Body<Real>& body = table.body[slot];
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
-    const RasterPolygon<Real> polygon{table.ring(body),       body.vertex_count,
-                                      table.piece_list(body), body.piece_length,
-                                      static_cast<std::uint16_t>(slot), {{}, size}};
+    const RasterPolygon<Real> polygon{table.outline(body), table.piece_list(body),
+                                      body.piece_length, static_cast<std::uint16_t>(slot),
+                                      {{}, size}};
     const NodeField<Real> field{distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
     return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>, field);
 }

@@ -161,6 +161,9 @@ Status check_body(const BodyDef& def, float cell_m) {
     if (polygon != Status::ok) {
         return polygon;
     }
+    if (def.holes.size != 0) {
+        return Status::unknown_option;  // they are on their way
+    }
     const float furthest = kFurthest * cell_m;
     for (const Vec2f& vertex : def.polygon) {
         if (!within(vertex.x, -furthest, furthest) || !within(vertex.y, -furthest, furthest)) {

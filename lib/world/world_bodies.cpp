@@ -74,7 +74,7 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
     }
     place(table, body);
     if (!touches_tank(layers.shape, table, body)) {
-        table.vertices_used -= body.vertex_count;
+        table.vertices_used -= body.room;
         return Status::polygon_outside_domain;
     }
     body.radius = radius_of(table, body);

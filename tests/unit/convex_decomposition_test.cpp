@@ -382,9 +382,10 @@ TEST(Decompose, NoCracksAlongDiagonalsAfterTurning) {
                 const Vec2f a = placed[piece[k]];
                 const Vec2f b = placed[piece[(k + 1) % piece.size()]];
                 const Vec2f p = a + part(random) * (b - a);
-                if (distance_to_ring(placed.data(), count, p, 4.0F) > 0.05F) {
-                    EXPECT_LT(signed_distance(placed.data(), count, result.flat.data(),
-                                              result.used, p, 4.0F), 0.0F)
+                const Outline<float> outline{placed.data(), count};
+                if (distance_to_outline(outline, p, 4.0F) > 0.05F) {
+                    EXPECT_LT(signed_distance(outline, result.flat.data(), result.used, p, 4.0F),
+                              0.0F)
                         << trial << ": " << p.x << ' ' << p.y;
                 }
             }

@@ -1,4 +1,4 @@
-// Outline checks, area, inside test and distances, against answers worked out by hand and against
+// Points checks, area, inside test and distances, against answers worked out by hand and against
 // brute force in double.
 #include "geometry/polygon.hpp"
 
@@ -17,14 +17,14 @@
 namespace weir {
 namespace {
 
-using Outline = std::vector<Vec2f>;
+using Points = std::vector<Vec2f>;
 
-Status check(const Outline& outline) {
+Status check(const Points& outline) {
     return check_polygon({outline.data(), static_cast<std::int32_t>(outline.size())});
 }
 
 template <class Real>
-std::vector<Vec2<Real>> ring_of(const Outline& outline) {
+std::vector<Vec2<Real>> ring_of(const Points& outline) {
     std::vector<Vec2<Real>> ring;
     for (const Vec2f v : outline) {
         ring.push_back(convert<Real>(v));
@@ -32,7 +32,7 @@ std::vector<Vec2<Real>> ring_of(const Outline& outline) {
     return ring;
 }
 
-const Outline kSquare = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+const Points kSquare = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 TEST(CheckPolygon, AcceptsSimpleCounterClockwiseOutlines) {
     EXPECT_EQ(check(kSquare), Status::ok);
@@ -56,7 +56,7 @@ TEST(CheckPolygon, CountsVertices) {
 
 TEST(CheckPolygon, LimitOfVerticesAndOneBeyond) {
     // A row of teeth along x over a straight base: cheap for the pair test, as boxes are disjoint.
-    Outline comb = {{0, -1}, {static_cast<float>(kMaxBodyVertices), -1}};
+    Points comb = {{0, -1}, {static_cast<float>(kMaxBodyVertices), -1}};
     for (std::int32_t i = kMaxBodyVertices - 2; i > 0; --i) {
         comb.push_back({static_cast<float>(i), i % 2 == 0 ? 0.0F : 0.5F});
     }
@@ -72,10 +72,10 @@ TEST(CheckPolygon, NotFiniteAtEveryPlace) {
                          std::numeric_limits<float>::quiet_NaN()};
     for (const float value : bad) {
         for (std::size_t k = 0; k < kSquare.size(); ++k) {
-            Outline x = kSquare;
+            Points x = kSquare;
             x[k].x = value;
             EXPECT_EQ(check(x), Status::polygon_not_finite);
-            Outline y = kSquare;
+            Points y = kSquare;
             y[k].y = value;
             EXPECT_EQ(check(y), Status::polygon_not_finite);
         }
@@ -84,11 +84,11 @@ TEST(CheckPolygon, NotFiniteAtEveryPlace) {
 
 TEST(CheckPolygon, RepeatsAVertexAtEveryPlace) {
     for (std::size_t k = 0; k < kSquare.size(); ++k) {
-        Outline outline = kSquare;
+        Points outline = kSquare;
         outline.insert(outline.begin() + static_cast<std::ptrdiff_t>(k), outline[k]);
         EXPECT_EQ(check(outline), Status::polygon_repeats_a_vertex);
     }
-    Outline closed = kSquare;
+    Points closed = kSquare;
     closed.push_back(kSquare[0]);
     EXPECT_EQ(check(closed), Status::polygon_repeats_a_vertex);
     EXPECT_EQ(check({{0.0F, 0}, {-0.0F, 0}, {1, 0}, {0, 1}}), Status::polygon_repeats_a_vertex);
@@ -107,7 +107,7 @@ TEST(CheckPolygon, ZeroAreaIsRelativeToTheDiagonal) {
 }
 
 TEST(CheckPolygon, CrossesOrTouchesItself) {
-    const Outline table[] = {
+    const Points table[] = {
         {{0, 0}, {2, 0}, {0, 1}, {2, 2}},                                  // bow tie, no area
         {{0, 0}, {2, 0}, {0, 1}, {2, 4}},                                  // unequal bow tie
         {{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}},                          // vertex on an edge
@@ -119,10 +119,10 @@ TEST(CheckPolygon, CrossesOrTouchesItself) {
         {{0, 0}, {4, 0}, {4, 2}, {3, 2}, {3, 0}, {1, 0}, {1, 2}, {0, 2}},  // edge on an edge
     };
     const Status crosses = Status::polygon_crosses_itself;
-    for (const Outline& outline : table) {
+    for (const Points& outline : table) {
         EXPECT_EQ(check(outline), crosses) << &outline - table;
     }
-    Outline pentagram;
+    Points pentagram;
     for (int k = 0; k < 5; ++k) {
         const double angle = 4.0 * M_PI * k / 5.0;
         pentagram.push_back({static_cast<float>(std::cos(angle)),
@@ -146,7 +146,7 @@ TEST(CheckPolygon, TellsATouchFromTheNextFloat) {
         const std::int64_t by = pick();
         const std::int64_t cx = bx / 3;
         const std::int64_t cy = cx * by / bx + trial % 2;  // just below or above the edge to b
-        const Outline outline = {{0, 0},
+        const Points outline = {{0, 0},
                                  {static_cast<float>(bx), static_cast<float>(by)},
                                  {0, 8e6F},
                                  {static_cast<float>(cx), static_cast<float>(cy)}};
@@ -171,7 +171,7 @@ TEST(CheckPolygon, EveryFiniteFloatGetsAnAnswer) {
     EXPECT_EQ(check({{0, 0}, {big, tiny}, {-big, tiny}}), Status::polygon_zero_area);
     std::mt19937 random(7);
     for (int trial = 0; trial < 2000; ++trial) {
-        Outline outline(3 + random() % 6);
+        Points outline(3 + random() % 6);
         for (Vec2f& v : outline) {
             const std::uint32_t bits[2] = {static_cast<std::uint32_t>(random()),
                                            static_cast<std::uint32_t>(random())};
@@ -265,11 +265,11 @@ TYPED_TEST(GeometryTest, PointsOnAWallAreAtExactlyZero) {
     }
 }
 
-TYPED_TEST(GeometryTest, DistanceToRingIsCutOff) {
+TYPED_TEST(GeometryTest, DistanceToOutlineIsCutOff) {
     const auto at = point_of<TypeParam>;
     const auto ring = ring_of<TypeParam>(kSquare);
     const auto distance = [&](double x, double y, double far) {
-        return distance_to_ring(ring.data(), 4, at(x, y), TypeParam(far));
+        return distance_to_outline(Outline<TypeParam>{ring.data(), 4}, at(x, y), TypeParam(far));
     };
     EXPECT_EQ(distance(0.5, 0.5, 4), TypeParam(0.5));
     EXPECT_EQ(distance(0.5, 0.25, 4), TypeParam(0.25));
@@ -305,7 +305,7 @@ bool brute_inside(const std::vector<Vec2<double>>& ring, Vec2<double> p) {
 }
 
 template <class Real>
-void expect_distances_right(const Outline& outline, double tolerance) {
+void expect_distances_right(const Points& outline, double tolerance) {
     const auto count = static_cast<std::int32_t>(outline.size());
     const auto ring = ring_of<Real>(outline);
     const auto exact = ring_of<double>(outline);
@@ -321,7 +321,7 @@ void expect_distances_right(const Outline& outline, double tolerance) {
             const double full = brute_distance(exact, {x, y});
             const double brute = inside ? full : std::fmin(far, full);
             const double distance = static_cast<double>(
-                signed_distance(ring.data(), count, pieces.data(), used,
+                signed_distance(Outline<Real>{ring.data(), count}, pieces.data(), used,
                                 Vec2<Real>{static_cast<Real>(x), static_cast<Real>(y)}, Real(far)));
             ASSERT_NEAR(std::fabs(distance), brute, tolerance) << x << ' ' << y;
             if (brute > tolerance) {
@@ -333,17 +333,17 @@ void expect_distances_right(const Outline& outline, double tolerance) {
 
 TYPED_TEST(GeometryTest, SignedDistanceMatchesBruteForce) {
     const double tolerance = sizeof(TypeParam) == 4 ? 4e-6 : 1e-13;
-    const Outline ell = {{0, 0}, {10, 0}, {10, 3}, {3, 3}, {3, 10}, {0, 10}};
-    const Outline plus = {{3, 0}, {6, 0}, {6, 3}, {9, 3}, {9, 6}, {6, 6},
+    const Points ell = {{0, 0}, {10, 0}, {10, 3}, {3, 3}, {3, 10}, {0, 10}};
+    const Points plus = {{3, 0}, {6, 0}, {6, 3}, {9, 3}, {9, 6}, {6, 6},
                           {6, 9}, {3, 9}, {3, 6}, {0, 6}, {0, 3}, {3, 3}};
-    const Outline zigzag = {{0, 0}, {5, 2}, {10, 0}, {10, 1}, {5, 9.5F}, {0, 1}};
-    for (const Outline& outline : {kSquare, ell, plus, zigzag}) {
+    const Points zigzag = {{0, 0}, {5, 2}, {10, 0}, {10, 1}, {5, 9.5F}, {0, 1}};
+    for (const Points& outline : {kSquare, ell, plus, zigzag}) {
         expect_distances_right<TypeParam>(outline, tolerance);
     }
     std::mt19937 random(11);
     std::uniform_real_distribution<double> radius(1.0, 5.0);
     for (int trial = 0; trial < 12; ++trial) {
-        Outline star;
+        Points star;
         const int count = 3 + 5 * trial;
         for (int k = 0; k < count; ++k) {
             const double r = radius(random);
@@ -362,12 +362,13 @@ TYPED_TEST(GeometryTest, NodesOnTheRingAreAtPositiveZero) {
     std::uint16_t pieces[24];
     const std::int32_t used = decompose(ring.data(), 6, {links, 12}, {pieces, 24});
     for (int i = 1; i <= 7; ++i) {
-        const TypeParam d = signed_distance(ring.data(), 6, pieces, used,
+        const TypeParam d = signed_distance(Outline<TypeParam>{ring.data(), 6}, pieces, used,
                                             Vec2<TypeParam>{TypeParam(i), 1}, TypeParam(4));
         EXPECT_EQ(d, TypeParam(0));
         EXPECT_FALSE(std::signbit(d));
     }
-    EXPECT_EQ(signed_distance(ring.data(), 6, pieces, used, Vec2<TypeParam>{2, 4}, TypeParam(4)),
+    EXPECT_EQ(signed_distance(Outline<TypeParam>{ring.data(), 6}, pieces, used,
+                              Vec2<TypeParam>{2, 4}, TypeParam(4)),
               TypeParam(-1));  // on the diagonal between the pieces
 }
 

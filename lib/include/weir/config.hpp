@@ -119,9 +119,10 @@ struct Motion {
     float spin_radps = 0.0F;   ///< counter-clockwise
 };
 
-/// A solid. The polygon is simple, counter-clockwise, given in the body's own frame.
+/// A solid: a simple polygon, with holes or without, given in the body's own frame.
 struct BodyDef {
     View<Vec2f> polygon;       ///< m; 3 … kMaxBodyVertices; copied
+    View<View<Vec2f>> holes;   ///< m; rings inside the polygon, none in another; copied
     Motion motion;             ///< a static body takes only position and angle
     float restitution = 0.0F;  ///< 0 (liquid slides along it) … 1 (mirror)
 };
