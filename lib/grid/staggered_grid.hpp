@@ -34,6 +34,9 @@ struct StaggeredGrid {
     /// volume over mass. A particle of the first liquid has mass and volume 1. Null: one liquid.
     Real* inverse_density_u = nullptr;
     Real* inverse_density_v = nullptr;
+    /// Room for two fields, free during both transfers, and a promise that mass_u stands behind u
+    /// and mass_v behind v: loops in lanes keep two numbers a face side by side. Null: plain loops.
+    Real* pairs = nullptr;
 };
 
 /// The four nodes around a point and its weights: bilinear.

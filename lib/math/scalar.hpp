@@ -35,6 +35,13 @@ template <class T>
 constexpr T absolute(T value) {
     return value < T(0) ? -value : value;
 }
+// Signs of velocities are as good as random: no branch may hang on them.
+constexpr float absolute(float value) {
+    return __builtin_fabsf(value);
+}
+constexpr double absolute(double value) {
+    return __builtin_fabs(value);
+}
 
 /// Comparing the exponent bits survives every compiler flag, unlike x == x.
 inline bool is_finite(float value) {

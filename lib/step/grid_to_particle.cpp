@@ -3,6 +3,8 @@
 #include <cstring>
 
 #include "grid/diffuse.hpp"
+#include "step/tank_walls.hpp"
+#include "step/transfer_lanes.hpp"
 
 namespace weir {
 
@@ -29,47 +31,6 @@ inline Sample<Real> sample(const Real* field, std::int32_t stride, const Stencil
     const Real high = p[stride] + at.fx * high_slope;
     const Real slope_y = high - low;
     return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
-}
-
-/// What `limited` does to the few that are too fast or broken.
-template <class Real>
-Vec2<Real> refused(Vec2<Real> v, Real limit, TransferResult<Real>& count) {
-    if (!is_finite(v)) {
-        ++count.reset;
-        return {};
-    }
-    ++count.slowed;
-    return {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit)};
-}
-
-/// Written so that a NaN is refused.
-template <class Real>
-inline Vec2<Real> limited(Vec2<Real> v, Real limit, TransferResult<Real>& count) {
-    return absolute(v.x) <= limit && absolute(v.y) <= limit ? v : refused(v, limit, count);
-}
-
-/// One axis at the tank's walls: back to the wall, and the velocity towards it given back.
-template <class Real>
-inline void keep_inside(Real& x, Real& v, Real size, Real restitution) {
-    if (x < kWallGap<Real>) {
-        x = kWallGap<Real>;
-        v = v < Real(0) ? -restitution * v : v;
-    } else if (x > size - kWallGap<Real>) {
-        x = size - kWallGap<Real>;
-        v = v > Real(0) ? -restitution * v : v;
-    }
-}
-
-/// One axis across a seam. A step is far shorter than the tank, so once is enough; the last line
-/// is for a number so small below zero that adding the size rounds it to the size.
-template <class Real>
-inline void wrap_around(Real& x, Real size) {
-    if (x < Real(0)) {
-        x += size;
-    }
-    if (!(x < size)) {
-        x -= size;
-    }
 }
 
 /// One component: out = field − kSmoothing ∇²field where liquid is all around.
@@ -114,14 +75,14 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
     }
 }
 
+namespace {
+
 template <class Real>
-TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
-                                      const Transfer<Real>& transfer,
-                                      Particles<Real>& particles) {
+TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
+                            Particles<Real>& particles) {
     const GridShape& s = grid.shape;
-    const Real width = static_cast<Real>(s.nx);
-    const Real height = static_cast<Real>(s.ny);
     const Real half_dt = Real(0.5) * transfer.dt_s;
+    const Vec2<Real> size{static_cast<Real>(s.nx), static_cast<Real>(s.ny)};
     TransferResult<Real> result;
     for (std::int32_t k = 0; k < particles.count; ++k) {
         Vec2<Real> x = particles.position[k];
@@ -132,35 +93,35 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
         const Sample<Real> w = sample(grid.v, s.stride, at_v);
         v.x = transfer.flip_ratio * v.x + interpolate(grid.mass_u, s.stride, at_u);
         v.y = transfer.flip_ratio * v.y + interpolate(grid.mass_v, s.stride, at_v);
-        v = limited(v, transfer.limit, result);
-        Vec2<Real> along{
+        const Vec2<Real> along{
             u.value + half_dt * (u.slope_x * u.value + u.slope_y * w.value),
             w.value + half_dt * (w.slope_x * u.value + w.slope_y * w.value)};
-        TransferResult<Real> unused;
-        along = limited(along, transfer.limit, unused);
-        x = x + transfer.dt_s * along;
-        if (transfer.wrap_x) {
-            wrap_around(x.x, width);
-        } else {
-            keep_inside(x.x, v.x, width, transfer.wall_restitution);
-        }
-        if (transfer.wrap_y) {
-            wrap_around(x.y, height);
-        } else {
-            keep_inside(x.y, v.y, height, transfer.wall_restitution);
-        }
-        result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
+        advect(size, transfer, along, x, v, result);
         particles.position[k] = x;
         particles.velocity[k] = v;
     }
     return result;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,         \
-                               StaggeredGrid<Real>&);                                     \
-    template TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>&,                   \
-                                            const Transfer<Real>&, Particles<Real>&);
+}  // namespace
+
+template <class Real>
+TransferResult<Real> grid_to_particle(StaggeredGrid<Real>& grid,
+                                      const Transfer<Real>& transfer,
+                                      Particles<Real>& particles) {
+    if constexpr (kHasLanes<Real>) {
+        if (grid.pairs != nullptr) {
+            return gather_in_lanes(grid, transfer, particles);
+        }
+    }
+    return gather(grid, transfer, particles);
+}
+
+#define WEIR_INSTANTIATE(Real)                                                          \
+    template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,       \
+                               StaggeredGrid<Real>&);                                   \
+    template TransferResult<Real> grid_to_particle(                                     \
+        StaggeredGrid<Real>&, const Transfer<Real>&, Particles<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 #undef WEIR_INSTANTIATE

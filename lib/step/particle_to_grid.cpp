@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "step/transfer_lanes.hpp"
+
 namespace weir {
 
 namespace {
@@ -51,6 +53,10 @@ template <class Real>
 void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
                          Real second_density, StaggeredGrid<Real>& grid) {
     const GridShape& shape = grid.shape;
+    clear(grid.u, shape);
+    clear(grid.v, shape);
+    clear(grid.mass_u, shape);
+    clear(grid.mass_v, shape);
     clear(grid.inverse_density_u, shape);
     clear(grid.inverse_density_v, shape);
     for (std::int32_t k = 0; k < particles.count; ++k) {
@@ -69,26 +75,38 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
     fold_counts(borders, shape, grid.mass_u, grid.mass_v);
 }
 
-}  // namespace
-
 template <class Real>
-void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
-                      Real second_density, StaggeredGrid<Real>& grid) {
+void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid) {
     const GridShape& shape = grid.shape;
     clear(grid.u, shape);
     clear(grid.v, shape);
     clear(grid.mass_u, shape);
     clear(grid.mass_v, shape);
-    if (particles.kind != nullptr) {
-        scatter_two_liquids(particles, borders, second_density, grid);
-        return;
-    }
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         scatter(grid.mass_u, grid.u, shape.stride, stencil_u(shape, x), v.x);
         scatter(grid.mass_v, grid.v, shape.stride, stencil_v(shape, x), v.y);
     }
+}
+
+}  // namespace
+
+template <class Real>
+void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
+                      Real second_density, StaggeredGrid<Real>& grid) {
+    if (particles.kind != nullptr) {
+        scatter_two_liquids(particles, borders, second_density, grid);
+        return;
+    }
+    if constexpr (kHasLanes<Real>) {
+        if (grid.pairs != nullptr) {
+            scatter_in_lanes(particles, grid);
+            fold_borders(borders, grid);
+            return;
+        }
+    }
+    scatter_one_liquid(particles, grid);
     fold_borders(borders, grid);
 }
 

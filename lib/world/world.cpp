@@ -74,6 +74,7 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::mass_v, simulation.grid.mass_v);
     carver.take(Block::pressure, simulation.pressure.pressure);
     carver.take(Block::divergence, simulation.pressure.divergence);
+    simulation.grid.pairs = simulation.pressure.divergence;  // and the inverse diagonal behind it
     carver.take(Block::inverse_diagonal, simulation.pressure.inverse_diagonal);
     carver.take(Block::density, simulation.pressure.density);
     carver.take(Block::level, simulation.pressure.level);

@@ -47,9 +47,9 @@ enum class Block : std::uint8_t {
     open_u,
     open_v,
     full_density,
-    velocity_u,
+    velocity_u,  ///< a component's mass stands behind its velocity: the transfers pair them
+    mass_u,      ///< then, once velocity is known, the velocity before the pressure
     velocity_v,
-    mass_u,  ///< then, once velocity is known, the velocity before the pressure
     mass_v,
     inverse_density_u,  ///< first the mass, where mass_u counts particles
     inverse_density_v,
@@ -116,8 +116,8 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::open_v, Owner::cut_cells, sizeof(Real), solid_cells},
         {Block::full_density, Owner::cut_cells, sizeof(Real), solid_cells},
         {Block::velocity_u, Owner::grid, sizeof(Real), cells},
-        {Block::velocity_v, Owner::grid, sizeof(Real), cells},
         {Block::mass_u, Owner::grid, sizeof(Real), cells},
+        {Block::velocity_v, Owner::grid, sizeof(Real), cells},
         {Block::mass_v, Owner::grid, sizeof(Real), cells},
         {Block::inverse_density_u, Owner::grid, sizeof(Real), mixed_cells},
         {Block::inverse_density_v, Owner::grid, sizeof(Real), mixed_cells},

@@ -1,0 +1,76 @@
+// Four floats side by side, where the processor has registers for them (SSE2, NEON). Lane by lane
+// + − × are the plain ones, so that a loop in lanes gives the plain loop's bits.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#if (defined(__SSE2__) || defined(__ARM_NEON)) && !defined(WEIR_PLAIN_LOOPS) && \
+    (defined(__clang__) || __GNUC__ >= 12)
+#define WEIR_HAS_LANES 1
+#else
+#define WEIR_HAS_LANES 0
+#endif
+
+namespace weir {
+
+/// Whether loops over this scalar have a version in lanes.
+template <class Real>
+inline constexpr bool kHasLanes = false;
+
+#if WEIR_HAS_LANES
+template <>
+inline constexpr bool kHasLanes<float> = true;
+
+using Lanes = float __attribute__((vector_size(16)));
+using LaneMask = std::int32_t __attribute__((vector_size(16)));
+
+/// From any address, in order.
+inline Lanes load_lanes(const float* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+inline void store_lanes(float* to, Lanes lanes) {
+    std::memcpy(to, &lanes, sizeof lanes);
+}
+/// Two floats at a time, lanes 0 and 1.
+inline Lanes load_pair(const float* from) {
+    using Halves = double __attribute__((vector_size(16)));
+    double both;
+    std::memcpy(&both, from, sizeof both);
+    return reinterpret_cast<Lanes>(Halves{both, 0.0});
+}
+inline void store_pair(float* to, Lanes lanes) {
+    std::memcpy(to, &lanes, 2 * sizeof *to);
+}
+inline Lanes all_lanes(float value) {
+    return Lanes{value, value, value, value};
+}
+/// Lanes chosen from a (0 … 3) and b (4 … 7).
+template <int I, int J, int K, int L>
+inline Lanes shuffle(Lanes a, Lanes b) {
+    return __builtin_shufflevector(a, b, I, J, K, L);
+}
+inline bool all_true(LaneMask mask) {
+#if defined(__SSE2__)
+    Lanes signs;
+    std::memcpy(&signs, &mask, sizeof signs);
+    return __builtin_ia32_movmskps(signs) == 0xF;
+#else
+    return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+#endif
+}
+inline Lanes maximum(Lanes a, Lanes b) {
+    return a < b ? b : a;
+}
+inline Lanes absolute(Lanes a) {
+    LaneMask bits;
+    std::memcpy(&bits, &a, sizeof bits);
+    bits &= LaneMask{0x7FFFFFFF, 0x7FFFFFFF, 0x7FFFFFFF, 0x7FFFFFFF};
+    std::memcpy(&a, &bits, sizeof a);
+    return a;
+}
+#endif
+
+}  // namespace weir

@@ -1,0 +1,178 @@
+// Pairs {mass, momentum} and {velocity, change} lie where they are free: those of the v faces of a
+// scatter and of the u faces of a gather in the grid's scratch, the others over the fields of
+// the other component, which are written after, or were read before.
+#include "step/transfer_lanes.hpp"
+
+#include "step/tank_walls.hpp"
+
+namespace weir {
+
+#if WEIR_HAS_LANES
+
+namespace {
+
+/// Both stencils of a particle, as lanes: u, u, v, v.
+struct StencilPair {
+    std::int32_t u;  ///< bases
+    std::int32_t v;
+    Lanes fx;
+    Lanes fy;
+};
+
+/// Of a particle at lanes 0 and 1: stencil_u and stencil_v.
+inline StencilPair stencils(std::int32_t stride, Lanes position) {
+    const Lanes shifted = shuffle<0, 0, 1, 1>(position, position) + Lanes{0.0F, 0.5F, 0.5F, 0.0F};
+    const LaneMask node = __builtin_convertvector(shifted, LaneMask);
+    const Lanes f = shifted - __builtin_convertvector(node, Lanes);
+    return {node[2] * stride + node[0] + 1, (node[3] + 1) * stride + node[1],
+            shuffle<0, 0, 1, 1>(f, f), shuffle<2, 2, 3, 3>(f, f)};
+}
+
+inline void add(float* to, Lanes what) {
+    store_lanes(to, load_lanes(to) + what);
+}
+
+/// Numbers of two fields side by side → the two fields.
+void unpack(const float* pairs, std::int32_t size, float* first, float* second) {
+    std::int32_t k = 0;
+    for (; k + 4 <= size; k += 4) {
+        const Lanes a = load_lanes(pairs + 2 * k);
+        const Lanes b = load_lanes(pairs + 2 * k + 4);
+        store_lanes(first + k, shuffle<0, 2, 4, 6>(a, b));
+        store_lanes(second + k, shuffle<1, 3, 5, 7>(a, b));
+    }
+    for (; k < size; ++k) {
+        first[k] = pairs[2 * k];
+        second[k] = pairs[2 * k + 1];
+    }
+}
+
+void pack(const float* first, const float* second, std::int32_t size, float* pairs) {
+    std::int32_t k = 0;
+    for (; k + 4 <= size; k += 4) {
+        const Lanes a = load_lanes(first + k);
+        const Lanes b = load_lanes(second + k);
+        store_lanes(pairs + 2 * k, shuffle<0, 4, 1, 5>(a, b));
+        store_lanes(pairs + 2 * k + 4, shuffle<2, 6, 3, 7>(a, b));
+    }
+    for (; k < size; ++k) {
+        pairs[2 * k] = first[k];
+        pairs[2 * k + 1] = second[k];
+    }
+}
+
+/// Bilinear value and slopes of velocity and change on both kinds of faces: lanes u, change of u,
+/// v, change of v.
+struct SampleLanes {
+    Lanes value;
+    Lanes slope_x;
+    Lanes slope_y;
+};
+
+inline SampleLanes sample(const float* pairs_u, const float* pairs_v, std::int32_t stride,
+                          const StencilPair& at) {
+    const float* u = pairs_u + 2 * at.u;
+    const float* v = pairs_v + 2 * at.v;
+    const Lanes low_u = load_lanes(u);
+    const Lanes low_v = load_lanes(v);
+    const Lanes high_u = load_lanes(u + 2 * stride);
+    const Lanes high_v = load_lanes(v + 2 * stride);
+    const Lanes low_left = shuffle<0, 1, 4, 5>(low_u, low_v);
+    const Lanes high_left = shuffle<0, 1, 4, 5>(high_u, high_v);
+    const Lanes low_slope = shuffle<2, 3, 6, 7>(low_u, low_v) - low_left;
+    const Lanes high_slope = shuffle<2, 3, 6, 7>(high_u, high_v) - high_left;
+    const Lanes low = low_left + at.fx * low_slope;
+    const Lanes high = high_left + at.fx * high_slope;
+    const Lanes slope_y = high - low;
+    return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
+}
+
+}  // namespace
+
+void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid) {
+    const GridShape& s = grid.shape;
+    float* pairs_u = grid.v;
+    float* pairs_v = grid.pairs;
+    const std::size_t bytes = 2 * static_cast<std::size_t>(s.size()) * sizeof(float);
+    std::memset(pairs_u, 0, bytes);
+    std::memset(pairs_v, 0, bytes);
+    const std::int32_t stride = s.stride;
+    const std::int32_t count = particles.count;
+    const Vec2<float>* position = particles.position;
+    const Vec2<float>* velocities = particles.velocity;
+    for (std::int32_t k = 0; k < count; ++k) {
+        const StencilPair at = stencils(stride, load_pair(&position[k].x));
+        const Lanes v = load_pair(&velocities[k].x);
+        const Lanes velocity = shuffle<0, 0, 1, 1>(v, v);
+        const Lanes w1 = at.fx * at.fy;
+        const Lanes right = at.fx - w1;
+        const Lanes upper = at.fy - w1;
+        const Lanes w0 = (all_lanes(1.0F) - at.fx) - upper;
+        // Each weight once as it is and once with the velocity: mass, momentum.
+        const Lanes left_lower = shuffle<0, 5, 2, 7>(w0, w0 * velocity);
+        const Lanes right_lower = shuffle<0, 5, 2, 7>(right, right * velocity);
+        const Lanes left_upper = shuffle<0, 5, 2, 7>(upper, upper * velocity);
+        const Lanes right_upper = shuffle<0, 5, 2, 7>(w1, w1 * velocity);
+        float* u = pairs_u + 2 * at.u;
+        float* w = pairs_v + 2 * at.v;
+        add(u, shuffle<0, 1, 4, 5>(left_lower, right_lower));
+        add(u + 2 * stride, shuffle<0, 1, 4, 5>(left_upper, right_upper));
+        add(w, shuffle<2, 3, 6, 7>(left_lower, right_lower));
+        add(w + 2 * stride, shuffle<2, 3, 6, 7>(left_upper, right_upper));
+    }
+    unpack(pairs_u, s.size(), grid.mass_u, grid.u);
+    unpack(pairs_v, s.size(), grid.mass_v, grid.v);
+}
+
+TransferResult<float> gather_in_lanes(StaggeredGrid<float>& grid, const Transfer<float>& transfer,
+                                      Particles<float>& particles) {
+    const GridShape& s = grid.shape;
+    float* pairs_u = grid.pairs;
+    float* pairs_v = grid.u;
+    pack(grid.u, grid.mass_u, s.size(), pairs_u);
+    pack(grid.v, grid.mass_v, s.size(), pairs_v);
+    const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
+    const Lanes lowest = all_lanes(kWallGap<float>);
+    const Lanes highest = Lanes{size.x, size.y, size.x, size.y} - lowest;
+    const Lanes limit = all_lanes(transfer.limit);
+    const Lanes flip_ratio = all_lanes(transfer.flip_ratio);
+    const Lanes dt = all_lanes(transfer.dt_s);
+    const Lanes half_dt = all_lanes(0.5F * transfer.dt_s);
+    const std::int32_t stride = s.stride;
+    const std::int32_t count = particles.count;
+    Vec2<float>* position = particles.position;
+    Vec2<float>* velocity = particles.velocity;
+    Lanes fastest = all_lanes(0.0F);
+    TransferResult<float> result;
+    for (std::int32_t k = 0; k < count; ++k) {
+        const Lanes x = load_pair(&position[k].x);
+        const Lanes v = load_pair(&velocity[k].x);
+        const SampleLanes at = sample(pairs_u, pairs_v, stride, stencils(stride, x));
+        const Lanes turned = at.slope_x * shuffle<0, 0, 0, 0>(at.value, at.value) +
+                             at.slope_y * shuffle<2, 2, 2, 2>(at.value, at.value);
+        const Lanes along = at.value + half_dt * turned;
+        const Lanes change = shuffle<1, 3, 1, 3>(at.value, at.value);
+        const Lanes faster = flip_ratio * v + change;
+        const Lanes both = shuffle<0, 2, 4, 5>(along, faster);
+        const Lanes speed = absolute(both);
+        const Lanes moved = x + dt * both;
+        const Lanes twice = shuffle<0, 1, 0, 1>(moved, moved);
+        if (all_true((speed <= limit) & (twice >= lowest) & (twice <= highest))) {
+            fastest = maximum(fastest, speed);
+            store_pair(&position[k].x, moved);
+            store_pair(&velocity[k].x, faster);
+            continue;
+        }
+        Vec2<float> to{x[0], x[1]};
+        Vec2<float> then{faster[0], faster[1]};
+        advect(size, transfer, {both[0], both[1]}, to, then, result);
+        position[k] = to;
+        velocity[k] = then;
+    }
+    result.max_speed = maximum(result.max_speed, maximum(fastest[2], fastest[3]));
+    return result;
+}
+
+#endif
+
+}  // namespace weir
