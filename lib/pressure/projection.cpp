@@ -60,6 +60,13 @@ inline Real surface_share(Real weight, Real level, std::int32_t neighbour,
                                (Real(1) / liquid_fraction(level, air) - Real(1));
 }
 
+/// Whether all faces of a cell are wide open. Such cells are relaxed without reading a weight.
+template <class Real>
+inline bool untouched(const Walls<Real>& walls, std::int32_t cell, std::int32_t up) {
+    return walls.open_u[cell] == Real(1) && walls.open_u[cell + 1] == Real(1) &&
+           walls.open_v[cell] == Real(1) && walls.open_v[up] == Real(1);
+}
+
 /// Rows low … high hold all the liquid; no other needs to be swept.
 struct Rows {
     std::int32_t low = 0;
@@ -113,7 +120,9 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                                surface_share(upper, level, up, fields));
             }
             fields.divergence[c] = divergence;
-            fields.inverse_diagonal[c] = Real(1) / diagonal;
+            // The sign tells `relax` which cells a wall touches.
+            fields.inverse_diagonal[c] =
+                Real(Solids && !untouched(walls, c, up) ? -1 : 1) / diagonal;
             // A number that is none would stay for ever: the solve starts from the last pressure.
             const Real start = fields.pressure[c] * rescale;
             fields.pressure[c] = is_finite(start) ? start : Real(0);
@@ -133,33 +142,29 @@ void relax(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Rows rows,
         for (std::int32_t i = (j + colour) & 1; i < s.nx; i += 2) {
             const std::int32_t c = s.index(i, j);
             const Real inverse = fields.inverse_diagonal[c];
-            if (inverse == Real(0)) {
-                continue;
-            }
             const std::int32_t up = c + s.stride;
-            Real sum;
-            if (Solids || Mixed) {
-                sum = (weights.u(c) * p[c - 1] + weights.u(c + 1) * p[c + 1]) +
-                      (weights.v(c) * p[c - s.stride] + weights.v(up) * p[up]);
-            } else {
+            if (!Mixed && inverse > Real(0)) {
                 // Beyond the tank and in air the pressure is 0: only the diagonal tells them apart.
-                sum = (p[c - 1] + p[c + 1]) + (p[c - s.stride] + p[up]);
+                const Real sum = (p[c - 1] + p[c + 1]) + (p[c - s.stride] + p[up]);
+                p[c] += omega * ((sum - fields.divergence[c]) * inverse - p[c]);
+            } else if ((Solids || Mixed) && inverse != Real(0)) {
+                const Real sum = (weights.u(c) * p[c - 1] + weights.u(c + 1) * p[c + 1]) +
+                                 (weights.v(c) * p[c - s.stride] + weights.v(up) * p[up]);
+                p[c] += omega * ((sum - fields.divergence[c]) * absolute(inverse) - p[c]);
             }
-            const Real target = (sum - fields.divergence[c]) * inverse;
-            p[c] += omega * (target - p[c]);
         }
     }
 }
 
-/// u −= 1/density · ∂p/∂x on the face between two neighbouring cells.
+/// u −= 1/density · ∂p/∂x on the face between two neighbouring cells. `open` null: no solids.
 template <class Real>
 inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before, Real light,
-                       const PressureFields<Real>& fields) {
+                       const Real* open, const PressureFields<Real>& fields) {
     const Real level_before = fields.level[before];
     const Real level_after = fields.level[face];
     const bool liquid_before = level_before > Real(0);
     const bool liquid_after = level_after > Real(0);
-    if (!liquid_before && !liquid_after) {
+    if ((!liquid_before && !liquid_after) || (open != nullptr && !(open[face] > Real(0)))) {
         return;
     }
     Real difference = fields.pressure[face] - fields.pressure[before];
@@ -178,11 +183,13 @@ void project(const Borders<Real>& borders, const Walls<Real>& walls,
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if ((i > 0 || borders.wrap_x) && (!Solids || walls.open_u[c] > Real(0))) {
-                accelerate(grid.u, c, c - 1, weights.light_u(c), fields);
+            if (i > 0 || borders.wrap_x) {
+                accelerate(grid.u, c, c - 1, weights.light_u(c), Solids ? walls.open_u : nullptr,
+                           fields);
             }
-            if ((j > 0 || borders.wrap_y) && (!Solids || walls.open_v[c] > Real(0))) {
-                accelerate(grid.v, c, c - s.stride, weights.light_v(c), fields);
+            if (j > 0 || borders.wrap_y) {
+                accelerate(grid.v, c, c - s.stride, weights.light_v(c),
+                           Solids ? walls.open_v : nullptr, fields);
             }
         }
     }

@@ -1,0 +1,41 @@
+// weir_solids_scene SCENE with|without FRAMES: one scene of the paper's tables, for counting the
+// instructions of its steps. SCENE: box, standard, complex, or a number of hexagons: 250 or
+// 250turning. Prints the number of substeps and of particles.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "runners.hpp"
+
+namespace {
+
+constexpr int kParticles = 25000;
+
+paper_bench::Scene scene_of(const std::string& name) {
+    using paper_bench::Setting;
+    for (const Setting setting : {Setting::box, Setting::standard, Setting::complex}) {
+        if (name == paper_bench::setting_name(setting)) {
+            return paper_bench::setting_scene(setting, kParticles);
+        }
+    }
+    return paper_bench::polygon_scene(paper_bench::Shape::hexagon, std::atoi(name.c_str()),
+                                      kParticles, name.find("turning") != std::string::npos);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 4) {
+        return 2;
+    }
+    const auto runner = paper_bench::make_weir(scene_of(argv[1]), std::string(argv[2]) == "with");
+    if (runner == nullptr) {
+        return 1;
+    }
+    int substeps = 0;
+    for (int frame = 0; frame < std::atoi(argv[3]); ++frame) {
+        substeps += runner->step().steps;
+    }
+    std::printf("%d %d\n", substeps, runner->particles());
+    return 0;
+}
