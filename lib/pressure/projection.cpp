@@ -1,5 +1,7 @@
 #include "pressure/projection.hpp"
 
+#include "pressure/relax_lanes.hpp"
+
 namespace weir {
 
 namespace {
@@ -139,8 +141,12 @@ void relax(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Rows rows,
     const Weights<Solids, Mixed, Real> weights{walls, grid};
     Real* p = fields.pressure;
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
-        for (std::int32_t i = (j + colour) & 1; i < s.nx; i += 2) {
-            const std::int32_t c = s.index(i, j);
+        const std::int32_t end = s.index(s.nx, j);
+        std::int32_t c = s.index((j + colour) & 1, j);
+        if constexpr (kHasLanes<Real> && !Mixed) {
+            c = relax_row<Solids>(fields, walls.open_u, walls.open_v, omega, s.stride, c, end);
+        }
+        for (; c < end; c += 2) {
             const Real inverse = fields.inverse_diagonal[c];
             const std::int32_t up = c + s.stride;
             if (!Mixed && inverse > Real(0)) {
