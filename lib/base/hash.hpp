@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "weir/fixed.hpp"
+
 namespace weir {
 
 class Hash {
@@ -27,6 +29,10 @@ public:
         std::memcpy(&bits, &canonical, sizeof bits);
         add(static_cast<std::uint32_t>(bits));
         add(static_cast<std::uint32_t>(bits >> 32U));
+    }
+    template <int Fraction>
+    void add(FixedPoint<Fraction> number) {
+        add(number.raw);
     }
     std::uint64_t value() const { return value_; }
 

@@ -63,6 +63,7 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
                                     const NodeField<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

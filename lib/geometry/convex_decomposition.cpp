@@ -298,5 +298,7 @@ template std::int32_t decompose(const Vec2<float>*, std::int32_t, ArrayView<std:
                                 ArrayView<std::uint16_t>);
 template std::int32_t decompose(const Vec2<double>*, std::int32_t, ArrayView<std::uint16_t>,
                                 ArrayView<std::uint16_t>);
+template std::int32_t decompose(const Vec2<Fixed>*, std::int32_t, ArrayView<std::uint16_t>,
+                                ArrayView<std::uint16_t>);
 
 }  // namespace weir

@@ -29,5 +29,7 @@ extern template std::int32_t decompose(const Vec2<float>*, std::int32_t,
                                        ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
 extern template std::int32_t decompose(const Vec2<double>*, std::int32_t,
                                        ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
+extern template std::int32_t decompose(const Vec2<Fixed>*, std::int32_t,
+                                       ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
 
 }  // namespace weir

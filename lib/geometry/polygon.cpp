@@ -116,7 +116,7 @@ Status check_polygon(View<Vec2f> polygon) {
 template <class Real>
 Real twice_signed_area(const Vec2<Real>* ring, std::int32_t count) {
     // Seen from a vertex, not from the origin: a small body far out keeps its digits.
-    Real sum = Real(0);
+    auto sum = Product<Real>(0);
     for (std::int32_t i = 2; i < count; ++i) {
         sum = sum + turn(ring[0], ring[i - 1], ring[i]);
     }
@@ -132,12 +132,12 @@ bool inside_convex(const Vec2<Real>* ring, const std::uint16_t* piece, std::int3
         const std::uint16_t to = piece[k];
         // Two pieces walk their common edge in opposite ways. Both must compute the same number,
         // or rounding opens a crack along it that belongs to neither.
-        const Real side = from < to ? turn(ring[from], ring[to], point)
+        const Product<Real> side = from < to ? turn(ring[from], ring[to], point)
                                     : -turn(ring[to], ring[from], point);
-        if (side < Real(0)) {
+        if (side < Product<Real>(0)) {
             return false;
         }
-        off_an_edge = off_an_edge || side > Real(0);
+        off_an_edge = off_an_edge || side > Product<Real>(0);
         from = to;
     }
     // Left of nothing: the piece is a line, and the point is somewhere along it.
@@ -146,8 +146,11 @@ bool inside_convex(const Vec2<Real>* ring, const std::uint16_t* piece, std::int3
 
 template float twice_signed_area(const Vec2<float>*, std::int32_t);
 template double twice_signed_area(const Vec2<double>*, std::int32_t);
+template Fixed twice_signed_area(const Vec2<Fixed>*, std::int32_t);
 template bool inside_convex(const Vec2<float>*, const std::uint16_t*, std::int32_t, Vec2<float>);
 template bool inside_convex(const Vec2<double>*, const std::uint16_t*, std::int32_t,
                             Vec2<double>);
+template bool inside_convex(const Vec2<Fixed>*, const std::uint16_t*, std::int32_t,
+                            Vec2<Fixed>);
 
 }  // namespace weir

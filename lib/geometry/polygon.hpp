@@ -25,14 +25,14 @@ Status check_polygon(View<Vec2f> polygon);
 
 /// Twice the area of the triangle a b c: positive where the way a → b → c turns left.
 template <class Real>
-constexpr Real turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
+constexpr Product<Real> turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
     return cross(b - a, c - a);
 }
 
 /// Whether c lies to the left of the line from a to b, or on it.
 template <class Real>
 constexpr bool is_left_turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
-    return turn(a, b, c) >= Real(0);
+    return turn(a, b, c) >= Product<Real>(0);
 }
 
 /// Twice the enclosed area, in squares of the ring's unit; positive if counter-clockwise.
@@ -48,9 +48,12 @@ bool inside_convex(const Vec2<Real>* ring, const std::uint16_t* piece, std::int3
 
 extern template float twice_signed_area(const Vec2<float>*, std::int32_t);
 extern template double twice_signed_area(const Vec2<double>*, std::int32_t);
+extern template Fixed twice_signed_area(const Vec2<Fixed>*, std::int32_t);
 extern template bool inside_convex(const Vec2<float>*, const std::uint16_t*, std::int32_t,
                                    Vec2<float>);
 extern template bool inside_convex(const Vec2<double>*, const std::uint16_t*, std::int32_t,
                                    Vec2<double>);
+extern template bool inside_convex(const Vec2<Fixed>*, const std::uint16_t*, std::int32_t,
+                                   Vec2<Fixed>);
 
 }  // namespace weir

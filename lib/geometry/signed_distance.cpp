@@ -53,9 +53,9 @@ template <class Real>
 Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b) {
     const Vec2<Real> edge = b - a;
     const Vec2<Real> arm = p - a;
-    const Real along = dot(arm, edge);
-    const Real squared_length = dot(edge, edge);
-    if (along <= Real(0)) {
+    const Product<Real> along = dot(arm, edge);
+    const Product<Real> squared_length = dot(edge, edge);
+    if (along <= Product<Real>(0)) {
         return length(arm);
     }
     if (along >= squared_length) {
@@ -91,13 +91,18 @@ Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
 
 template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
 template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
+template Fixed distance_to_segment(Vec2<Fixed>, Vec2<Fixed>, Vec2<Fixed>);
 template float distance_to_outline(const Outline<float>&, Vec2<float>, float,
                                    const Bounds<float>&);
 template double distance_to_outline(const Outline<double>&, Vec2<double>, double,
                                     const Bounds<double>&);
+template Fixed distance_to_outline(const Outline<Fixed>&, Vec2<Fixed>, Fixed,
+                                    const Bounds<Fixed>&);
 template float signed_distance(const Outline<float>&, const std::uint16_t*, std::int32_t,
                                Vec2<float>, float, const Bounds<float>&);
 template double signed_distance(const Outline<double>&, const std::uint16_t*, std::int32_t,
                                 Vec2<double>, double, const Bounds<double>&);
+template Fixed signed_distance(const Outline<Fixed>&, const std::uint16_t*, std::int32_t,
+                                Vec2<Fixed>, Fixed, const Bounds<Fixed>&);
 
 }  // namespace weir

@@ -38,13 +38,18 @@ Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
 
 extern template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
 extern template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
+extern template Fixed distance_to_segment(Vec2<Fixed>, Vec2<Fixed>, Vec2<Fixed>);
 extern template float distance_to_outline(const Outline<float>&, Vec2<float>, float,
                                           const Bounds<float>&);
 extern template double distance_to_outline(const Outline<double>&, Vec2<double>, double,
                                            const Bounds<double>&);
+extern template Fixed distance_to_outline(const Outline<Fixed>&, Vec2<Fixed>, Fixed,
+                                           const Bounds<Fixed>&);
 extern template float signed_distance(const Outline<float>&, const std::uint16_t*, std::int32_t,
                                       Vec2<float>, float, const Bounds<float>&);
 extern template double signed_distance(const Outline<double>&, const std::uint16_t*, std::int32_t,
                                        Vec2<double>, double, const Bounds<double>&);
+extern template Fixed signed_distance(const Outline<Fixed>&, const std::uint16_t*, std::int32_t,
+                                       Vec2<Fixed>, Fixed, const Bounds<Fixed>&);
 
 }  // namespace weir

@@ -207,6 +207,7 @@ void close_walls(const Borders<Real>& b, const Real* level, StaggeredGrid<Real>&
     template void close_walls(const Borders<Real>&, const Real*, StaggeredGrid<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -28,5 +28,7 @@ template void diffuse(const GridShape&, const float*, std::int32_t, std::int32_t
                       float, const float*, float*);
 template void diffuse(const GridShape&, const double*, std::int32_t, std::int32_t, std::int32_t,
                       double, const double*, double*);
+template void diffuse(const GridShape&, const Fixed*, std::int32_t, std::int32_t, std::int32_t,
+                      Fixed, const Fixed*, Fixed*);
 
 }  // namespace weir

@@ -15,6 +15,12 @@ struct HalfPi<float> {
     static constexpr float low = 7.54978995489188216e-8F;
 };
 template <>
+struct HalfPi<Fixed> {
+    static constexpr Fixed high{1.57079632679489662};
+    static constexpr Fixed middle{};
+    static constexpr Fixed low{};
+};
+template <>
 struct HalfPi<double> {
     static constexpr double high = 1.57079632673412561417e+00;
     static constexpr double middle = 6.07710050630396597660e-11;
@@ -56,6 +62,7 @@ Rotation<Real> rotation(Real angle_rad) {
 }
 
 template Rotation<float> rotation(float);
+template Rotation<Fixed> rotation(Fixed);
 template Rotation<double> rotation(double);
 
 }  // namespace weir

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "math/fixed.hpp"
+
 #if defined(__FAST_MATH__)
 #error "weir needs strict floating point: remove -ffast-math (or -Ofast) for its sources"
 #endif
@@ -41,6 +43,47 @@ constexpr float absolute(float value) {
 }
 constexpr double absolute(double value) {
     return __builtin_fabs(value);
+}
+
+/// What goes with an arithmetic: floats serve for everything, fixed point has a kind of number
+/// for each range.
+template <class Real>
+struct Kinds {
+    using Seconds = Real;
+    using Ratio = Real;
+    using Product = Real;
+    using Face = Real;
+};
+template <>
+struct Kinds<Fixed> {
+    using Seconds = FixedSeconds;
+    using Ratio = FixedRatio;
+    using Product = WideFixed;
+    using Face = float;
+};
+/// Length of a step, s: at most 1.
+template <class Real>
+using Seconds = typename Kinds<Real>::Seconds;
+/// A reciprocal, at most 100.
+template <class Real>
+using Ratio = typename Kinds<Real>::Ratio;
+/// A sum of two products of coordinates.
+template <class Real>
+using Product = typename Kinds<Real>::Product;
+/// The numbers in which metres become cells.
+template <class Real>
+using Face = typename Kinds<Real>::Face;
+
+template <class Real>
+constexpr Product<Real> product(Real a, Real b) {
+    return a * b;
+}
+inline WideFixed product(Fixed a, Fixed b) {
+    return WideFixed::of_raw(static_cast<std::int64_t>(a.raw) * b.raw);
+}
+template <class Real>
+constexpr Real part_of(Real whole, std::int32_t parts) {
+    return whole / static_cast<Real>(parts);
 }
 
 /// Comparing the exponent bits survives every compiler flag, unlike x == x.

@@ -14,18 +14,18 @@ template <class Real>
 constexpr Vec2<Real> operator-(Vec2<Real> a, Vec2<Real> b) {
     return {a.x - b.x, a.y - b.y};
 }
-template <class Real>
-constexpr Vec2<Real> operator*(Real s, Vec2<Real> a) {
+template <class Scale, class Real>
+constexpr Vec2<Real> operator*(Scale s, Vec2<Real> a) {
     return {s * a.x, s * a.y};
 }
 template <class Real>
-constexpr Real dot(Vec2<Real> a, Vec2<Real> b) {
-    return a.x * b.x + a.y * b.y;
+constexpr Product<Real> dot(Vec2<Real> a, Vec2<Real> b) {
+    return product(a.x, b.x) + product(a.y, b.y);
 }
 /// z of the cross product: positive where b turns left from a.
 template <class Real>
-constexpr Real cross(Vec2<Real> a, Vec2<Real> b) {
-    return a.x * b.y - a.y * b.x;
+constexpr Product<Real> cross(Vec2<Real> a, Vec2<Real> b) {
+    return product(a.x, b.y) - product(a.y, b.x);
 }
 template <class Real>
 Real length(Vec2<Real> a) {

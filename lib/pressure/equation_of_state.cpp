@@ -11,7 +11,7 @@ constexpr Real kBulkViscosity = Real(0.2);
 }  // namespace
 
 template <class Real>
-void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real sound_speed, StaggeredGrid<Real>& grid,
                        PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
@@ -49,5 +49,7 @@ template void equation_of_state(const Borders<float>&, const Walls<float>&, floa
                                 StaggeredGrid<float>&, PressureFields<float>&);
 template void equation_of_state(const Borders<double>&, const Walls<double>&, double, double,
                                 StaggeredGrid<double>&, PressureFields<double>&);
+template void equation_of_state(const Borders<Fixed>&, const Walls<Fixed>&, FixedSeconds, Fixed,
+                                StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
 
 }  // namespace weir

@@ -11,7 +11,7 @@ namespace weir {
 /// viscosity of 0.2 c cells that takes the ringing out. Stable while c · dt ≤ ½ cell.
 /// Order: by row. Cost: about 15 operations a cell.
 template <class Real>
-void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real sound_speed, StaggeredGrid<Real>& grid,
                        PressureFields<Real>& fields);
 

@@ -13,7 +13,7 @@ struct PressureFields {
     Real* density = nullptr;           ///< 1 = full at rest
     Real* level = nullptr;             ///< height of the surface over the centre, cells; > 0 liquid
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
-    Real last_dt = Real(0);            ///< dt that `pressure` was solved for
+    Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     Real gravity_change = Real(1);     ///< strength of gravity now over then, at most 1
 };
 

@@ -220,15 +220,15 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
 }  // namespace
 
 template <class Real>
-void projection(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
     // A much longer step than the last starts from less than the last pressure would suggest.
     const Real rescale =
-        fields.last_dt > Real(0)
+        fields.last_dt > Seconds<Real>{}
             ? minimum(fields.gravity_change * (dt_s / fields.last_dt), Real(16))
             : Real(0);
     fields.gravity_change = Real(1);
-    const std::int32_t times = fields.last_dt > Real(0) ? sweeps : kColdStart * sweeps;
+    const std::int32_t times = fields.last_dt > Seconds<Real>{} ? sweeps : kColdStart * sweeps;
     fields.last_dt = dt_s;
     const bool mixed = grid.inverse_density_u != nullptr;
     const auto solver = walls.active ? (mixed ? solve<true, true, Real> : solve<true, false, Real>)
@@ -241,5 +241,7 @@ template void projection(const Borders<float>&, const Walls<float>&, float, std:
                          StaggeredGrid<float>&, PressureFields<float>&);
 template void projection(const Borders<double>&, const Walls<double>&, double, std::int32_t,
                          StaggeredGrid<double>&, PressureFields<double>&);
+template void projection(const Borders<Fixed>&, const Walls<Fixed>&, FixedSeconds, std::int32_t,
+                         StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
 
 }  // namespace weir

@@ -15,7 +15,7 @@ namespace weir {
 /// `sweeps` red-black relaxations, no more and no less: time is bounded, the result is the same on
 /// every machine. Cost: about 10 operations a liquid cell and sweep.
 template <class Real>
-void projection(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields);
 
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid.

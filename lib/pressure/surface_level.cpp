@@ -107,9 +107,12 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
 
 template float level_of_density(float);
 template double level_of_density(double);
+template Fixed level_of_density(Fixed);
 template void surface_level(const StaggeredGrid<float>&, const Borders<float>&,
                             const Walls<float>&, float, PressureFields<float>&);
 template void surface_level(const StaggeredGrid<double>&, const Borders<double>&,
                             const Walls<double>&, double, PressureFields<double>&);
+template void surface_level(const StaggeredGrid<Fixed>&, const Borders<Fixed>&,
+                            const Walls<Fixed>&, Fixed, PressureFields<Fixed>&);
 
 }  // namespace weir

@@ -105,5 +105,7 @@ template void surface_tension(const GridShape&, const Borders<float>&, const Wal
                               PressureFields<float>&);
 template void surface_tension(const GridShape&, const Borders<double>&, const Walls<double>&,
                               double, PressureFields<double>&);
+template void surface_tension(const GridShape&, const Borders<Fixed>&, const Walls<Fixed>&,
+                              Fixed, PressureFields<Fixed>&);
 
 }  // namespace weir

@@ -26,7 +26,7 @@ inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32
 }  // namespace
 
 template <class Real>
-void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const Real speed = gain / dt_s;
@@ -55,5 +55,7 @@ template void volume_correction(const Borders<float>&, const Walls<float>&, floa
                                 PressureFields<float>&, StaggeredGrid<float>&);
 template void volume_correction(const Borders<double>&, const Walls<double>&, double, double,
                                 PressureFields<double>&, StaggeredGrid<double>&);
+template void volume_correction(const Borders<Fixed>&, const Walls<Fixed>&, FixedSeconds, Fixed,
+                                PressureFields<Fixed>&, StaggeredGrid<Fixed>&);
 
 }  // namespace weir

@@ -13,7 +13,7 @@ namespace weir {
 /// `divergence` is used as scratch. Called after blend_change: only the advecting velocity sees
 /// the drift.
 template <class Real>
-void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Real dt_s,
+void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid);
 
 }  // namespace weir

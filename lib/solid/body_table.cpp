@@ -35,14 +35,14 @@ bool exists(const BodyTable<Real>& table, BodyId id) {
 }
 
 template <class Real>
-bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Real cells_per_m,
+bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Face<Real> cells_per_m,
                  Body<Real>& body) {
     body.first_vertex = table.vertices_used;
     body.vertex_count = polygon_m.size;
     body.room = body.vertex_count;
     Vec2<Real>* ring = table.local + body.first_vertex;
     for (std::int32_t k = 0; k < polygon_m.size; ++k) {
-        ring[k] = cells_per_m * convert<Real>(polygon_m[k]);
+        ring[k] = convert<Real>(cells_per_m * convert<Face<Real>>(polygon_m[k]));
     }
     const ArrayView<std::uint16_t> pieces{table.piece_list(body), kPerVertex * body.vertex_count};
     body.piece_length = decompose(ring, body.vertex_count, table.links, pieces);
@@ -86,11 +86,12 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
 #define WEIR_INSTANTIATE(Real)                                                            \
     template std::int32_t find_free_slot(const BodyTable<Real>&);                         \
     template bool exists(const BodyTable<Real>&, BodyId);                                 \
-    template bool add_polygon(BodyTable<Real>&, View<Vec2f>, Real, Body<Real>&);          \
+    template bool add_polygon(BodyTable<Real>&, View<Vec2f>, Face<Real>, Body<Real>&);    \
     template void place(BodyTable<Real>&, const Body<Real>&);                             \
     template void remove(BodyTable<Real>&, std::int32_t);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -67,7 +67,7 @@ bool exists(const BodyTable<Real>& table, BodyId id);
 /// Copies the polygon behind the vertices in use and cuts it into convex pieces. The caller has
 /// checked it and that there is room. False: no triangulation was found; nothing changed.
 template <class Real>
-bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Real cells_per_m,
+bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Face<Real> cells_per_m,
                  Body<Real>& body);
 
 /// Turns and moves the vertices to the body's pose.

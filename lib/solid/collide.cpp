@@ -130,8 +130,11 @@ bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> p
 
 template bool inside_solid(const GridShape&, const Walls<float>&, Vec2<float>);
 template bool inside_solid(const GridShape&, const Walls<double>&, Vec2<double>);
+template bool inside_solid(const GridShape&, const Walls<Fixed>&, Vec2<Fixed>);
 template CollideResult<float> collide(const GridShape&, const Walls<float>&, Particles<float>&);
 template CollideResult<double> collide(const GridShape&, const Walls<double>&,
                                        Particles<double>&);
+template CollideResult<Fixed> collide(const GridShape&, const Walls<Fixed>&,
+                                       Particles<Fixed>&);
 
 }  // namespace weir

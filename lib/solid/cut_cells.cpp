@@ -107,5 +107,6 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, Real* scratc
 
 template void update_cut_cells(const GridShape&, const NodeBox&, float*, Walls<float>&);
 template void update_cut_cells(const GridShape&, const NodeBox&, double*, Walls<double>&);
+template void update_cut_cells(const GridShape&, const NodeBox&, Fixed*, Walls<Fixed>&);
 
 }  // namespace weir

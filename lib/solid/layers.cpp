@@ -206,6 +206,7 @@ void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
     template void erase_moving(Layers<Real>&, BodyTable<Real>&, std::int32_t);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

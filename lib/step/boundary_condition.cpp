@@ -135,5 +135,7 @@ template void mirror_in_solids(const Walls<float>&, PressureFields<float>&,
                                StaggeredGrid<float>&);
 template void mirror_in_solids(const Walls<double>&, PressureFields<double>&,
                                StaggeredGrid<double>&);
+template void mirror_in_solids(const Walls<Fixed>&, PressureFields<Fixed>&,
+                               StaggeredGrid<Fixed>&);
 
 }  // namespace weir

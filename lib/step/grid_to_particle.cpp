@@ -81,7 +81,7 @@ template <class Real>
 TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
                             Particles<Real>& particles) {
     const GridShape& s = grid.shape;
-    const Real half_dt = Real(0.5) * transfer.dt_s;
+    const Seconds<Real> half_dt = Seconds<Real>(0.5) * transfer.dt_s;
     const Vec2<Real> size{static_cast<Real>(s.nx), static_cast<Real>(s.ny)};
     TransferResult<Real> result;
     for (std::int32_t k = 0; k < particles.count; ++k) {
@@ -124,6 +124,7 @@ TransferResult<Real> grid_to_particle(StaggeredGrid<Real>& grid,
         StaggeredGrid<Real>&, const Transfer<Real>&, Particles<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -16,7 +16,7 @@ struct TransferResult {
 
 template <class Real>
 struct Transfer {
-    Real dt_s;
+    Seconds<Real> dt_s;
     Real flip_ratio;
     Real limit;             ///< cells/s; nothing moves faster
     Real wall_restitution;

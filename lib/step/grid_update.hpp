@@ -10,7 +10,7 @@ namespace weir {
 /// With two liquids the mass gives way to the inverse density.
 /// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Real dt_s, const Real* level,
+void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s, const Real* level,
                  StaggeredGrid<Real>& grid);
 
 /// Faces in air beside the liquid change their velocity by as much as the liquid's faces next to

@@ -114,5 +114,7 @@ template void particle_to_grid(const Particles<float>&, const Borders<float>&, f
                                StaggeredGrid<float>&);
 template void particle_to_grid(const Particles<double>&, const Borders<double>&, double,
                                StaggeredGrid<double>&);
+template void particle_to_grid(const Particles<Fixed>&, const Borders<Fixed>&, Fixed,
+                               StaggeredGrid<Fixed>&);
 
 }  // namespace weir

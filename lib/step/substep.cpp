@@ -44,7 +44,7 @@ private:
 
 /// Moving bodies go where their velocities take them.
 template <class Real>
-void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Real dt_s) {
+void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s) {
     walls.moving = false;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         Body<Real>& body = table.body[slot];
@@ -84,7 +84,7 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan)
 /// cell would, under gravity or surface tension. Shorter ones, as viscosity asks for, get their
 /// share.
 template <class Real>
-Real volume_gain(const Simulation<Real>& simulation, Real dt_s) {
+Real volume_gain(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const Vec2<Real> g = simulation.settings.gravity;
     const Real wave = square_root(maximum(absolute(g.x), absolute(g.y)) +
                                   simulation.settings.surface_tension);
@@ -104,7 +104,7 @@ void fill_borders(Simulation<Real>& simulation) {
 }
 
 template <class Real>
-void gather(Simulation<Real>& simulation, Real dt_s, StepReport& report) {
+void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
     const Transfer<Real> transfer{dt_s,
                                   settings.flip_ratio,
@@ -123,7 +123,7 @@ void gather(Simulation<Real>& simulation, Real dt_s, StepReport& report) {
 
 template <class Real>
 void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepReport& report) {
-    const Real dt_s = plan.dt_s;
+    const Seconds<Real> dt_s = plan.dt_s;
     StaggeredGrid<Real>& grid = simulation.grid;
     Walls<Real>& walls = simulation.layers.walls;
     const Settings<Real>& settings = simulation.settings;
@@ -169,5 +169,6 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
 
 template void substep(Simulation<float>&, const SubstepPlan<float>&, StepReport&);
 template void substep(Simulation<double>&, const SubstepPlan<double>&, StepReport&);
+template void substep(Simulation<Fixed>&, const SubstepPlan<Fixed>&, StepReport&);
 
 }  // namespace weir

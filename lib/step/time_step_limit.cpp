@@ -4,9 +4,9 @@ namespace weir {
 
 namespace {
 
-/// g dt², cells: beyond it a column at rest would feel the step. Lower by measurement only.
+/// √(g dt²), 0.12 cells: beyond it a column at rest would feel the step. Lower by measurement only.
 template <class Real>
-constexpr Real kGravityWay = Real(0.12);
+constexpr Real kRootOfGravityWay = Real(0.346410162);
 
 template <class Real>
 constexpr Real kSoundCfl = Real(0.4);
@@ -15,7 +15,9 @@ constexpr Real kSoundCfl = Real(0.4);
 template <class Real>
 constexpr Real kDiffusion = Real(0.25);
 
-/// σ/ρ dt², cells³: 1/2π (Brackbill, Kothe & Zemach 1992). Drops bore six times as much.
+/// √(σ/ρ dt²), 1/2π cells³ (Brackbill, Kothe & Zemach 1992). Drops bore six times as much.
+template <class Real>
+constexpr Real kRootOfCapillary = Real(0.398942280);
 template <class Real>
 constexpr Real kCapillary = Real(0.159154943);
 
@@ -47,21 +49,22 @@ Real fastest(const Simulation<Real>& simulation) {
 }  // namespace
 
 template <class Real>
-Real longest_step(const Settings<Real>& settings) {
+Seconds<Real> longest_step(const Settings<Real>& settings) {
     const Real gravity = strength(settings.gravity);
     const Real most = static_cast<Real>(settings.max_substeps);
-    return gravity > Real(0) ? minimum(Real(1), most * square_root(kGravityWay<Real> / gravity))
-                             : Real(1);
+    return static_cast<Seconds<Real>>(
+        gravity > Real(0) ? minimum(Real(1), most * (kRootOfGravityWay<Real> / square_root(gravity)))
+                          : Real(1));
 }
 
 template <class Real>
-SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s) {
+SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const Settings<Real>& settings = simulation.settings;
     const Real gravity = strength(settings.gravity);
     const Real speed = fastest(simulation);
     const std::int32_t most = settings.max_substeps;
     const Real reach = (speed + gravity * dt_s) * dt_s / settings.cfl;
-    const Real fall = dt_s * square_root(gravity / kGravityWay<Real>);
+    const Real fall = dt_s * (square_root(gravity) / kRootOfGravityWay<Real>);
     std::int32_t wanted = maximum(at_least(reach, most), at_least(fall, most));
     SubstepPlan<Real> plan;
     plan.sound_speed = settings.sound_speed;
@@ -73,12 +76,13 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s) {
         wanted = maximum(wanted, at_least(settings.viscosity * dt_s / kDiffusion<Real>, most));
     }
     if (settings.surface_tension > Real(0)) {
-        const Real ripples = dt_s * square_root(settings.surface_tension / kCapillary<Real>);
+        const Real ripples =
+            dt_s * (square_root(settings.surface_tension) / kRootOfCapillary<Real>);
         wanted = maximum(wanted, at_least(ripples, most));
     }
     plan.too_few = wanted > most;
     plan.substeps = minimum(wanted, most);
-    plan.dt_s = dt_s / static_cast<Real>(plan.substeps);
+    plan.dt_s = part_of(dt_s, plan.substeps);
     if (settings.pressure == Pressure::equation_of_state && plan.too_few) {
         plan.sound_speed = minimum(plan.sound_speed, kSoundCfl<Real> / plan.dt_s);
     }
@@ -90,7 +94,9 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s) {
 
 template float longest_step(const Settings<float>&);
 template double longest_step(const Settings<double>&);
+template FixedSeconds longest_step(const Settings<Fixed>&);
 template SubstepPlan<float> plan_substeps(const Simulation<float>&, float);
 template SubstepPlan<double> plan_substeps(const Simulation<double>&, double);
+template SubstepPlan<Fixed> plan_substeps(const Simulation<Fixed>&, FixedSeconds);
 
 }  // namespace weir

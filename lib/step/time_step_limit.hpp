@@ -8,7 +8,7 @@ namespace weir {
 template <class Real>
 struct SubstepPlan {
     std::int32_t substeps = 1;
-    Real dt_s = Real(0);
+    Seconds<Real> dt_s{};
     Real sound_speed = Real(0);  ///< cells/s, softened if max_substeps is too few for it
     Real viscosity = Real(0);    ///< cells²/s, lowered likewise
     Real surface_tension = Real(0);  ///< cells³/s², lowered likewise
@@ -20,10 +20,10 @@ struct SubstepPlan {
 /// further than half a cell, and viscosity spreads over no more than a quarter of a cell²,
 /// and the shortest ripple of surface tension is followed. Bounded by max_substeps.
 template <class Real>
-SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Real dt_s);
+SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real> dt_s);
 
 /// The longest step that max_substeps can carry against gravity, at most one second.
 template <class Real>
-Real longest_step(const Settings<Real>& settings);
+Seconds<Real> longest_step(const Settings<Real>& settings);
 
 }  // namespace weir

@@ -24,5 +24,7 @@ template void diffuse_velocity(const Borders<float>&, PressureFields<float>&, fl
                                StaggeredGrid<float>&);
 template void diffuse_velocity(const Borders<double>&, PressureFields<double>&, double,
                                StaggeredGrid<double>&);
+template void diffuse_velocity(const Borders<Fixed>&, PressureFields<Fixed>&, Fixed,
+                               StaggeredGrid<Fixed>&);
 
 }  // namespace weir

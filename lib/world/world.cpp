@@ -82,41 +82,49 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
 }
 
 template <class Real>
-Borders<Real> borders_of(const WorldDef& def, Real cells_per_m) {
+Borders<Real> borders_of(const WorldDef& def, Face<Real> cells_per_m) {
+    const auto in_cells = [&](float speed_mps) {
+        return static_cast<Real>(cells_per_m * static_cast<Face<Real>>(speed_mps));
+    };
     Borders<Real> borders;
     borders.wrap_x = def.periodic_x;
     borders.wrap_y = def.periodic_y;
     borders.no_slip = def.no_slip;
-    borders.slide_bottom = cells_per_m * static_cast<Real>(def.slide_bottom_mps);
-    borders.slide_top = cells_per_m * static_cast<Real>(def.slide_top_mps);
-    borders.slide_left = cells_per_m * static_cast<Real>(def.slide_left_mps);
-    borders.slide_right = cells_per_m * static_cast<Real>(def.slide_right_mps);
+    borders.slide_bottom = in_cells(def.slide_bottom_mps);
+    borders.slide_top = in_cells(def.slide_top_mps);
+    borders.slide_left = in_cells(def.slide_left_mps);
+    borders.slide_right = in_cells(def.slide_right_mps);
     return borders;
 }
 
 template <class Real>
-Settings<Real> settings_of(const WorldDef& def, Real cells_per_m) {
+Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
     Settings<Real> settings;
-    settings.gravity = cells_per_m * convert<Real>(def.gravity_mps2);
+    const Vec2<Face<Real>> gravity = cells_per_m * convert<Face<Real>>(def.gravity_mps2);
+    settings.gravity = convert<Real>(gravity);
     settings.rest_count = static_cast<Real>(def.particles_per_cell);
     settings.flip_ratio = static_cast<Real>(def.flip_ratio);
     settings.volume_gain = static_cast<Real>(def.volume_gain);
     settings.wall_restitution = static_cast<Real>(def.wall_restitution);
-    settings.viscosity = cells_per_m * cells_per_m * static_cast<Real>(def.viscosity_m2ps);
-    settings.surface_tension = cells_per_m * cells_per_m * cells_per_m *
-                               static_cast<Real>(def.surface_tension_m3ps2);
+    settings.viscosity = static_cast<Real>(cells_per_m * cells_per_m *
+                                           static_cast<Face<Real>>(def.viscosity_m2ps));
+    settings.surface_tension =
+        static_cast<Real>(cells_per_m * cells_per_m * cells_per_m *
+                          static_cast<Face<Real>>(def.surface_tension_m3ps2));
     settings.second_density = static_cast<Real>(def.second_density_ratio);
-    settings.borders = borders_of(def, cells_per_m);
+    settings.borders = borders_of<Real>(def, cells_per_m);
     settings.cfl = static_cast<Real>(def.cfl);
     settings.sweeps = def.pressure_sweeps;
     settings.max_substeps = def.max_substeps;
     settings.pressure = def.pressure;
-    settings.sound_speed = cells_per_m * static_cast<Real>(def.sound_speed_mps);
+    Face<Real> sound_speed = cells_per_m * static_cast<Face<Real>>(def.sound_speed_mps);
     if (def.sound_speed_mps == 0.0F) {
-        const Real drop = static_cast<Real>(def.capacity.cells_x) * absolute(settings.gravity.x) +
-                          static_cast<Real>(def.capacity.cells_y) * absolute(settings.gravity.y);
-        settings.sound_speed = Real(10) * square_root(Real(2) * drop);
+        const Face<Real> drop =
+            static_cast<Face<Real>>(def.capacity.cells_x) * absolute(gravity.x) +
+            static_cast<Face<Real>>(def.capacity.cells_y) * absolute(gravity.y);
+        sound_speed = Face<Real>(10) * square_root(Face<Real>(2) * drop);
     }
+    settings.sound_speed = static_cast<Real>(sound_speed);
     return settings;
 }
 
@@ -173,10 +181,10 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     state_ = new (memory) State();
     state_->def = def;
     state_->tag = tag_of(memory);
-    state_->cells_per_m = Real(1) / static_cast<Real>(def.cell_m);
+    state_->cells_per_m = Face<Real>(1) / static_cast<Face<Real>>(def.cell_m);
     Simulation<Real>& simulation = state_->simulation;
     carve(Carver(memory, plan), def.capacity, simulation);
-    simulation.settings = settings_of(def, state_->cells_per_m);
+    simulation.settings = settings_of<Real>(def, state_->cells_per_m);
     simulation.ticks = def.ticks;
     simulation.layers.contour = def.contour;
     for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {
@@ -199,7 +207,7 @@ FieldView<Real> World<Real>::pressure() const {
 
 template <class Real>
 float World<Real>::pressure_scale() const {
-    if (state_ == nullptr || !(state_->simulation.pressure.last_dt > Real(0))) {
+    if (state_ == nullptr || !(state_->simulation.pressure.last_dt > Seconds<Real>{})) {
         return 0.0F;
     }
     return state_->def.cell_m * state_->def.cell_m /
@@ -249,8 +257,8 @@ std::uint64_t World<Real>::state_hash() const {
         }
     }
     hash_field(hash, simulation.pressure.pressure, simulation.grid.shape);
-    const Real numbers[] = {simulation.pressure.last_dt, simulation.pressure.gravity_change,
-                            simulation.max_speed,
+    hash.add(simulation.pressure.last_dt);
+    const Real numbers[] = {simulation.pressure.gravity_change, simulation.max_speed,
                             simulation.settings.gravity.x, simulation.settings.gravity.y};
     for (const Real number : numbers) {
         hash.add(number);
@@ -270,6 +278,7 @@ std::uint64_t World<Real>::state_hash() const {
     template std::uint64_t World<Real>::state_hash() const;
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -29,13 +29,13 @@ Status check_room(const WorldState<Real>& state, const BodyDef& def, const BodyI
 
 template <class Real>
 void set_pose(const WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
-    body.position = state.cells_per_m * convert<Real>(motion.position_m);
-    body.angle = wrapped_angle(static_cast<Real>(motion.angle_rad));
+    body.position = convert<Real>(state.cells_per_m * convert<Face<Real>>(motion.position_m));
+    body.angle = static_cast<Real>(wrapped_angle(static_cast<Face<Real>>(motion.angle_rad)));
 }
 
 template <class Real>
 void set_velocity(const WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
-    body.velocity = state.cells_per_m * convert<Real>(motion.velocity_mps);
+    body.velocity = convert<Real>(state.cells_per_m * convert<Face<Real>>(motion.velocity_mps));
     body.spin = static_cast<Real>(motion.spin_radps);
 }
 
@@ -50,9 +50,9 @@ Real radius_of(const BodyTable<Real>& table, const Body<Real>& body) {
     Real furthest = Real(0);
     for (std::int32_t k = 0; k < body.vertex_count; ++k) {
         const Vec2<Real> vertex = table.local[body.first_vertex + k];
-        furthest = maximum(furthest, dot(vertex, vertex));
+        furthest = maximum(furthest, length(vertex));
     }
-    return square_root(furthest);
+    return furthest;
 }
 
 template <class Real>
@@ -153,9 +153,9 @@ Status World<Real>::motion(BodyId id, Motion* motion) const {
         return known;
     }
     const Body<Real>& body = state_->simulation.bodies.body[id.slot];
-    const Real cell_m = static_cast<Real>(state_->def.cell_m);
-    motion->position_m = convert<float>(cell_m * body.position);
-    motion->velocity_mps = convert<float>(cell_m * body.velocity);
+    const auto cell_m = static_cast<Face<Real>>(state_->def.cell_m);
+    motion->position_m = convert<float>(cell_m * convert<Face<Real>>(body.position));
+    motion->velocity_mps = convert<float>(cell_m * convert<Face<Real>>(body.velocity));
     motion->angle_rad = static_cast<float>(body.angle);
     motion->spin_radps = static_cast<float>(body.spin);
     return Status::ok;
@@ -192,6 +192,7 @@ Status World<Real>::remove_body(BodyId id) {
     template Status World<Real>::remove_body(BodyId);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

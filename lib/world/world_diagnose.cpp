@@ -82,12 +82,13 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
                      simulation.grid);
     surface_level(simulation.grid, borders, simulation.layers.walls,
                   simulation.settings.rest_count, simulation.pressure);
-    grid_update(borders, Vec2<Real>{}, Real(0), simulation.pressure.level, simulation.grid);
+    grid_update(borders, Vec2<Real>{}, Seconds<Real>{}, simulation.pressure.level, simulation.grid);
     sum_cells(simulation, cell_m, *diagnostics);
     return Status::ok;
 }
 
 template Status World<float>::diagnose(Diagnostics*);
 template Status World<double>::diagnose(Diagnostics*);
+template Status World<Fixed>::diagnose(Diagnostics*);
 
 }  // namespace weir

@@ -73,8 +73,11 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
     }
     Simulation<Real>& simulation = state_->simulation;
     Particles<Real>& particles = simulation.particles;
-    const Vec2<Real> low = state_->cells_per_m * convert<Real>(box_m.min_m);
-    const Vec2<Real> high = state_->cells_per_m * convert<Real>(box_m.max_m);
+    const auto in_cells = [&](Vec2f metres) {
+        return convert<Real>(state_->cells_per_m * convert<Face<Real>>(metres));
+    };
+    const Vec2<Real> low = in_cells(box_m.min_m);
+    const Vec2<Real> high = in_cells(box_m.max_m);
     const std::int32_t per_axis = lattice_per_axis(state_->def.particles_per_cell);
     const GridShape& shape = simulation.grid.shape;
     const Walls<Real>& walls = simulation.layers.walls;
@@ -111,13 +114,15 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         return known;
     }
     Simulation<Real>& simulation = state_->simulation;
-    const Vec2<Real> at = state_->cells_per_m * convert<Real>(position_m);
+    const Vec2<Real> at =
+        convert<Real>(state_->cells_per_m * convert<Face<Real>>(position_m));
     const Vec2<Real> inside = within_tank(simulation.grid.shape, at);
     const Walls<Real>& walls = simulation.layers.walls;
     if (walls.active && inside_solid(simulation.grid.shape, walls, inside)) {
         return Status::particle_inside_solid;
     }
-    const Vec2<Real> velocity = state_->cells_per_m * convert<Real>(velocity_mps);
+    const Vec2<Real> velocity =
+        convert<Real>(state_->cells_per_m * convert<Face<Real>>(velocity_mps));
     simulation.particles.add(inside, velocity, kind);
     simulation.max_speed = maximum(simulation.max_speed,
                                    maximum(absolute(velocity.x), absolute(velocity.y)));
@@ -168,6 +173,7 @@ View<Liquid> World<Real>::particle_kinds() const {
     template View<Liquid> World<Real>::particle_kinds() const;
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -10,11 +10,12 @@ template <class Real>
 struct WorldState {
     Simulation<Real> simulation;
     WorldDef def;
-    Real cells_per_m = Real(0);
+    Face<Real> cells_per_m = Face<Real>(0);
     std::uint16_t tag = 0;         ///< this world's own, in the names of its bodies
     std::uint32_t pending = 0;     ///< Clamped bits that the next report shall carry
 };
 static_assert(sizeof(WorldState<float>) <= kWorldStateBytes, "raise kWorldStateBytes");
+static_assert(sizeof(WorldState<Fixed>) <= kWorldStateBytes, "raise kWorldStateBytes");
 static_assert(sizeof(WorldState<double>) <= kWorldStateBytes, "raise kWorldStateBytes");
 
 }  // namespace weir::detail

@@ -18,13 +18,13 @@ constexpr float kShortestStep = 1.0e-9F;
 /// A usable dt: 0 for nonsense, and not so long that max_substeps could not carry it. Time then
 /// runs slower than the caller's, which is the one thing that stays stable.
 template <class Real>
-Real sane_time_step(const Settings<Real>& settings, float dt_s, StepReport& report) {
+Seconds<Real> sane_time_step(const Settings<Real>& settings, float dt_s, StepReport& report) {
     if (!is_finite(dt_s) || !(dt_s >= kShortestStep)) {
         mark(report, Clamped::time_step);
-        return Real(0);
+        return {};
     }
-    const Real longest = longest_step(settings);
-    const Real wanted = static_cast<Real>(dt_s);
+    const Seconds<Real> longest = longest_step(settings);
+    const auto wanted = static_cast<Seconds<Real>>(dt_s);
     if (wanted > longest) {
         mark(report, Clamped::time_step);
         return longest;
@@ -49,7 +49,8 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
     }
     Simulation<Real>& simulation = state_->simulation;
-    const Vec2<Real> gravity = state_->cells_per_m * convert<Real>(limited);
+    const Vec2<Real> gravity =
+        convert<Real>(state_->cells_per_m * convert<Face<Real>>(limited));
     // The pressure that a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
     const Real now = length(gravity);
@@ -70,8 +71,8 @@ StepReport World<Real>::step(float dt_s) {
     Simulation<Real>& simulation = state_->simulation;
     report.clamped = state_->pending;
     state_->pending = 0;
-    const Real dt = sane_time_step(simulation.settings, dt_s, report);
-    if (dt > Real(0)) {
+    const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s, report);
+    if (dt > Seconds<Real>{}) {
         const SubstepPlan<Real> plan = plan_substeps(simulation, dt);
         if (plan.sound_speed < simulation.settings.sound_speed) {
             mark(report, Clamped::sound_speed);
@@ -104,6 +105,7 @@ StepReport World<Real>::step(float dt_s) {
     template StepReport World<Real>::step(float);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -6,6 +6,7 @@
 
 #include "weir/config.hpp"
 #include "weir/diagnostics.hpp"
+#include "weir/fixed.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"
 #include "weir/status.hpp"
@@ -98,5 +99,6 @@ inline constexpr float kFarFromSolids = 1.5F;
 
 extern template class World<float>;
 extern template class World<double>;
+extern template class World<Fixed>;
 
 }  // namespace weir

@@ -1,0 +1,77 @@
+// The scalar of `World<Fixed>`: a whole number of 1/65536ths, the same bits on every processor, no
+// FPU wanted. Data and conversions only; the arithmetic is the library's own.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+namespace weir {
+
+/// raw · 2^−Fraction, Fraction 1 … 31. Conversions round to the nearest, ties away from zero, and
+/// saturate: no input wraps around. NaN becomes 0.
+template <int Fraction>
+struct FixedPoint {
+    std::int32_t raw = 0;
+
+    static constexpr int fraction = Fraction;
+
+    constexpr FixedPoint() = default;
+    static constexpr FixedPoint of_raw(std::int32_t bits) {
+        FixedPoint value;
+        value.raw = bits;
+        return value;
+    }
+    static constexpr FixedPoint most() { return of_raw(0x7FFFFFFF); }
+    static constexpr FixedPoint least() { return of_raw(-0x7FFFFFFF - 1); }
+
+    template <class Whole, std::enable_if_t<std::is_integral<Whole>::value, int> = 0>
+    constexpr explicit FixedPoint(Whole value) : raw(of_whole(static_cast<std::int64_t>(value))) {}
+
+    /// Meant for constants: costs double arithmetic where the compiler cannot fold it.
+    constexpr explicit FixedPoint(double value) {
+        const double scaled = value * static_cast<double>(1U << static_cast<unsigned>(Fraction));
+        if (scaled >= 2147483647.0) {
+            raw = most().raw;
+        } else if (scaled <= -2147483648.0) {
+            raw = least().raw;
+        } else if (scaled == scaled) {
+            raw = static_cast<std::int32_t>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
+        }
+    }
+
+    /// From the bits of the float, without float arithmetic.
+    explicit FixedPoint(float value);
+
+    /// From another kind of fixed-point number.
+    template <int Other, std::enable_if_t<Other != Fraction, int> = 0>
+    constexpr explicit FixedPoint(FixedPoint<Other> value);
+
+    constexpr explicit operator double() const {
+        return static_cast<double>(raw) / static_cast<double>(1U << static_cast<unsigned>(Fraction));
+    }
+    constexpr explicit operator float() const {
+        return static_cast<float>(raw) / static_cast<float>(1U << static_cast<unsigned>(Fraction));
+    }
+    /// Towards zero, as a float does.
+    constexpr explicit operator std::int32_t() const {
+        return raw >= 0 ? raw >> Fraction
+                        : -static_cast<std::int32_t>((0U - static_cast<std::uint32_t>(raw)) >>
+                                                     static_cast<unsigned>(Fraction));
+    }
+
+private:
+    static constexpr std::int32_t of_whole(std::int64_t value) {
+        constexpr std::int64_t kLimit = std::int64_t{1} << (31 - Fraction);
+        if (value >= kLimit) {
+            return most().raw;
+        }
+        return value < -kLimit ? least().raw
+                               : static_cast<std::int32_t>(static_cast<std::uint32_t>(value)
+                                                           << static_cast<unsigned>(Fraction));
+    }
+};
+
+/// −32768 … 32767.99998 in steps of 1.5e-5: cells, cells a second, and what is made of them.
+using Fixed = FixedPoint<16>;
+
+}  // namespace weir

@@ -1,0 +1,115 @@
+#include "math/fixed.hpp"
+
+#include <cstring>
+
+namespace weir {
+
+template <int Fraction>
+FixedPoint<Fraction>::FixedPoint(float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    const std::int32_t exponent = static_cast<std::int32_t>((bits >> 23U) & 0xFFU);
+    const std::uint32_t mantissa = (bits & 0x7FFFFFU) | 0x800000U;
+    // value = mantissa · 2^(exponent − 150), subnormals apart, which round to 0 anyway.
+    const std::int32_t shift = exponent - 150 + Fraction;
+    std::uint32_t size = 0;
+    if (exponent == 0xFF && (bits & 0x7FFFFFU) != 0) {
+        size = 0;  // no number
+    } else if (shift > 7) {
+        size = 0x80000000U;
+    } else if (shift >= 0) {
+        size = mantissa << static_cast<unsigned>(shift);
+    } else if (shift >= -25) {
+        size = (mantissa + (1U << static_cast<unsigned>(-shift - 1))) >>
+               static_cast<unsigned>(-shift);
+    }
+    const bool negative = (bits >> 31U) != 0;
+    if (size > 0x7FFFFFFFU) {
+        raw = negative ? kLeastRaw : kMostRaw;
+    } else {
+        raw = negative ? -static_cast<std::int32_t>(size) : static_cast<std::int32_t>(size);
+    }
+}
+
+template FixedPoint<16>::FixedPoint(float);
+template FixedPoint<24>::FixedPoint(float);
+template FixedPoint<30>::FixedPoint(float);
+
+namespace fixed {
+
+namespace {
+
+/// One digit of 16 bits: (high · 2^16 + next) / divisor, both halves of the divisor known and its
+/// top bit set. The estimate from the upper half is at most two too large.
+struct Digit {
+    std::uint32_t quotient;
+    std::uint32_t remainder;
+};
+
+inline Digit next_digit(std::uint32_t high, std::uint32_t next, std::uint32_t divisor) {
+    const std::uint32_t upper = divisor >> 16U;
+    const std::uint32_t lower = divisor & 0xFFFFU;
+    std::uint32_t q = high / upper;
+    std::uint32_t rest = high - q * upper;
+    while (q > 0xFFFFU || q * lower > ((rest << 16U) | next)) {
+        --q;
+        rest += upper;
+        if (rest > 0xFFFFU) {
+            break;
+        }
+    }
+    return {q, (high << 16U) + next - q * divisor};
+}
+
+}  // namespace
+
+std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor) {
+    const auto high = static_cast<std::uint32_t>(numerator >> 32U);
+    if (high >= divisor) {
+        return 0xFFFFFFFFU;
+    }
+    const auto zeros = static_cast<unsigned>(__builtin_clz(divisor));
+    const std::uint32_t scaled = divisor << zeros;
+    const std::uint64_t top = numerator << zeros;
+    const Digit first = next_digit(static_cast<std::uint32_t>(top >> 32U),
+                                   static_cast<std::uint32_t>(top >> 16U) & 0xFFFFU, scaled);
+    const Digit second =
+        next_digit(first.remainder, static_cast<std::uint32_t>(top) & 0xFFFFU, scaled);
+    const std::uint32_t whole = (first.quotient << 16U) + second.quotient;
+    const bool up = second.remainder >= scaled - second.remainder;
+    return up && whole != 0xFFFFFFFFU ? whole + 1U : whole;
+}
+
+std::int32_t quotient(std::int32_t a, std::int32_t b, int shift) {
+    const bool negative = (a < 0) != (b < 0);
+    const std::uint64_t size = static_cast<std::uint64_t>(magnitude(a))
+                               << static_cast<unsigned>(shift);
+    const std::uint32_t ratio = divide(size, magnitude(b));
+    const std::int32_t limited = ratio > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(ratio);
+    return negative ? -limited : limited;
+}
+
+std::uint32_t square_root(std::uint64_t value) {
+    if (value == 0) {
+        return 0;
+    }
+    // Two bits of the value give one of the root: start at the highest pair that is not 0.
+    std::uint64_t rest = value;
+    std::uint64_t root = 0;
+    std::uint64_t bit = std::uint64_t{1} << (62U - (static_cast<unsigned>(__builtin_clzll(value)) & ~1U));
+    while (bit != 0) {
+        if (rest >= root + bit) {
+            rest -= root + bit;
+            root = (root >> 1U) + bit;
+        } else {
+            root >>= 1U;
+        }
+        bit >>= 2U;
+    }
+    const auto whole = static_cast<std::uint32_t>(root);
+    return rest > root && whole != 0xFFFFFFFFU ? whole + 1U : whole;
+}
+
+}  // namespace fixed
+
+}  // namespace weir

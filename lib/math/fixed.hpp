@@ -1,0 +1,181 @@
+// Arithmetic of fixed-point numbers: 32 bits, rounded to nearest with ties away from zero (so that
+// mirrored scenes stay mirrored to the bit), saturating. Nothing here divides 64 bits by anything,
+// and no result depends on the processor.
+#pragma once
+
+#include "weir/fixed.hpp"
+
+namespace weir {
+
+/// A number below 2: seconds of a step, to a billionth. And one below 128, to 6e-8: reciprocals.
+using FixedSeconds = FixedPoint<30>;
+using FixedRatio = FixedPoint<24>;
+
+inline constexpr std::int32_t kMostRaw = 0x7FFFFFFF;
+inline constexpr std::int32_t kLeastRaw = -0x7FFFFFFF - 1;
+
+namespace fixed {
+
+inline std::int32_t add(std::int32_t a, std::int32_t b) {
+    std::int32_t sum = 0;
+    return __builtin_add_overflow(a, b, &sum) ? (a < 0 ? kLeastRaw : kMostRaw) : sum;
+}
+inline std::int32_t subtract(std::int32_t a, std::int32_t b) {
+    std::int32_t difference = 0;
+    return __builtin_sub_overflow(a, b, &difference) ? (a < 0 ? kLeastRaw : kMostRaw)
+                                                     : difference;
+}
+constexpr std::int32_t saturate(std::int64_t value) {
+    const auto low = static_cast<std::int32_t>(value);
+    if (static_cast<std::int64_t>(low) == value) {
+        return low;
+    }
+    return value < 0 ? kLeastRaw : kMostRaw;
+}
+/// value · 2^−shift, rounded.
+constexpr std::int64_t shifted(std::int64_t value, int shift) {
+    const std::int64_t half = std::int64_t{1} << (shift - 1);
+    return (value + half + (value >> 63)) >> shift;
+}
+inline std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
+    return saturate(shifted(static_cast<std::int64_t>(a) * b, shift));
+}
+inline std::uint32_t magnitude(std::int32_t a) {
+    return a < 0 ? 0U - static_cast<std::uint32_t>(a) : static_cast<std::uint32_t>(a);
+}
+
+/// numerator / divisor rounded to nearest, saturating; division by 0 saturates too. Done in steps
+/// of 32 by 16 bits (Knuth, The Art of Computer Programming vol. 2, 4.3.1, algorithm D).
+std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor);
+
+/// a · 2^shift / b.
+std::int32_t quotient(std::int32_t a, std::int32_t b, int shift);
+
+/// Square root rounded to nearest.
+std::uint32_t square_root(std::uint64_t value);
+
+}  // namespace fixed
+
+template <int F>
+inline FixedPoint<F> operator+(FixedPoint<F> a, FixedPoint<F> b) {
+    return FixedPoint<F>::of_raw(fixed::add(a.raw, b.raw));
+}
+template <int F>
+inline FixedPoint<F> operator-(FixedPoint<F> a, FixedPoint<F> b) {
+    return FixedPoint<F>::of_raw(fixed::subtract(a.raw, b.raw));
+}
+template <int F>
+inline FixedPoint<F> operator-(FixedPoint<F> a) {
+    return FixedPoint<F>::of_raw(fixed::subtract(0, a.raw));
+}
+/// Of two kinds of numbers the product and the quotient are of the coarser kind.
+template <int F, int G>
+inline FixedPoint<(F < G ? F : G)> operator*(FixedPoint<F> a, FixedPoint<G> b) {
+    return FixedPoint<(F < G ? F : G)>::of_raw(fixed::multiply(a.raw, b.raw, F < G ? G : F));
+}
+template <int F, int G>
+inline FixedPoint<(F < G ? F : G)> operator/(FixedPoint<F> a, FixedPoint<G> b) {
+    // raw / raw has F − G fractional bits.
+    return FixedPoint<(F < G ? F : G)>::of_raw(
+        fixed::quotient(a.raw, b.raw, (F < G ? F : G) - F + G));
+}
+template <int F>
+inline FixedPoint<F>& operator+=(FixedPoint<F>& a, FixedPoint<F> b) {
+    return a = a + b;
+}
+template <int F>
+inline FixedPoint<F>& operator-=(FixedPoint<F>& a, FixedPoint<F> b) {
+    return a = a - b;
+}
+
+#define WEIR_COMPARE(op)                                                  \
+    template <int F>                                                      \
+    constexpr bool operator op(FixedPoint<F> a, FixedPoint<F> b) {        \
+        return a.raw op b.raw;                                            \
+    }
+WEIR_COMPARE(==)
+WEIR_COMPARE(!=)
+WEIR_COMPARE(<)
+WEIR_COMPARE(<=)
+WEIR_COMPARE(>)
+WEIR_COMPARE(>=)
+#undef WEIR_COMPARE
+
+/// Every bit pattern is a number.
+template <int F>
+constexpr bool is_finite(FixedPoint<F>) {
+    return true;
+}
+
+template <int F>
+constexpr std::int32_t floor_to_int(FixedPoint<F> value) {
+    return value.raw >> F;
+}
+
+template <int To>
+template <int From, std::enable_if_t<From != To, int>>
+constexpr FixedPoint<To>::FixedPoint(FixedPoint<From> value)
+    : raw(To > From ? fixed::saturate(static_cast<std::int64_t>(value.raw) *
+                                      (std::int64_t{1} << (To > From ? To - From : 0)))
+                    : fixed::saturate(fixed::shifted(value.raw, From > To ? From - To : 1))) {}
+
+/// How many times one time is the other.
+inline Fixed operator/(FixedSeconds a, FixedSeconds b) {
+    return Fixed::of_raw(fixed::quotient(a.raw, b.raw, 16));
+}
+/// An equal part of a time.
+inline FixedSeconds part_of(FixedSeconds whole, std::int32_t parts) {
+    return FixedSeconds::of_raw(fixed::quotient(whole.raw, parts, 0));
+}
+
+/// The square root of a number that is not negative, rounded to nearest.
+inline Fixed square_root(Fixed value) {
+    return Fixed::of_raw(
+        static_cast<std::int32_t>(fixed::square_root(static_cast<std::uint64_t>(value.raw) << 16U)));
+}
+
+/// A sum of products at full width: squares of lengths across the tank.
+struct WideFixed {
+    std::int64_t raw = 0;  ///< Q31.32
+
+    constexpr WideFixed() = default;
+    constexpr explicit WideFixed(std::int32_t whole) : raw(std::int64_t{whole} * 4294967296) {}
+    static constexpr WideFixed of_raw(std::int64_t bits) {
+        WideFixed value;
+        value.raw = bits;
+        return value;
+    }
+    operator Fixed() const { return Fixed::of_raw(fixed::saturate(fixed::shifted(raw, 16))); }
+    constexpr explicit operator double() const { return static_cast<double>(raw) / 4294967296.0; }
+};
+inline WideFixed operator+(WideFixed a, WideFixed b) {
+    std::int64_t sum = 0;
+    const bool over = __builtin_add_overflow(a.raw, b.raw, &sum);
+    return WideFixed::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : sum);
+}
+inline WideFixed operator-(WideFixed a, WideFixed b) {
+    std::int64_t difference = 0;
+    const bool over = __builtin_sub_overflow(a.raw, b.raw, &difference);
+    return WideFixed::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : difference);
+}
+inline WideFixed operator-(WideFixed a) { return WideFixed{} - a; }
+constexpr bool operator<(WideFixed a, WideFixed b) { return a.raw < b.raw; }
+constexpr bool operator<=(WideFixed a, WideFixed b) { return a.raw <= b.raw; }
+constexpr bool operator>(WideFixed a, WideFixed b) { return a.raw > b.raw; }
+constexpr bool operator>=(WideFixed a, WideFixed b) { return a.raw >= b.raw; }
+
+/// Not negative, as a sum of squares is.
+inline Fixed square_root(WideFixed value) {
+    const std::uint32_t root = fixed::square_root(static_cast<std::uint64_t>(value.raw));
+    return Fixed::of_raw(root > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(root));
+}
+inline Fixed operator/(WideFixed a, Fixed b) {
+    const bool negative = (a.raw < 0) != (b.raw < 0);
+    const std::uint64_t size = a.raw < 0 ? 0U - static_cast<std::uint64_t>(a.raw)
+                                         : static_cast<std::uint64_t>(a.raw);
+    const std::uint32_t ratio = fixed::divide(size, fixed::magnitude(b.raw));
+    const std::int32_t limited = ratio > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(ratio);
+    return Fixed::of_raw(negative ? -limited : limited);
+}
+
+}  // namespace weir
