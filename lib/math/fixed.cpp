@@ -96,7 +96,8 @@ std::uint32_t square_root(std::uint64_t value) {
     // Two bits of the value give one of the root: start at the highest pair that is not 0.
     std::uint64_t rest = value;
     std::uint64_t root = 0;
-    std::uint64_t bit = std::uint64_t{1} << (62U - (static_cast<unsigned>(__builtin_clzll(value)) & ~1U));
+    const auto zeros = static_cast<unsigned>(__builtin_clzll(value)) & ~1U;
+    std::uint64_t bit = std::uint64_t{1} << (62U - zeros);
     while (bit != 0) {
         if (rest >= root + bit) {
             rest -= root + bit;

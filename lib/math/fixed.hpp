@@ -130,8 +130,8 @@ inline FixedSeconds part_of(FixedSeconds whole, std::int32_t parts) {
 
 /// The square root of a number that is not negative, rounded to nearest.
 inline Fixed square_root(Fixed value) {
-    return Fixed::of_raw(
-        static_cast<std::int32_t>(fixed::square_root(static_cast<std::uint64_t>(value.raw) << 16U)));
+    const std::uint64_t widened = static_cast<std::uint64_t>(value.raw) << 16U;
+    return Fixed::of_raw(static_cast<std::int32_t>(fixed::square_root(widened)));
 }
 
 /// A sum of products at full width: squares of lengths across the tank.

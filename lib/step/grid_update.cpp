@@ -70,8 +70,8 @@ void extrapolate_component(Real* velocity, const Real* before, const Real* level
 }  // namespace
 
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s, const Real* level,
-                 StaggeredGrid<Real>& grid) {
+void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s,
+                 const Real* level, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     if (grid.inverse_density_u != nullptr) {
         update_mixed(grid.u, grid.mass_u, grid.inverse_density_u, s, gravity.x * dt_s);
@@ -94,7 +94,7 @@ void extrapolate(const Borders<Real>& borders, const Real* level, bool velocity_
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                  \
-    template void grid_update(const Borders<Real>&, Vec2<Real>, Seconds<Real>, const Real*,              \
+    template void grid_update(const Borders<Real>&, Vec2<Real>, Seconds<Real>, const Real*,     \
                               StaggeredGrid<Real>&);                                            \
     template void extrapolate(const Borders<Real>&, const Real*, bool, StaggeredGrid<Real>&);
 WEIR_INSTANTIATE(float)

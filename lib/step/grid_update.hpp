@@ -10,8 +10,8 @@ namespace weir {
 /// With two liquids the mass gives way to the inverse density.
 /// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s, const Real* level,
-                 StaggeredGrid<Real>& grid);
+void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s,
+                 const Real* level, StaggeredGrid<Real>& grid);
 
 /// Faces in air beside the liquid change their velocity by as much as the liquid's faces next to
 /// them do on average: particles at the surface read both. It is the acceleration that goes on

@@ -52,9 +52,11 @@ template <class Real>
 Seconds<Real> longest_step(const Settings<Real>& settings) {
     const Real gravity = strength(settings.gravity);
     const Real most = static_cast<Real>(settings.max_substeps);
-    return static_cast<Seconds<Real>>(
-        gravity > Real(0) ? minimum(Real(1), most * (kRootOfGravityWay<Real> / square_root(gravity)))
-                          : Real(1));
+    if (!(gravity > Real(0))) {
+        return Seconds<Real>(1);
+    }
+    const Real most_s = most * (kRootOfGravityWay<Real> / square_root(gravity));
+    return static_cast<Seconds<Real>>(minimum(Real(1), most_s));
 }
 
 template <class Real>

@@ -47,7 +47,8 @@ struct FixedPoint {
     constexpr explicit FixedPoint(FixedPoint<Other> value);
 
     constexpr explicit operator double() const {
-        return static_cast<double>(raw) / static_cast<double>(1U << static_cast<unsigned>(Fraction));
+        return static_cast<double>(raw) /
+               static_cast<double>(1U << static_cast<unsigned>(Fraction));
     }
     constexpr explicit operator float() const {
         return static_cast<float>(raw) / static_cast<float>(1U << static_cast<unsigned>(Fraction));
