@@ -42,13 +42,16 @@ void move(Real* field, Line to, Line from) {
 }
 
 /// Ghost mass and momentum along a wall, onto the line before it. Without slip the image moves
-/// against the liquid, seen from the wall.
+/// against the liquid, seen from the wall. `sense`: the axis along which the conveyor runs.
 template <class Real>
-void fold_along(Real* mass, Real* momentum, Line inside, Line ghost, bool no_slip, Real slide) {
+void fold_along(Real* mass, Real* momentum, Line inside, Line ghost, const SurfaceLaw<Real>& wall,
+                Real sense) {
+    const Real slide = sense * wall.conveyor;
     for (std::int32_t k = 0; k < inside.count; ++k) {
         const std::int32_t to = inside.first + k * inside.step;
         const std::int32_t from = ghost.first + k * ghost.step;
-        const Real image = no_slip ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
+        const Real image =
+            wall.no_slip ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
         mass[to] += mass[from];
         momentum[to] += image;
         mass[from] = Real(0);
@@ -85,10 +88,12 @@ void close(Real* velocity, Line wall, const Real* level, std::int32_t cell, std:
 }
 
 template <class Real>
-void mirror_along(Real* velocity, Line ghost, Line inside, bool no_slip, Real slide) {
+void mirror_along(Real* velocity, Line ghost, Line inside, const SurfaceLaw<Real>& wall,
+                  Real sense) {
+    const Real slide = sense * wall.conveyor;
     for (std::int32_t k = 0; k < ghost.count; ++k) {
         const Real value = velocity[inside.first + k * inside.step];
-        velocity[ghost.first + k * ghost.step] = no_slip ? (slide + slide) - value : value;
+        velocity[ghost.first + k * ghost.step] = wall.no_slip ? (slide + slide) - value : value;
     }
 }
 
@@ -106,8 +111,8 @@ void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
             move(field, row(s, 0), row(s, s.ny));
         }
     } else {
-        fold_along(grid.mass_u, grid.u, row(s, 0), row(s, -1), b.no_slip, b.slide_bottom);
-        fold_along(grid.mass_u, grid.u, row(s, top), row(s, s.ny), b.no_slip, b.slide_top);
+        fold_along(grid.mass_u, grid.u, row(s, 0), row(s, -1), b.bottom, Real(1));
+        fold_along(grid.mass_u, grid.u, row(s, top), row(s, s.ny), b.top, Real(-1));
     }
     if (b.wrap_x) {
         Real* const on_v[] = {grid.mass_v, grid.v};
@@ -116,9 +121,8 @@ void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
             move(field, column(s, 0), column(s, s.nx));
         }
     } else {
-        fold_along(grid.mass_v, grid.v, column(s, 0), column(s, -1), b.no_slip, b.slide_left);
-        fold_along(grid.mass_v, grid.v, column(s, right), column(s, s.nx), b.no_slip,
-                   b.slide_right);
+        fold_along(grid.mass_v, grid.v, column(s, 0), column(s, -1), b.left, Real(-1));
+        fold_along(grid.mass_v, grid.v, column(s, right), column(s, s.nx), b.right, Real(1));
     }
     fold_across(grid.mass_u, column(s, 0), column(s, s.nx), b.wrap_x);
     fold_across(grid.u, column(s, 0), column(s, s.nx), b.wrap_x);
@@ -146,8 +150,8 @@ void extend_velocity(const Borders<Real>& b, const GridShape& s, Real* u, Real* 
         copy(u, column(s, -1), column(s, s.nx - 1));
         copy(v, column(s, -1), column(s, s.nx - 1));
     } else {
-        mirror_along(v, column(s, -1), column(s, 0), b.no_slip, b.slide_left);
-        mirror_along(v, column(s, s.nx), column(s, s.nx - 1), b.no_slip, b.slide_right);
+        mirror_along(v, column(s, -1), column(s, 0), b.left, Real(-1));
+        mirror_along(v, column(s, s.nx), column(s, s.nx - 1), b.right, Real(1));
     }
     if (b.wrap_y) {
         copy(u, row(s, s.ny), row(s, 0));
@@ -155,8 +159,8 @@ void extend_velocity(const Borders<Real>& b, const GridShape& s, Real* u, Real* 
         copy(u, row(s, -1), row(s, s.ny - 1));
         copy(v, row(s, -1), row(s, s.ny - 1));
     } else {
-        mirror_along(u, row(s, -1), row(s, 0), b.no_slip, b.slide_bottom);
-        mirror_along(u, row(s, s.ny), row(s, s.ny - 1), b.no_slip, b.slide_top);
+        mirror_along(u, row(s, -1), row(s, 0), b.bottom, Real(1));
+        mirror_along(u, row(s, s.ny), row(s, s.ny - 1), b.top, Real(-1));
     }
 }
 

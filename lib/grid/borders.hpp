@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid/staggered_grid.hpp"
+#include "grid/surface_law.hpp"
 
 namespace weir {
 
@@ -11,11 +12,10 @@ template <class Real>
 struct Borders {
     bool wrap_x = false;  ///< left and right side are one
     bool wrap_y = false;  ///< bottom and top are one
-    bool no_slip = false;
-    Real slide_left = Real(0);  ///< of the walls along themselves, cells/s; only without slip
-    Real slide_right = Real(0);
-    Real slide_bottom = Real(0);
-    Real slide_top = Real(0);
+    SurfaceLaw<Real> bottom;  ///< its conveyor runs along x
+    SurfaceLaw<Real> right;   ///< along y
+    SurfaceLaw<Real> top;     ///< against x
+    SurfaceLaw<Real> left;    ///< against y
 };
 
 /// After the scatter: ghost rows are folded back onto the rows that they mirror or repeat.

@@ -3,6 +3,7 @@
 
 #include "base/array_view.hpp"
 #include "contour/raster.hpp"
+#include "grid/surface_law.hpp"
 #include "math/rotation.hpp"
 #include "weir/config.hpp"
 #include "weir/memory.hpp"
@@ -19,7 +20,7 @@ struct Body {
     Vec2<Real> velocity;
     Real angle = Real(0);
     Real spin = Real(0);
-    Real restitution = Real(0);
+    SurfaceLaw<Real> surface;
     Real radius = Real(0);           ///< of the circle about `position` that holds it
     std::int32_t first_vertex = 0;
     std::int32_t vertex_count = 0;  ///< in all rings

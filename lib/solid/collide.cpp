@@ -1,6 +1,7 @@
 #include "solid/collide.hpp"
 
 #include "contour/marching_squares.hpp"
+#include "solid/reflect.hpp"
 
 namespace weir {
 
@@ -86,13 +87,6 @@ std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::in
     return walls.nearest[deepest];
 }
 
-template <class Real>
-Vec2<Real> reflect(const Body<Real>& body, Vec2<Real> x, Vec2<Real> v, Vec2<Real> normal) {
-    const Vec2<Real> wall = velocity_at(body, x);
-    const Real approach = dot(v - wall, normal);
-    return approach < Real(0) ? v - ((Real(1) + body.restitution) * approach) * normal : v;
-}
-
 }  // namespace
 
 template <class Real>
@@ -114,8 +108,11 @@ CollideResult<Real> collide(const GridShape& shape, const Walls<Real>& walls,
         ++result.reflected;
         const Real way = minimum(kClearance<Real> - hit.distance, kLongestWayOut<Real>);
         particles.position[k] = within_tank(shape, x + way * hit.normal);
-        const std::uint16_t slot = touched_body(shape, walls, cell.node);
-        const Vec2<Real> v = reflect(walls.body[slot], x, particles.velocity[k], hit.normal);
+        const Body<Real>& body = walls.body[touched_body(shape, walls, cell.node)];
+        const Vec2<Real> surface =
+            surface_velocity(body.surface, velocity_at(body, x), hit.normal);
+        const Vec2<Real> v =
+            reflect(body.surface, surface, particles.velocity[k], hit.normal);
         particles.velocity[k] = v;
         result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
     }

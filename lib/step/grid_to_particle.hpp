@@ -19,9 +19,7 @@ struct Transfer {
     Seconds<Real> dt_s;
     Real flip_ratio;
     Real limit;             ///< cells/s; nothing moves faster
-    Real wall_restitution;
-    bool wrap_x = false;    ///< left and right side are one
-    bool wrap_y = false;
+    Borders<Real> borders = {};
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a

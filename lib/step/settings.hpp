@@ -13,7 +13,6 @@ struct Settings {
     Real flip_ratio = Real(0.97);
     Real volume_gain = Real(0.25);
     Real sound_speed = Real(0);  ///< cells/s; equation of state
-    Real wall_restitution = Real(0);
     Real viscosity = Real(0);    ///< kinematic, cells²/s
     Real surface_tension = Real(0);  ///< over density, cells³/s²
     Real second_density = Real(1);   ///< of the second liquid over the first's

@@ -109,9 +109,7 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report
     const Transfer<Real> transfer{dt_s,
                                   settings.flip_ratio,
                                   kLongestWay<Real> / dt_s,
-                                  settings.wall_restitution,
-                                  settings.borders.wrap_x,
-                                  settings.borders.wrap_y};
+                                  settings.borders};
     const TransferResult<Real> result =
         grid_to_particle(simulation.grid, transfer, simulation.particles);
     report.particles_reset += result.reset;

@@ -22,15 +22,32 @@ inline Vec2<Real> limited(Vec2<Real> v, Real limit, TransferResult<Real>& count)
     return absolute(v.x) <= limit && absolute(v.y) <= limit ? v : refused(v, limit, count);
 }
 
-/// One axis at the tank's walls: back to the wall, and the velocity towards it given back.
+/// A blow of speed `into` (> 0) against a tank's wall rubs along it (Coulomb).
 template <class Real>
-inline void keep_inside(Real& x, Real& v, Real size, Real restitution) {
+inline Real rubbed(Real along, Real slide, const SurfaceLaw<Real>& wall, Real into) {
+    const Real most = wall.friction * ((Real(1) + wall.restitution) * into);
+    return along - clamp(along - slide, -most, most);
+}
+
+/// One axis at the tank's walls: back to the wall, the velocity towards it given back, and rubbed
+/// along it. `sense`: the axis along which the low wall's conveyor runs; the high one's runs the
+/// other way.
+template <class Real>
+inline void keep_inside(Real& x, Real& v, Real& along, Real size, const SurfaceLaw<Real>& low,
+                        const SurfaceLaw<Real>& high, Real sense) {
     if (x < kWallGap<Real>) {
         x = kWallGap<Real>;
-        v = v < Real(0) ? -restitution * v : v;
+        if (v < Real(0)) {
+            along = low.friction > Real(0) ? rubbed(along, sense * low.conveyor, low, -v) : along;
+            v = -low.restitution * v;
+        }
     } else if (x > size - kWallGap<Real>) {
         x = size - kWallGap<Real>;
-        v = v > Real(0) ? -restitution * v : v;
+        if (v > Real(0)) {
+            along = high.friction > Real(0) ? rubbed(along, -sense * high.conveyor, high, v)
+                                            : along;
+            v = -high.restitution * v;
+        }
     }
 }
 
@@ -54,15 +71,16 @@ inline void advect(Vec2<Real> size, const Transfer<Real>& transfer, Vec2<Real> a
     TransferResult<Real> unused;
     v = limited(v, transfer.limit, result);
     x = x + transfer.dt_s * limited(along, transfer.limit, unused);
-    if (transfer.wrap_x) {
+    const Borders<Real>& b = transfer.borders;
+    if (b.wrap_x) {
         wrap_around(x.x, size.x);
     } else {
-        keep_inside(x.x, v.x, size.x, transfer.wall_restitution);
+        keep_inside(x.x, v.x, v.y, size.x, b.left, b.right, Real(-1));
     }
-    if (transfer.wrap_y) {
+    if (b.wrap_y) {
         wrap_around(x.y, size.y);
     } else {
-        keep_inside(x.y, v.y, size.y, transfer.wall_restitution);
+        keep_inside(x.y, v.y, v.x, size.y, b.bottom, b.top, Real(1));
     }
     result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
 }

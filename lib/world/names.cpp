@@ -31,6 +31,7 @@ const char* init_text(Status status) {
         case Status::sound_speed_out_of_range:
             return "sound_speed_mps: choose 0 (automatic) or at most kMaxSpeed cells a second";
         case Status::restitution_out_of_range: return "restitution: choose 0 (slide) … 1 (mirror)";
+        case Status::friction_out_of_range: return "friction: choose 0 (none) … 1000";
         case Status::viscosity_out_of_range:
             return "viscosity_m2ps: choose 0 … 1e6 cells² a second";
         case Status::surface_tension_out_of_range:
@@ -41,8 +42,8 @@ const char* init_text(Status status) {
             return "second_density_ratio: choose 0.01 … 100";
         case Status::second_liquid_needs_projection:
             return "two liquids: choose Pressure::projection";
-        case Status::wall_speed_out_of_range:
-            return "slide_..._mps: choose at most kMaxSpeed cells a second";
+        case Status::conveyor_out_of_range:
+            return "conveyor_mps: choose at most kMaxSpeed cells a second";
         case Status::periodic_with_bodies:
             return "periodic worlds hold no bodies: set capacity.bodies = 0";
         case Status::periodic_needs_even_cells:

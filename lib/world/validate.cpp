@@ -40,11 +40,9 @@ Status check_numerics(const WorldDef& def) {
     if (!within(def.volume_gain, 0.0F, 1.0F)) {
         return Status::volume_gain_out_of_range;
     }
-    if (!within(def.sound_speed_mps, 0.0F, kMaxSpeed * def.cell_m)) {
-        return Status::sound_speed_out_of_range;
-    }
-    return within(def.wall_restitution, 0.0F, 1.0F) ? Status::ok
-                                                    : Status::restitution_out_of_range;
+    return within(def.sound_speed_mps, 0.0F, kMaxSpeed * def.cell_m)
+               ? Status::ok
+               : Status::sound_speed_out_of_range;
 }
 
 Status check_liquids(const WorldDef& def) {
@@ -67,13 +65,24 @@ Status check_liquids(const WorldDef& def) {
     return Status::ok;
 }
 
+Status check_surface(const Surface& surface, float cell_m) {
+    if (!within(surface.restitution, 0.0F, 1.0F)) {
+        return Status::restitution_out_of_range;
+    }
+    if (!within(surface.friction, 0.0F, 1000.0F)) {
+        return Status::friction_out_of_range;
+    }
+    const float fastest = kMaxSpeed * cell_m;
+    return within(surface.conveyor_mps, -fastest, fastest) ? Status::ok
+                                                           : Status::conveyor_out_of_range;
+}
+
 Status check_borders(const WorldDef& def) {
-    const float fastest = kMaxSpeed * def.cell_m;
-    const float slides[] = {def.slide_bottom_mps, def.slide_top_mps, def.slide_left_mps,
-                            def.slide_right_mps};
-    for (const float slide : slides) {
-        if (!within(slide, -fastest, fastest)) {
-            return Status::wall_speed_out_of_range;
+    const Surface walls[] = {def.walls.bottom, def.walls.right, def.walls.top, def.walls.left};
+    for (const Surface& wall : walls) {
+        const Status surface = check_surface(wall, def.cell_m);
+        if (surface != Status::ok) {
+            return surface;
         }
     }
     if ((def.periodic_x || def.periodic_y) && def.capacity.bodies > 0) {
@@ -174,7 +183,7 @@ Status check_body(const BodyDef& def, float cell_m) {
     if (motion != Status::ok) {
         return motion;
     }
-    return within(def.restitution, 0.0F, 1.0F) ? Status::ok : Status::restitution_out_of_range;
+    return check_surface(def.surface, cell_m);
 }
 
 Status check_box(const Box& box, float width_m, float height_m) {

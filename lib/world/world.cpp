@@ -83,17 +83,13 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
 
 template <class Real>
 Borders<Real> borders_of(const WorldDef& def, Face<Real> cells_per_m) {
-    const auto in_cells = [&](float speed_mps) {
-        return static_cast<Real>(cells_per_m * static_cast<Face<Real>>(speed_mps));
-    };
     Borders<Real> borders;
     borders.wrap_x = def.periodic_x;
     borders.wrap_y = def.periodic_y;
-    borders.no_slip = def.no_slip;
-    borders.slide_bottom = in_cells(def.slide_bottom_mps);
-    borders.slide_top = in_cells(def.slide_top_mps);
-    borders.slide_left = in_cells(def.slide_left_mps);
-    borders.slide_right = in_cells(def.slide_right_mps);
+    borders.bottom = surface_law<Real>(def.walls.bottom, cells_per_m);
+    borders.right = surface_law<Real>(def.walls.right, cells_per_m);
+    borders.top = surface_law<Real>(def.walls.top, cells_per_m);
+    borders.left = surface_law<Real>(def.walls.left, cells_per_m);
     return borders;
 }
 
@@ -105,7 +101,6 @@ Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
     settings.rest_count = static_cast<Real>(def.particles_per_cell);
     settings.flip_ratio = static_cast<Real>(def.flip_ratio);
     settings.volume_gain = static_cast<Real>(def.volume_gain);
-    settings.wall_restitution = static_cast<Real>(def.wall_restitution);
     settings.viscosity = static_cast<Real>(cells_per_m * cells_per_m *
                                            static_cast<Face<Real>>(def.viscosity_m2ps));
     settings.surface_tension =
@@ -153,10 +148,12 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
             continue;
         }
         const Real numbers[] = {body.position.x, body.position.y, body.velocity.x, body.velocity.y,
-                                body.angle,      body.spin,       body.restitution};
+                                body.angle,      body.spin,       body.surface.restitution,
+                                body.surface.friction, body.surface.conveyor};
         for (const Real number : numbers) {
             hash.add(number);
         }
+        hash.add(static_cast<std::uint32_t>(body.surface.no_slip));
         for (std::int32_t k = 0; k < body.vertex_count; ++k) {
             hash.add(table.local[body.first_vertex + k].x);
             hash.add(table.local[body.first_vertex + k].y);

@@ -67,7 +67,7 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
     Body<Real> body;
     body.generation = table.body[slot].generation;
     body.kind = kind;
-    body.restitution = static_cast<Real>(def.restitution);
+    body.surface = surface_law<Real>(def.surface, state.cells_per_m);
     set_pose(state, def.motion, body);
     if (!add_polygon(table, def.polygon, state.cells_per_m, body)) {
         return Status::polygon_crosses_itself;

@@ -38,8 +38,8 @@ weir::WorldDef definition(const Setup& setup, weir::Pressure pressure, std::size
     def.periodic_x = setup.periodic_x;
     def.periodic_y = setup.periodic_y;
     def.viscosity_m2ps = narrow(setup.viscosity);
-    def.no_slip = setup.no_slip;
-    def.slide_top_mps = narrow(setup.slide_top);
+    def.walls = weir::every_wall({0.0F, 0.0F, setup.no_slip, 0.0F});
+    def.walls.top.conveyor_mps = -narrow(setup.slide_top);
     return def;
 }
 

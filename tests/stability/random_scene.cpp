@@ -48,8 +48,10 @@ void choose_quality(Random& random, bool tame, weir::WorldDef& def) {
 void choose_settings(Random& random, RandomScene& scene) {
     weir::WorldDef& def = scene.def;
     def.volume_gain = random.one_of({0.0F, 0.25F, 0.25F, 1.0F});
-    def.wall_restitution = random.chance(0.3F) ? random.uniform(0.0F, 1.0F) : 0.0F;
-    def.no_slip = random.chance(0.3F);
+    weir::Surface wall;
+    wall.restitution = random.chance(0.3F) ? random.uniform(0.0F, 1.0F) : 0.0F;
+    wall.no_slip = random.chance(0.3F);
+    def.walls = weir::every_wall(wall);
     def.sound_speed_mps = scene.scheme.elastic() ? random.uniform(2.0F, 20.0F) : 0.0F;
     if (random.chance(0.3F)) {
         const float amount = std::exp(random.uniform(-4.0F, 4.0F));  // ν dt, cells²
@@ -132,7 +134,8 @@ std::string RandomScene::text() const {
                   gravity_changes ? " changing" : "", static_cast<double>(def.viscosity_m2ps),
                   static_cast<double>(def.cfl), def.max_substeps, def.pressure_sweeps,
                   static_cast<double>(def.flip_ratio), static_cast<double>(def.volume_gain),
-                  static_cast<double>(def.wall_restitution), def.no_slip ? " no slip" : "",
+                  static_cast<double>(def.walls.left.restitution),
+                  def.walls.left.no_slip ? " no slip" : "",
                   static_cast<double>(def.sound_speed_mps), static_cast<double>(dt_s),
                   static_cast<double>(jitter), steps);
     return line;

@@ -108,7 +108,7 @@ void thicken(Report& report, const Scheme& scheme, float amount, std::int32_t su
     weir::WorldDef def = tank_def(scheme, 24, 16, 512);
     def.max_substeps = substeps;
     def.viscosity_m2ps = amount * kCell * kCell / scheme.dt_s();
-    def.no_slip = true;
+    def.walls = weir::every_wall({0.0F, 0.0F, true, 0.0F});
     Tank<Real> tank(def);
     tank.fill(0, 0, 8, 12);
     std::int32_t fewest = substeps;
@@ -133,7 +133,7 @@ void rub(Report& report, const Scheme& scheme, float amount, float flip, bool so
     weir::WorldDef def = tank_def(scheme, 24, 24, 1024, 1, 3);
     def.viscosity_m2ps = amount * kCell * kCell / scheme.dt_s();
     def.flip_ratio = flip;
-    def.no_slip = true;
+    def.walls = weir::every_wall({0.0F, 0.0F, true, 0.0F});
     Tank<Real> tank(def);
     if (solid) {
         tank.add_static({{-3, -2}, {3, -1}, {0.5F, 3}}, {11.3F, 5.4F});

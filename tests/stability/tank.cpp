@@ -109,7 +109,7 @@ BodyId Tank<Real>::add_body(const Ring& ring, const weir::Motion& motion, float 
     weir::BodyDef def;
     def.polygon = {metres.data(), static_cast<std::int32_t>(metres.size())};
     def.motion = motion;
-    def.restitution = restitution;
+    def.surface.restitution = restitution;
     BodyId id;
     require(moving ? world_.add_moving_body(def, &id) : world_.add_static_body(def, &id));
     tally_.solids = true;

@@ -117,22 +117,30 @@ const std::vector<Row>& init_rows() {
         {"two liquids without projection",
          CHANGED_INIT(capacity.second_liquid = true; def.pressure, Pressure::equation_of_state),
          Status::second_liquid_needs_projection},
-        {"bottom beyond", CHANGED_INIT(slide_bottom_mps, 2.1e4F), Status::wall_speed_out_of_range},
-        {"top NaN", CHANGED_INIT(slide_top_mps, kNan), Status::wall_speed_out_of_range},
-        {"left beyond", CHANGED_INIT(slide_left_mps, -2.1e4F), Status::wall_speed_out_of_range},
-        {"right infinite", CHANGED_INIT(slide_right_mps, kInf),
-         Status::wall_speed_out_of_range},
+        {"bottom beyond", CHANGED_INIT(walls.bottom.conveyor_mps, 2.1e4F),
+         Status::conveyor_out_of_range},
+        {"top NaN", CHANGED_INIT(walls.top.conveyor_mps, kNan), Status::conveyor_out_of_range},
+        {"left beyond", CHANGED_INIT(walls.left.conveyor_mps, -2.1e4F),
+         Status::conveyor_out_of_range},
+        {"right infinite", CHANGED_INIT(walls.right.conveyor_mps, kInf),
+         Status::conveyor_out_of_range},
         {"periodic x with bodies", CHANGED_INIT(periodic_x, true), Status::periodic_with_bodies},
         {"periodic y with bodies", CHANGED_INIT(periodic_y, true), Status::periodic_with_bodies},
         {"periodic odd", CHANGED_INIT(periodic_y = true; def.capacity.bodies = 0;
                                       def.capacity.cells_y, 15),
          Status::periodic_needs_even_cells},
-        {"wall restitution below", CHANGED_INIT(wall_restitution, -0.01F),
+        {"wall restitution below", CHANGED_INIT(walls.left.restitution, -0.01F),
          Status::restitution_out_of_range},
-        {"wall restitution beyond", CHANGED_INIT(wall_restitution, 1.01F),
+        {"wall restitution beyond", CHANGED_INIT(walls.right.restitution, 1.01F),
          Status::restitution_out_of_range},
-        {"wall restitution NaN", CHANGED_INIT(wall_restitution, kNan),
+        {"wall restitution NaN", CHANGED_INIT(walls.top.restitution, kNan),
          Status::restitution_out_of_range},
+        {"wall friction below", CHANGED_INIT(walls.top.friction, -0.01F),
+         Status::friction_out_of_range},
+        {"wall friction beyond", CHANGED_INIT(walls.bottom.friction, 1000.1F),
+         Status::friction_out_of_range},
+        {"wall friction NaN", CHANGED_INIT(walls.left.friction, kNan),
+         Status::friction_out_of_range},
         {"unknown pressure", CHANGED_INIT(pressure, static_cast<Pressure>(2)),
          Status::unknown_option},
         {"unknown contour", CHANGED_INIT(contour, static_cast<Contour>(2)), Status::unknown_option},
@@ -240,7 +248,7 @@ TEST(BadInput, LimitsAreInside) {
     EXPECT_EQ(accepted([](WorldDef& def) { def.flip_ratio = 0.0F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.flip_ratio = 1.0F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.volume_gain = 1.0F; }), Status::ok);
-    EXPECT_EQ(accepted([](WorldDef& def) { def.wall_restitution = 1.0F; }), Status::ok);
+    EXPECT_EQ(accepted([](WorldDef& def) { def.walls.left.restitution = 1.0F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.surface_tension_m3ps2 = 7.9e6F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.second_density_ratio = 0.01F; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.second_density_ratio = 100.0F; }), Status::ok);

@@ -107,9 +107,19 @@ const std::vector<Row>& polygon_rows() {
 
 const std::vector<Row>& body_rows() {
     static const std::vector<Row> rows = {
-        {"restitution below", CHANGED_BODY(restitution, -0.01F), Status::restitution_out_of_range},
-        {"restitution beyond", CHANGED_BODY(restitution, 1.01F), Status::restitution_out_of_range},
-        {"restitution NaN", CHANGED_BODY(restitution, kNan), Status::restitution_out_of_range},
+        {"restitution below", CHANGED_BODY(surface.restitution, -0.01F),
+         Status::restitution_out_of_range},
+        {"restitution beyond", CHANGED_BODY(surface.restitution, 1.01F),
+         Status::restitution_out_of_range},
+        {"restitution NaN", CHANGED_BODY(surface.restitution, kNan),
+         Status::restitution_out_of_range},
+        {"friction below", CHANGED_BODY(surface.friction, -0.01F), Status::friction_out_of_range},
+        {"friction beyond", CHANGED_BODY(surface.friction, 1000.1F),
+         Status::friction_out_of_range},
+        {"friction NaN", CHANGED_BODY(surface.friction, kNan), Status::friction_out_of_range},
+        {"conveyor beyond", CHANGED_BODY(surface.conveyor_mps, 2.1e4F),
+         Status::conveyor_out_of_range},
+        {"conveyor NaN", CHANGED_BODY(surface.conveyor_mps, kNan), Status::conveyor_out_of_range},
         {"body's position x NaN", CHANGED_BODY(motion.position_m.x, kNan),
          Status::motion_not_finite},
         {"body's position y infinite", CHANGED_BODY(motion.position_m.y, kInf),

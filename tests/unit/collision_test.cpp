@@ -38,7 +38,7 @@ Vec2<double> unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 BodyDef half_plane(Ring& ring, double normal_angle, float restitution) {
     ring = {{-1.0F, -1.0F}, {0.0F, -1.0F}, {0.0F, 1.0F}, {-1.0F, 1.0F}};
     BodyDef def = body_of(ring, {16 * kCell, 16 * kCell}, static_cast<float>(normal_angle));
-    def.restitution = restitution;
+    def.surface.restitution = restitution;
     return def;
 }
 
@@ -70,7 +70,7 @@ struct Stand {
                 cell_case[static_cast<std::size_t>(shape.index(i, j))] = contour_case(corner);
             }
         }
-        body.restitution = restitution;
+        body.surface.restitution = restitution;
         walls.active = true;
         walls.distance = distance.data();
         walls.nearest = nearest.data();
@@ -171,13 +171,13 @@ TEST(Collide, AMovingWallLendsItsVelocity) {
     EXPECT_EQ(stand.hit(x, w).reflected, 1);
     EXPECT_NEAR(w.x, 3.0F, 1.0e-5F) << "pushed";
     EXPECT_NEAR(w.y, 0.0F, 1.0e-5F) << "the wall is slippery";
-    stand.body.restitution = 1.0F;
+    stand.body.surface.restitution = 1.0F;
     x = {15.9F, 16.0F};
     w = {-1.0F, 2.0F};
     stand.hit(x, w);
     EXPECT_NEAR(w.x, 7.0F, 1.0e-5F);
     stand.body.velocity = {0, 0};
-    stand.body.restitution = 0.0F;
+    stand.body.surface.restitution = 0.0F;
     stand.body.position = {16.0F, 10.0F};
     stand.body.spin = -2.0F;  // at (15.9, 16): velocity (12, 0.2)
     x = {15.9F, 16.0F};

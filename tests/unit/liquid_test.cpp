@@ -140,7 +140,7 @@ TEST(Transfer, UniformVelocityIsReturnedExactly) {
         blend_change(bench.borders, flip, bench.fields, bench.grid);
         Particles<float> particles = bench.particles();
         const TransferResult<float> result =
-            grid_to_particle(bench.grid, {0.01F, flip, 200.0F, 0.0F}, particles);
+            grid_to_particle(bench.grid, {0.01F, flip, 200.0F}, particles);
         EXPECT_EQ(result.reset, 0);
         EXPECT_EQ(result.slowed, 0);
         EXPECT_NEAR(result.max_speed, 3.0F, 2e-6F);
@@ -159,13 +159,13 @@ TEST(Transfer, NonFiniteParticlesAreRefusedAndFastOnesSlowed) {
     bench.w[0] = {1.0e6F, 0};
     Particles<float> particles = bench.particles();
     const TransferResult<float> result =
-        grid_to_particle(bench.grid, {0.01F, 1.0F, 200.0F, 0.0F}, particles);
+        grid_to_particle(bench.grid, {0.01F, 1.0F, 200.0F}, particles);
     EXPECT_EQ(result.slowed, 1);
     EXPECT_EQ(bench.w[0].x, 200.0F);
     bench.w[1] = {std::numeric_limits<float>::quiet_NaN(), 1.0F};
     bench.w[2] = {0.0F, std::numeric_limits<float>::infinity()};
     bench.w[0] = {};
-    EXPECT_EQ(grid_to_particle(bench.grid, {0.01F, 1.0F, 200.0F, 0.0F}, particles).reset, 2);
+    EXPECT_EQ(grid_to_particle(bench.grid, {0.01F, 1.0F, 200.0F}, particles).reset, 2);
     EXPECT_EQ(bench.w[1].x, 0.0F);
     EXPECT_EQ(bench.w[2].y, 0.0F);
 }

@@ -287,8 +287,8 @@ TEST(TwoLiquids, EqualDensitiesAreOneLiquidToTheBit) {
     expect_same_bits<float>(def, 50);
     def.periodic_x = false;
     def.viscosity_m2ps = 1.0e-3F;
-    def.no_slip = true;
-    def.slide_left_mps = 0.3F;
+    def.walls = every_wall({0.0F, 0.0F, true, 0.0F});
+    def.walls.left.conveyor_mps = -0.3F;
     expect_same_bits<float>(def, 50);
     def.periodic_y = false;
     def.capacity.bodies = 2;

@@ -48,6 +48,30 @@ enum class Liquid : std::uint8_t { first, second };
 /// A free-running counter, any unit, never decreasing. Null: the report's ticks stay 0.
 using TickFunction = std::uint64_t (*)();
 
+/// How a solid's surface answers liquid: friction for what hits it, sticking for what is viscous.
+struct Surface {
+    float restitution = 0.0F;  ///< normal velocity given back: 0 (slide along) … 1 (mirror)
+    /// Coulomb: a blow takes at most this times its normal part along the surface; 0 … 1000
+    float friction = 0.0F;
+    bool no_slip = false;  ///< viscous liquid sticks; without viscosity it means nothing
+    /// Of the surface along itself, as of a belt, m/s: counter-clockwise about the body, or about
+    /// the tank. It shows where there is friction, or viscosity and no slip.
+    float conveyor_mps = 0.0F;
+};
+
+/// Surfaces of the tank's own walls.
+struct TankWalls {
+    Surface bottom;
+    Surface right;
+    Surface top;
+    Surface left;
+};
+
+/// The same surface all around.
+constexpr TankWalls every_wall(const Surface& surface) {
+    return {surface, surface, surface, surface};
+}
+
 /// Everything that `World::init` wants to know. The defaults work for water in a tank.
 struct WorldDef {
     Capacity capacity;
@@ -92,16 +116,7 @@ struct WorldDef {
     /// `capacity.second_liquid`, and with Pressure::projection. Unlike densities want more sweeps.
     float second_density_ratio = 1.0F;
 
-    /// Normal velocity that the tank's walls give back; 0 (slide along) … 1 (mirror).
-    float wall_restitution = 0.0F;
-    /// Whether viscous liquid sticks to the tank's walls.
-    bool no_slip = false;
-    /// Without slip: speed of the bottom and the top along x and of the left and the right wall
-    /// along y, as of a conveyor belt, m/s.
-    float slide_bottom_mps = 0.0F;
-    float slide_top_mps = 0.0F;
-    float slide_left_mps = 0.0F;
-    float slide_right_mps = 0.0F;
+    TankWalls walls;
 
     /// What leaves the tank on one side enters it on the other. Such a world holds no bodies, and
     /// an even number of cells along that axis.
@@ -124,7 +139,7 @@ struct BodyDef {
     View<Vec2f> polygon;       ///< m; 3 … kMaxBodyVertices; copied
     View<View<Vec2f>> holes;   ///< m; rings inside the polygon, none in another; copied
     Motion motion;             ///< a static body takes only position and angle
-    float restitution = 0.0F;  ///< 0 (liquid slides along it) … 1 (mirror)
+    Surface surface;
 };
 
 }  // namespace weir

@@ -1,0 +1,100 @@
+// Surfaces: restitution, friction, conveyor, of bodies and of the tank's walls.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solid/reflect.hpp"
+#include "test_world.hpp"
+#include "weir/weir.hpp"
+
+namespace weir {
+namespace {
+
+constexpr Vec2<double> kUp{0.0, 1.0};
+
+TEST(Reflect, TurnsTheNormalPartAndKeepsTheOther) {
+    const SurfaceLaw<double> mirror{1.0, 0.0, 0.0, false};
+    const Vec2<double> after = reflect(mirror, {}, {3.0, -2.0}, kUp);
+    EXPECT_DOUBLE_EQ(after.x, 3.0);
+    EXPECT_DOUBLE_EQ(after.y, 2.0);
+    const Vec2<double> leaving = reflect(mirror, {}, {3.0, 2.0}, kUp);
+    EXPECT_DOUBLE_EQ(leaving.y, 2.0) << "a particle that leaves is left alone";
+}
+
+TEST(Reflect, FrictionIsBoundedByTheBlowAndByRest) {
+    const SurfaceLaw<double> rough{0.5, 0.2, 0.0, false};
+    const Vec2<double> slips = reflect(rough, {}, {3.0, -2.0}, kUp);
+    EXPECT_DOUBLE_EQ(slips.x, 3.0 - 0.2 * 3.0) << "0.2 of the normal change 1.5 × 2";
+    EXPECT_DOUBLE_EQ(slips.y, 1.0);
+    const Vec2<double> stops = reflect(rough, {}, {-0.1, -2.0}, kUp);
+    EXPECT_DOUBLE_EQ(stops.x, 0.0) << "friction does not turn it round";
+    const Vec2<double> oblique =
+        reflect(rough, {1.0, 1.0}, {1.0 - 0.8, 1.0 - 0.6}, Vec2<double>{0.8, 0.6});
+    EXPECT_NEAR(oblique.x, 1.4, 1e-12) << "met straight on: nothing along the surface";
+    EXPECT_NEAR(oblique.y, 1.3, 1e-12);
+}
+
+TEST(Reflect, AConveyorRunsCounterClockwise) {
+    const SurfaceLaw<double> belt{0.0, 10.0, 2.0, false};
+    const Vec2<double> top = surface_velocity(belt, {0.5, 0.0}, kUp);
+    EXPECT_DOUBLE_EQ(top.x, -1.5) << "the upper side of a body runs to the left";
+    const Vec2<double> after = reflect(belt, top, {0.0, -1.0}, kUp);
+    EXPECT_DOUBLE_EQ(after.x, -1.5) << "carried along";
+}
+
+/// One particle thrown at each wall of an empty tank.
+TEST(Surface, TankWallsRubAndCarry) {
+    WorldDef def;
+    def.gravity_mps2 = {0, 0};
+    def.flip_ratio = 1.0F;
+    def.volume_gain = 0.0F;
+    Surface belt;
+    belt.friction = 100.0F;
+    belt.conveyor_mps = 0.1F;
+    def.walls = every_wall(belt);
+    const Vec2f start[] = {{0.3F, 0.05F}, {0.6F, 0.3F}, {0.3F, 0.6F}, {0.05F, 0.3F}};
+    const Vec2f thrown[] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+    const Vec2f carried[] = {{0.1F, 0}, {0, 0.1F}, {-0.1F, 0}, {0, -0.1F}};
+    for (int k = 0; k < 4; ++k) {
+        TestWorld<float> world{def};
+        ASSERT_EQ(world->add_particle(start[k], thrown[k]), Status::ok);
+        for (int step = 0; step < 30; ++step) {
+            world->step(0.01F);
+        }
+        const Vec2f v = world->particle_velocities()[0];
+        EXPECT_NEAR(v.x * def.cell_m, carried[k].x, 1e-3F) << "wall " << k;
+        EXPECT_NEAR(v.y * def.cell_m, carried[k].y, 1e-3F) << "wall " << k;
+    }
+}
+
+/// The same against a body's four sides.
+TEST(Surface, BodiesRubAndCarry) {
+    WorldDef def;
+    def.gravity_mps2 = {0, 0};
+    def.flip_ratio = 1.0F;
+    def.volume_gain = 0.0F;
+    def.capacity.bodies = 1;
+    def.capacity.vertices = 4;
+    const Ring square{{-0.1F, -0.1F}, {0.1F, -0.1F}, {0.1F, 0.1F}, {-0.1F, 0.1F}};
+    const Vec2f start[] = {{0.32F, 0.05F}, {0.6F, 0.32F}, {0.32F, 0.6F}, {0.05F, 0.32F}};
+    const Vec2f thrown[] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+    const Vec2f carried[] = {{0.1F, 0}, {0, 0.1F}, {-0.1F, 0}, {0, -0.1F}};
+    for (int k = 0; k < 4; ++k) {
+        TestWorld<float> world{def};
+        BodyDef body = body_of(square, {0.32F, 0.32F});
+        body.surface.friction = 100.0F;
+        body.surface.conveyor_mps = 0.1F;
+        BodyId id;
+        ASSERT_EQ(world->add_static_body(body, &id), Status::ok);
+        ASSERT_EQ(world->add_particle(start[k], thrown[k]), Status::ok);
+        for (int step = 0; step < 30; ++step) {
+            world->step(0.01F);
+        }
+        const Vec2f v = world->particle_velocities()[0];
+        EXPECT_NEAR(v.x * def.cell_m, carried[k].x, 1e-3F) << "side " << k;
+        EXPECT_NEAR(v.y * def.cell_m, carried[k].y, 1e-3F) << "side " << k;
+    }
+}
+
+}  // namespace
+}  // namespace weir
