@@ -50,7 +50,9 @@ struct Tank {
     }
     TransferResult<float> gather(float limit, bool wrap) {
         auto all = particles();
-        const Transfer<float> transfer{0.05F, 0.97F, limit, 0.5F, wrap, wrap};
+        const SurfaceLaw<float> wall{0.5F, 0.3F, 0.0F, false};
+        const Borders<float> borders{wrap, wrap, wall, wall, wall, wall};
+        const Transfer<float> transfer{0.05F, 0.97F, limit, borders};
         return grid_to_particle(grid, transfer, all);
     }
 };
