@@ -35,7 +35,8 @@ inline Vec2<Real> reflect(const SurfaceLaw<Real>& law, Vec2<Real> surface, Vec2<
     }
     const Vec2<Real> tangent{-normal.y, normal.x};
     const Real most = -law.friction * blow;
-    return after - clamp(dot(relative, tangent), -most, most) * tangent;
+    const Real slip = dot(relative, tangent);
+    return after - clamp(slip, -most, most) * tangent;
 }
 
 }  // namespace weir
