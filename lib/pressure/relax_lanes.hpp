@@ -8,6 +8,14 @@
 
 namespace weir {
 
+/// Relaxes cells c, c + 2 … of a row as long as eight cells are left before `end`. Returns the next
+/// cell to do. `open_u` and `open_v`: open fractions, read beside cells whose inverse diagonal is
+/// negative; elsewhere they are 1.
+template <bool Solids>
+std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
+                       const float* open_v, float omega, std::int32_t stride, std::int32_t c,
+                       std::int32_t end);
+
 #if WEIR_HAS_LANES
 
 /// Every second of eight numbers, from the first one on and from the second one on.
@@ -21,9 +29,6 @@ inline EvenOdd load_eight(const float* from) {
     return {shuffle<0, 2, 4, 6>(a, b), shuffle<1, 3, 5, 7>(a, b)};
 }
 
-/// Relaxes cells c, c + 2 … of a row as long as eight cells are left before `end`. Returns the next
-/// cell to do. `open_u` and `open_v`: open fractions, read beside cells whose inverse diagonal is
-/// negative; elsewhere they are 1.
 template <bool Solids>
 std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
                        const float* open_v, float omega, std::int32_t stride, std::int32_t c,

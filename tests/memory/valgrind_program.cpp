@@ -60,7 +60,7 @@ bool churn() {
 
 int main() {
     int check = 1;
-    for (const scenes::Scenario& scenario : scenes::kScenarios) {
+    for (const scenes::Scenario& scenario : scenes::scenarios<float>()) {
         if (!run(scenario)) {
             return check;
         }

@@ -16,7 +16,8 @@
 namespace {
 
 alignas(weir::world_alignment) std::byte g_memory[WEIR_SCENARIO_BYTES];
-scenes::Stage g_stage;
+template <class Real>
+scenes::StageIn<Real> g_stage;
 bool g_facts = false;
 
 constexpr std::int32_t kCheckpoints[] = {1, 10, 30, 100, 300};
@@ -46,35 +47,54 @@ std::int32_t number(const char* text, std::int32_t otherwise) {
     return text[0] == '\0' ? otherwise : value;
 }
 
-bool run(const scenes::Scenario& scenario, std::int32_t steps) {
-    const weir::Status ready = scenes::begin(scenario, g_memory, sizeof g_memory, g_stage);
+/// Behind the names of scenes in fixed point.
+template <class Real>
+constexpr const char* in = "";
+template <>
+constexpr const char* in<weir::Fixed> = "_fixed";
+
+template <class Real>
+bool run(const scenes::ScenarioIn<Real>& scenario, std::int32_t steps) {
+    const weir::Status ready = scenes::begin(scenario, g_memory, sizeof g_memory, g_stage<Real>);
     if (ready != weir::Status::ok) {
         port::print(scenario.name, ": ", weir::status_text(ready), "\n");
         return false;
     }
-    const std::int32_t particles = g_stage.world.particle_positions().size;
-    const float first = scenes::energy(scenario, g_stage.world);
+    const std::int32_t particles = g_stage<Real>.world.particle_positions().size;
+    const float first = scenes::energy(scenario, g_stage<Real>.world);
     float highest = first;
     const std::uint64_t start = port::ticks();
     for (std::int32_t step = 0; step < steps; ++step) {
-        const weir::StepReport report = scenes::advance(scenario, g_stage, step);
-        const float now = scenes::energy(scenario, g_stage.world);
+        const weir::StepReport report = scenes::advance(scenario, g_stage<Real>, step);
+        const float now = scenes::energy(scenario, g_stage<Real>.world);
         highest = now > highest ? now : highest;
-        if (report.particles != particles || !scenes::all_inside(g_stage.world)) {
+        if (report.particles != particles || !scenes::all_inside(g_stage<Real>.world)) {
             port::print(scenario.name, ": lost a particle in step ", step, "\n");
             return false;
         }
         if (is_checkpoint(step + 1)) {
             const auto parts_per_million = static_cast<std::int32_t>(highest / first * 1.0e6F);
-            port::print("scene ", scenario.name, " ", step + 1, " ", particles, " ",
-                        port::hex(g_stage.world.state_hash()), " ", parts_per_million, "\n");
+            port::print("scene ", scenario.name, in<Real>, " ", step + 1, " ", particles, " ",
+                        port::hex(g_stage<Real>.world.state_hash()), " ", parts_per_million, "\n");
         }
     }
     if (g_facts) {
-        port::print("ticks ", scenario.name, " ", port::ticks() - start, " ", port::tick_unit(),
+        port::print("ticks ", scenario.name, in<Real>, " ", port::ticks() - start, " ", port::tick_unit(),
                     "\n");
     }
     return true;
+}
+
+template <class Real>
+bool run_all(const char* only, std::int32_t most) {
+    bool ok = true;
+    for (const scenes::ScenarioIn<Real>& scenario : scenes::scenarios<Real>()) {
+        const bool wanted = only[0] == '\0' || equal(only, scenario.name);
+        if (wanted && weir::world_bytes<Real>(scenario.def.capacity) <= sizeof g_memory) {
+            ok = run(scenario, most < scenario.steps ? most : scenario.steps) && ok;
+        }
+    }
+    return ok;
 }
 
 }  // namespace
@@ -86,13 +106,8 @@ int main() {
     port::argument("steps", text, sizeof text);
     const std::int32_t most = number(text, 1'000'000);
     port::argument("scene", text, sizeof text);
-    bool ok = true;
-    for (const scenes::Scenario& scenario : scenes::kScenarios) {
-        const bool wanted = text[0] == '\0' || equal(text, scenario.name);
-        if (wanted && weir::world_bytes<float>(scenario.def.capacity) <= sizeof g_memory) {
-            ok = run(scenario, most < scenario.steps ? most : scenario.steps) && ok;
-        }
-    }
+    bool ok = run_all<float>(text, most);
+    ok = run_all<weir::Fixed>(text, most) && ok;
     if (g_facts && port::stack_bytes() != 0) {
         port::print("stack ", port::stack_high_water(), " of ", port::stack_bytes(), ", code ",
                     port::code_bytes(), ", ram ", port::ram_bytes(), " bytes\n");

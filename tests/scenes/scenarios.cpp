@@ -31,7 +31,8 @@ constexpr WorldDef tank(std::int32_t cells_x, std::int32_t cells_y, std::int32_t
 
 /// Adds the body and remembers its name. Vertices in cells, at most eight. Without a motion it is
 /// static.
-Status add(Stage& stage, const Vec2f* ring, std::int32_t count, Vec2f at,
+template <class Real>
+Status add(StageIn<Real>& stage, const Vec2f* ring, std::int32_t count, Vec2f at,
            const weir::Motion* motion) {
     Vec2f metres[8];
     if (count > 8 || stage.bodies == kMostBodies) {
@@ -51,13 +52,28 @@ Status add(Stage& stage, const Vec2f* ring, std::int32_t count, Vec2f at,
     return added;
 }
 
-Status fill_cup(Stage& stage) { return stage.world.fill(cells(0, 0, 5, 6)); }
+template <class Real>
+Status fill_cup(StageIn<Real>& stage) {
+    return stage.world.fill(cells(0, 0, 5, 6));
+}
 
-Status fill_resting_pool(Stage& stage) { return stage.world.fill(cells(0, 0, 16, 16)); }
+template <class Real>
+Status fill_resting_pool(StageIn<Real>& stage) {
+    return stage.world.fill(cells(0, 0, 16, 16));
+}
 
-Status fill_dam(Stage& stage) { return stage.world.fill(cells(0, 0, 10, 14)); }
+template <class Real>
+Status fill_dam(StageIn<Real>& stage) {
+    return stage.world.fill(cells(0, 0, 10, 14));
+}
 
-Status fill_dam_with_solids(Stage& stage) {
+template <class Real>
+Status fill_elastic_dam(StageIn<Real>& stage) {
+    return stage.world.fill(cells(0, 0, 8, 12));
+}
+
+template <class Real>
+Status fill_dam_with_solids(StageIn<Real>& stage) {
     // Reaches one cell beyond the tank, so that no gap is left at its walls.
     static constexpr Vec2f kRamp[] = {{-2, -1}, {10, -1}, {10, 5}};
     static constexpr Vec2f kBlock[] = {
@@ -76,12 +92,14 @@ Status fill_dam_with_solids(Stage& stage) {
     return status == Status::ok ? fill_dam(stage) : status;
 }
 
-Status fill_splash(Stage& stage) {
+template <class Real>
+Status fill_splash(StageIn<Real>& stage) {
     const Status pool = stage.world.fill(cells(0, 0, 24, 5));
     return pool == Status::ok ? stage.world.fill(cells(9, 13, 15, 19)) : pool;
 }
 
-Status fill_piston(Stage& stage) {
+template <class Real>
+Status fill_piston(StageIn<Real>& stage) {
     static constexpr Vec2f kPiston[] = {{-2, -2}, {2, -2}, {2, 20}, {-2, 20}};
     const weir::Motion motion;
     const Status status = add(stage, kPiston, 4, {2, 0}, &motion);
@@ -89,7 +107,8 @@ Status fill_piston(Stage& stage) {
 }
 
 /// To and fro: half a second at 4 cells a second each way.
-Status move_piston(Stage& stage, std::int32_t step) {
+template <class Real>
+Status move_piston(StageIn<Real>& stage, std::int32_t step) {
     constexpr std::int32_t kHalfPeriod = 30;
     if (step % kHalfPeriod != 0) {
         return Status::ok;
@@ -112,6 +131,11 @@ constexpr WorldDef elastic(WorldDef def) {
 constexpr float kFrame = 1.0F / 60.0F;
 constexpr float kShortFrame = 1.0F / 240.0F;
 
+template <class Real>
+Vec2f in_float(weir::Vec2<Real> v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
 bool equal(const char* a, const char* b) {
     while (*a != '\0' && *a == *b) {
         ++a;
@@ -120,22 +144,23 @@ bool equal(const char* a, const char* b) {
     return *a == *b;
 }
 
-}  // namespace
-
-constexpr Scenario kTable[kScenarioCount] = {
-    {"cup", tank(12, 10, 120, 0, 0), 300, kFrame, false, fill_cup, nullptr},
+template <class Real>
+constexpr ScenarioIn<Real> kTable[kScenarioCount] = {
+    {"cup", tank(12, 10, 120, 0, 0), 300, kFrame, false, fill_cup<Real>, nullptr},
     {"eos_dam_break", elastic(tank(24, 16, 400, 0, 0)), 300, kShortFrame, false,
-     [](Stage& stage) { return stage.world.fill(cells(0, 0, 8, 12)); }, nullptr},
-    {"resting_pool", tank(16, 24, 1024, 0, 0), 300, kFrame, false, fill_resting_pool, nullptr},
-    {"dam_break", tank(32, 20, 560, 0, 0), 300, kFrame, false, fill_dam, nullptr},
-    {"splash", tank(24, 24, 624, 0, 0), 300, kFrame, false, fill_splash, nullptr},
-    {"moving_piston", tank(28, 18, 672, 1, 4), 300, kFrame, true, fill_piston, move_piston},
-    {"dam_break_solids", tank(32, 20, 560, 3, 11), 300, kFrame, true, fill_dam_with_solids,
+     fill_elastic_dam<Real>, nullptr},
+    {"resting_pool", tank(16, 24, 1024, 0, 0), 300, kFrame, false, fill_resting_pool<Real>,
+     nullptr},
+    {"dam_break", tank(32, 20, 560, 0, 0), 300, kFrame, false, fill_dam<Real>, nullptr},
+    {"splash", tank(24, 24, 624, 0, 0), 300, kFrame, false, fill_splash<Real>, nullptr},
+    {"moving_piston", tank(28, 18, 672, 1, 4), 300, kFrame, true, fill_piston<Real>,
+     move_piston<Real>},
+    {"dam_break_solids", tank(32, 20, 560, 3, 11), 300, kFrame, true, fill_dam_with_solids<Real>,
      nullptr},
 };
 
 constexpr bool all_fit() {
-    for (const Scenario& scenario : kTable) {
+    for (const Scenario& scenario : kTable<float>) {
         if (weir::world_bytes<float>(scenario.def.capacity) > kMostBytes) {
             return false;
         }
@@ -143,13 +168,13 @@ constexpr bool all_fit() {
     return true;
 }
 static_assert(all_fit(), "a scene must leave room on a 128 KB part");
-static_assert(weir::world_bytes<float>(kTable[0].def.capacity) <= 9728, "the cup fits 16 KB parts");
+static_assert(weir::world_bytes<float>(kTable<float>[0].def.capacity) <= 9728,
+              "the cup fits 16 KB parts");
 
-const Scenario kScenarios[kScenarioCount] = {kTable[0], kTable[1], kTable[2], kTable[3],
-                                             kTable[4], kTable[5], kTable[6]};
+}  // namespace
 
 const Scenario* find(const char* name) {
-    for (const Scenario& scenario : kScenarios) {
+    for (const Scenario& scenario : scenarios<float>()) {
         if (equal(scenario.name, name)) {
             return &scenario;
         }
@@ -157,46 +182,60 @@ const Scenario* find(const char* name) {
     return nullptr;
 }
 
-Status begin(const Scenario& scenario, void* memory, std::size_t bytes, Stage& stage) {
-    stage = Stage{};
+template <class Real>
+const ScenarioIn<Real> (&scenarios())[kScenarioCount] {
+    return kTable<Real>;
+}
+
+template <class Real>
+Status begin(const ScenarioIn<Real>& scenario, void* memory, std::size_t bytes,
+             StageIn<Real>& stage) {
+    stage = StageIn<Real>{};
     const Status ready = stage.world.init(scenario.def, memory, bytes);
     return ready == Status::ok ? scenario.set_up(stage) : ready;
 }
 
-weir::StepReport advance(const Scenario& scenario, Stage& stage, std::int32_t step) {
+template <class Real>
+weir::StepReport advance(const ScenarioIn<Real>& scenario, StageIn<Real>& stage,
+                         std::int32_t step) {
     if (scenario.before_step != nullptr && scenario.before_step(stage, step) != Status::ok) {
         weir_fault("scenario.before_step", __FILE__, __LINE__);
     }
     return stage.world.step(scenario.dt_s);
 }
 
-float energy(const Scenario& scenario, const weir::World<float>& world) {
+template <class Real>
+float energy(const ScenarioIn<Real>& scenario, const weir::World<Real>& world) {
     const Vec2f gravity = scenario.def.gravity_mps2;
     const float gx = gravity.x / scenario.def.cell_m;
     const float gy = gravity.y / scenario.def.cell_m;
     const float corner_x = gx > 0.0F ? static_cast<float>(world.cells_x()) : 0.0F;
     const float corner_y = gy > 0.0F ? static_cast<float>(world.cells_y()) : 0.0F;
-    const weir::View<Vec2f> x = world.particle_positions();
-    const weir::View<Vec2f> v = world.particle_velocities();
+    const auto positions = world.particle_positions();
+    const auto velocities = world.particle_velocities();
     float sum = 0.0F;
-    for (std::int32_t k = 0; k < x.size; ++k) {
-        const float kinetic = 0.5F * (v[k].x * v[k].x + v[k].y * v[k].y);
-        sum += kinetic - (gx * (x[k].x - corner_x) + gy * (x[k].y - corner_y));
+    for (std::int32_t k = 0; k < positions.size; ++k) {
+        const Vec2f x = in_float(positions[k]);
+        const Vec2f v = in_float(velocities[k]);
+        const float kinetic = 0.5F * (v.x * v.x + v.y * v.y);
+        sum += kinetic - (gx * (x.x - corner_x) + gy * (x.y - corner_y));
     }
     return sum;
 }
 
-bool all_inside(const weir::World<float>& world) {
+template <class Real>
+bool all_inside(const weir::World<Real>& world) {
     const auto width = static_cast<float>(world.cells_x());
     const auto height = static_cast<float>(world.cells_y());
     constexpr float kAbsurd = 1.0e9F;
-    const weir::View<Vec2f> x = world.particle_positions();
-    const weir::View<Vec2f> v = world.particle_velocities();
-    for (std::int32_t k = 0; k < x.size; ++k) {
+    const auto positions = world.particle_positions();
+    const auto velocities = world.particle_velocities();
+    for (std::int32_t k = 0; k < positions.size; ++k) {
+        const Vec2f x = in_float(positions[k]);
+        const Vec2f v = in_float(velocities[k]);
         // Each comparison is false for a NaN.
-        const bool inside = x[k].x > 0.0F && x[k].x < width && x[k].y > 0.0F && x[k].y < height;
-        const bool sane = v[k].x > -kAbsurd && v[k].x < kAbsurd && v[k].y > -kAbsurd &&
-                          v[k].y < kAbsurd;
+        const bool inside = x.x > 0.0F && x.x < width && x.y > 0.0F && x.y < height;
+        const bool sane = v.x > -kAbsurd && v.x < kAbsurd && v.y > -kAbsurd && v.y < kAbsurd;
         if (!inside || !sane) {
             return false;
         }
@@ -204,9 +243,19 @@ bool all_inside(const weir::World<float>& world) {
     return true;
 }
 
+#define WEIR_INSTANTIATE(Real)                                                                 \
+    template const ScenarioIn<Real>(&scenarios())[kScenarioCount];                             \
+    template Status begin(const ScenarioIn<Real>&, void*, std::size_t, StageIn<Real>&);        \
+    template weir::StepReport advance(const ScenarioIn<Real>&, StageIn<Real>&, std::int32_t);  \
+    template float energy(const ScenarioIn<Real>&, const weir::World<Real>&);                  \
+    template bool all_inside(const weir::World<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(weir::Fixed)
+#undef WEIR_INSTANTIATE
+
 std::size_t largest_world_bytes(std::size_t limit) {
     std::size_t largest = 0;
-    for (const Scenario& scenario : kScenarios) {
+    for (const Scenario& scenario : scenarios<float>()) {
         const std::size_t bytes = weir::world_bytes<float>(scenario.def.capacity);
         largest = bytes <= limit && bytes > largest ? bytes : largest;
     }

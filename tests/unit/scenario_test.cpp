@@ -76,7 +76,7 @@ private:
 Scenario scene(const char* name) {
     const Scenario* found = scenes::find(name);
     EXPECT_NE(found, nullptr) << name;
-    return found != nullptr ? *found : scenes::kScenarios[0];
+    return found != nullptr ? *found : scenes::scenarios<float>()[0];
 }
 
 /// Figures of a pool at rest, in cells and seconds.
@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SolidScenario,
                          [](const auto& one) { return std::string(one.param); });
 
 TEST(Scenario, AllHaveDifferentNamesAndFitTheSmallestBoards) {
-    for (const Scenario& a : scenes::kScenarios) {
+    for (const Scenario& a : scenes::scenarios<float>()) {
         EXPECT_LE(world_bytes<float>(a.def.capacity), 96U * 1024U);
         EXPECT_EQ(scenes::find(a.name), &a);
         EXPECT_EQ(a.steps, 300);
