@@ -15,6 +15,11 @@ struct Particles {
     Liquid* kind = nullptr;  ///< null: there is one liquid
 
     bool full() const { return count == capacity; }
+    /// A part of the pool, to be changed in place.
+    Particles part(std::int32_t first, std::int32_t size) const {
+        return {position + first, velocity + first, size, size,
+                kind != nullptr ? kind + first : nullptr};
+    }
     void add(Vec2<Real> at, Vec2<Real> moving, Liquid of) {
         position[count] = at;
         velocity[count] = moving;

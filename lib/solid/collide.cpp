@@ -1,137 +1,282 @@
 #include "solid/collide.hpp"
 
-#include "contour/marching_squares.hpp"
+#include "solid/contour_hit.hpp"
 #include "solid/reflect.hpp"
+#include "solid/way_out.hpp"
 
 namespace weir {
 
 namespace {
 
-constexpr std::uint8_t kOutside = 0;
-constexpr std::uint8_t kInside = 15;
-
-/// A particle inside a solid leaves at this speed at most, cells per substep: as fast as it can
-/// have come in at the default CFL number, and no faster.
+/// What is found inside goes out at this speed at most, cells per substep.
 template <class Real>
-constexpr Real kLongestWayOut = Real(1);
+constexpr Real kFastestWayOut = Real(1);
 
 /// Where a particle is put: this far in front of the wall, so that it is not found behind it again.
 template <class Real>
 constexpr Real kClearance = Real(1.0 / 1024.0);
 
+/// In a corner a particle that is set back to one wall may be behind the next: so often.
+constexpr std::int32_t kMostWalls = 4;
+
+/// A particle that ends further than this behind the plane that it is set back to has come through
+/// the solid from its other side, cells. Less is the bend of a surface.
 template <class Real>
-struct CellView {
-    std::int32_t node = 0;  ///< lower left
-    Vec2<Real> local;       ///< 0 … 1 within the cell
-    Real corner[4] = {};
+constexpr Real kOtherSide = Real(0.0625);
+
+/// A pressed particle may go this far around what presses it, cells.
+constexpr std::int32_t kSlip = 1;
+
+template <class Real>
+struct Scene {
+    const GridShape& shape;
+    const Walls<Real>& walls;
+    Particles<Real>& particles;
+    Contacts<Real>& contacts;
+    CollideResult<Real>& result;
+    Seconds<Real> dt_s;
+};
+
+/// Where a place of the liquid would be if it had moved with the body in this substep.
+template <class Real>
+Vec2<Real> carried(const Scene<Real>& scene, const Body<Real>& body, Vec2<Real> x) {
+    return scene.walls.moving && body.kind == BodyKind::moving
+               ? x + scene.dt_s * velocity_at(body, x)
+               : x;
+}
+
+template <class Real>
+bool in_tank(const GridShape& s, Vec2<Real> x) {
+    return Real(0) <= x.x && x.x < static_cast<Real>(s.nx) && Real(0) <= x.y &&
+           x.y < static_cast<Real>(s.ny);
+}
+
+/// Gives the particle its velocity after a blow at `x`, and the body its due.
+template <class Real>
+void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
+            Vec2<Real> normal) {
+    Particles<Real>& particles = scene.particles;
+    const Body<Real>& body = scene.walls.body[slot];
+    const Vec2<Real> before = particles.velocity[k];
+    const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
+    const Vec2<Real> after = reflect(body.surface, surface, before, normal);
+    particles.velocity[k] = after;
+    if (scene.contacts.capacity > 0) {
+        const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
+        record_blow(scene.contacts, body, slot, kind, x, before - after);
+    }
+    scene.result.max_speed =
+        maximum(scene.result.max_speed, maximum(absolute(after.x), absolute(after.y)));
+}
+
+/// Blows that are to be answered once it is clear that the particle can stay where they put it.
+template <class Real>
+struct Blows {
+    std::uint16_t slot[kMostWalls] = {};
+    Vec2<Real> normal[kMostWalls];
+    std::int32_t count = 0;
+};
+
+/// Whether a place in front of a wall lies on another side of it than a particle came from.
+template <class Real>
+bool on_other_side(const Scene<Real>& scene, Vec2<Real> to, Vec2<Real> normal, Vec2<Real> from) {
+    const Real depth = dot(to - from, normal);
+    return depth > kOtherSide<Real> && in_tank(scene.shape, from) &&
+           !standing(scene.shape, scene.walls, from).inside;
+}
+
+/// Sets a particle back to the line of its cell, and to that of the cell where it gets. False, and
+/// nothing has happened: it is too deep, or comes out on another side than it came from.
+template <class Real>
+bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at, Vec2<Real> before) {
+    const Vec2<Real> x = scene.particles.position[k];
+    const bool binary = scene.walls.binary;
+    Vec2<Real> to = x;
+    Blows<Real> blows;
+    while (at.inside && blows.count < (binary ? 1 : kMostWalls)) {
+        const Real way = kClearance<Real> - at.hit.distance;
+        if (way > kFastestWayOut<Real> && !binary) {
+            return false;
+        }
+        const Vec2<Real> normal = at.hit.normal;
+        blows.slot[blows.count] = at.slot;
+        blows.normal[blows.count] = normal;
+        ++blows.count;
+        to = within_tank(scene.shape, to + minimum(way, kFastestWayOut<Real>) * normal);
+        const Body<Real>& body = scene.walls.body[at.slot];
+        at = standing(scene.shape, scene.walls, to);
+        if (!binary && !at.inside &&
+            on_other_side(scene, to, normal, carried(scene, body, before))) {
+            return false;
+        }
+    }
+    if (at.inside && !binary) {
+        return false;
+    }
+    scene.particles.position[k] = to;
+    for (std::int32_t blow = 0; blow < blows.count; ++blow) {
+        answer(scene, k, blows.slot[blow], x, blows.normal[blow]);
+    }
+    return true;
+}
+
+/// First place behind a contour on a path that begins in the open, and the last one before it.
+template <class Real>
+struct Entry {
+    bool found = false;
+    Vec2<Real> place;
+    Standing<Real> at;
 };
 
 template <class Real>
-CellView<Real> cell_of(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
-    const auto i = static_cast<std::int32_t>(x.x);
-    const auto j = static_cast<std::int32_t>(x.y);
-    CellView<Real> cell;
-    cell.node = s.index(i, j);
-    cell.local = {x.x - static_cast<Real>(i), x.y - static_cast<Real>(j)};
-    const Real* low = walls.distance + cell.node;
-    const Real* high = low + s.stride;
-    cell.corner[0] = low[0];
-    cell.corner[1] = low[1];
-    cell.corner[2] = high[1];
-    cell.corner[3] = high[0];
-    return cell;
-}
-
-/// On a ridge, where two ways out are equally long, either will do, but one has to be taken.
-template <class Real>
-Vec2<Real> away_from_centre(Vec2<Real> local) {
-    const Vec2<Real> offset{local.x - Real(0.5), local.y - Real(0.5)};
-    const Real size = length(offset);
-    return size > Real(0) ? (Real(1) / size) * offset : Vec2<Real>{Real(0), Real(1)};
-}
-
-/// Distance and its direction of growth from the bilinear interpolant, for cells without a line.
-template <class Real>
-ContourHit<Real> interpolated_distance(const CellView<Real>& cell) {
-    const Real* d = cell.corner;
-    const Vec2<Real> f = cell.local;
-    const Real low = d[0] + f.x * (d[1] - d[0]);
-    const Real high = d[3] + f.x * (d[2] - d[3]);
-    const Vec2<Real> gradient{(d[1] - d[0]) + f.y * ((d[2] - d[3]) - (d[1] - d[0])), high - low};
-    const Real steepness = length(gradient);
-    ContourHit<Real> hit;
-    hit.distance = low + f.y * (high - low);
-    hit.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : away_from_centre(f);
-    return hit;
-}
-
-template <class Real>
-ContourHit<Real> hit_in(const CellView<Real>& cell, std::uint8_t which) {
-    return which == kInside ? interpolated_distance(cell)
-                            : contour_distance(contour_cell(cell.corner), cell.local);
-}
-
-template <class Real>
-std::uint8_t case_at(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
-    return walls.cell_case[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))];
-}
-
-/// The body at the node of the cell that is deepest inside.
-template <class Real>
-std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::int32_t node) {
-    const std::int32_t corner[4] = {node, node + 1, node + s.stride + 1, node + s.stride};
-    std::int32_t deepest = corner[0];
-    for (const std::int32_t candidate : corner) {
-        deepest = walls.distance[candidate] < walls.distance[deepest] ? candidate : deepest;
+Entry<Real> first_entry(const Scene<Real>& scene, Vec2<Real> from, Vec2<Real> to) {
+    constexpr Real kSamples = Real(4);  // a cell
+    constexpr std::int32_t kMostSamples = 16;
+    constexpr std::int32_t kHalvings = 8;
+    const Vec2<Real> way = to - from;
+    const Real longest = maximum(absolute(way.x), absolute(way.y));
+    const std::int32_t samples = longest * kSamples < static_cast<Real>(kMostSamples)
+                                     ? ceil_to_int(longest * kSamples)
+                                     : kMostSamples;
+    Entry<Real> entry;
+    Real outside = Real(0);
+    Real inside = Real(0);
+    for (std::int32_t k = 1; k <= samples && !entry.found; ++k) {
+        outside = inside;
+        inside = static_cast<Real>(k) / static_cast<Real>(samples);
+        entry.at = standing(scene.shape, scene.walls, from + inside * way);
+        entry.found = entry.at.inside;
     }
-    return walls.nearest[deepest];
+    for (std::int32_t k = 0; k < kHalvings && entry.found; ++k) {
+        const Real middle = Real(0.5) * (outside + inside);
+        const Standing<Real> at = standing(scene.shape, scene.walls, from + middle * way);
+        if (at.inside) {
+            inside = middle;
+            entry.at = at;
+        } else {
+            outside = middle;
+        }
+    }
+    entry.place = from + outside * way;
+    return entry;
+}
+
+/// Stops a particle where its path, seen from the body, first meets a solid. `slot`: the body that
+/// it is in, or kNoBody. False: the path began inside a solid, or off the tank.
+template <class Real>
+bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> before) {
+    const Vec2<Real> x = scene.particles.position[k];
+    Vec2<Real> from = before;
+    Entry<Real> entry;
+    for (std::int32_t look = 0; look < 2; ++look) {
+        from = slot == kNoBody ? before : carried(scene, scene.walls.body[slot], before);
+        if (!in_tank(scene.shape, from) || standing(scene.shape, scene.walls, from).inside) {
+            return false;
+        }
+        entry = first_entry(scene, from, x);
+        if (!entry.found) {
+            return true;
+        }
+        if (slot != kNoBody) {
+            break;
+        }
+        slot = entry.at.slot;  // who passed through a moving body is looked at again from there
+    }
+    ++scene.result.reflected;
+    scene.particles.position[k] = entry.place;
+    answer(scene, k, entry.at.slot, entry.place, entry.at.hit.normal);
+    return true;
+}
+
+/// Leads a particle that was inside already to the nearest place outside. False: there is none.
+template <class Real>
+bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> before) {
+    const Body<Real>& body = scene.walls.body[slot];
+    const Vec2<Real> seen = carried(scene, body, before);
+    const Vec2<Real> from = within_tank(scene.shape, seen);
+    bool pressed = !in_tank(scene.shape, seen);
+    if (scene.walls.moving && body.kind == BodyKind::moving && !pressed) {
+        const Standing<Real> at = standing(scene.shape, scene.walls, from);
+        pressed = at.inside && at.slot != slot;
+    }
+    Vec2<Real> place;
+    if (!nearest_free_place(scene.shape, scene.walls, from, pressed ? kSlip : kLongestWayOut,
+                            place)) {
+        return false;
+    }
+    const Vec2<Real> way = place - from;
+    const Real distance = length(way);
+    const Vec2<Real> normal = distance > Real(0) ? (Real(1) / distance) * way : Vec2<Real>{};
+    ++scene.result.reflected;
+    if (distance > kFastestWayOut<Real>) {
+        scene.particles.position[k] = from + kFastestWayOut<Real> * normal;
+        scene.particles.velocity[k] = velocity_at(body, from);
+        ++scene.result.stuck;
+    } else {
+        scene.particles.position[k] = place;
+        answer(scene, k, slot, place, normal);
+    }
+    return true;
+}
+
+template <class Real>
+bool is_far(Vec2<Real> before, Vec2<Real> x) {
+    return absolute(x.x - before.x) > Real(1) || absolute(x.y - before.y) > Real(1);
+}
+
+/// A particle near a wall. False: it has no way out.
+template <class Real>
+bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
+    const Standing<Real> at = standing(scene.shape, scene.walls, scene.particles.position[k]);
+    scene.result.tested += at.which != kCellOutside ? 1 : 0;
+    if (scene.walls.binary) {
+        scene.result.reflected += at.inside ? 1 : 0;
+        return !at.inside || set_back(scene, k, at, before);
+    }
+    if (at.inside && !far && set_back(scene, k, at, before)) {
+        ++scene.result.reflected;
+        return true;
+    }
+    if ((at.inside || far) && stop_on_path(scene, k, at.slot, before)) {
+        return true;
+    }
+    return !at.inside || lead_out(scene, k, at.slot, before);
 }
 
 }  // namespace
 
 template <class Real>
-CollideResult<Real> collide(const GridShape& shape, const Walls<Real>& walls,
-                            Particles<Real>& particles) {
-    CollideResult<Real> result;
-    for (std::int32_t k = 0; k < particles.count; ++k) {
+void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real>& flight,
+             std::int32_t first, std::int32_t count, Particles<Real>& particles,
+             Contacts<Real>& contacts, CollideResult<Real>& result) {
+    Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s};
+    for (std::int32_t n = count - 1; n >= 0; --n) {
+        const std::int32_t k = first + n;
         const Vec2<Real> x = particles.position[k];
-        const std::uint8_t which = case_at(shape, walls, x);
-        if (which == kOutside) {
+        const bool far = flight.far && is_far(flight.before[n], x);
+        if (case_at(shape, walls, x) == kCellOutside && !far) {
             continue;
         }
-        ++result.tested;
-        const CellView<Real> cell = cell_of(shape, walls, x);
-        const ContourHit<Real> hit = hit_in(cell, which);
-        if (!(hit.distance < Real(0))) {
-            continue;
+        if (!meet(scene, k, flight.before[n], far)) {
+            ++result.removed;
+            particles.remove(k);
         }
-        ++result.reflected;
-        const Real way = minimum(kClearance<Real> - hit.distance, kLongestWayOut<Real>);
-        particles.position[k] = within_tank(shape, x + way * hit.normal);
-        const Body<Real>& body = walls.body[touched_body(shape, walls, cell.node)];
-        const Vec2<Real> surface =
-            surface_velocity(body.surface, velocity_at(body, x), hit.normal);
-        const Vec2<Real> v =
-            reflect(body.surface, surface, particles.velocity[k], hit.normal);
-        particles.velocity[k] = v;
-        result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
     }
-    return result;
 }
 
 template <class Real>
 bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point) {
-    const std::uint8_t which = case_at(shape, walls, point);
-    return which != kOutside && hit_in(cell_of(shape, walls, point), which).distance < Real(0);
+    return standing(shape, walls, point).inside;
 }
 
-template bool inside_solid(const GridShape&, const Walls<float>&, Vec2<float>);
-template bool inside_solid(const GridShape&, const Walls<double>&, Vec2<double>);
-template bool inside_solid(const GridShape&, const Walls<Fixed>&, Vec2<Fixed>);
-template CollideResult<float> collide(const GridShape&, const Walls<float>&, Particles<float>&);
-template CollideResult<double> collide(const GridShape&, const Walls<double>&,
-                                       Particles<double>&);
-template CollideResult<Fixed> collide(const GridShape&, const Walls<Fixed>&,
-                                       Particles<Fixed>&);
+#define WEIR_INSTANTIATE(Real)                                                               \
+    template bool inside_solid(const GridShape&, const Walls<Real>&, Vec2<Real>);            \
+    template void collide(const GridShape&, const Walls<Real>&, const Flight<Real>&,         \
+                          std::int32_t, std::int32_t, Particles<Real>&, Contacts<Real>&,     \
+                          CollideResult<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -13,6 +13,7 @@ template <class Real>
 struct Walls {
     bool active = false;
     bool moving = false;                ///< a body has a velocity or a spin
+    bool binary = false;                ///< Contour::mid_edge
     Real* distance = nullptr;           ///< signed distance at nodes, cells, negative inside
     std::uint16_t* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell

@@ -106,7 +106,16 @@ TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real
 }  // namespace
 
 template <class Real>
-TransferResult<Real> grid_to_particle(StaggeredGrid<Real>& grid,
+void prepare_gather(StaggeredGrid<Real>& grid) {
+    if constexpr (kHasLanes<Real>) {
+        if (grid.pairs != nullptr) {
+            pair_fields(grid);
+        }
+    }
+}
+
+template <class Real>
+TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
                                       const Transfer<Real>& transfer,
                                       Particles<Real>& particles) {
     if constexpr (kHasLanes<Real>) {
@@ -120,8 +129,9 @@ TransferResult<Real> grid_to_particle(StaggeredGrid<Real>& grid,
 #define WEIR_INSTANTIATE(Real)                                                          \
     template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,       \
                                StaggeredGrid<Real>&);                                   \
+    template void prepare_gather(StaggeredGrid<Real>&);                                 \
     template TransferResult<Real> grid_to_particle(                                     \
-        StaggeredGrid<Real>&, const Transfer<Real>&, Particles<Real>&);
+        const StaggeredGrid<Real>&, const Transfer<Real>&, Particles<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -11,6 +11,7 @@ template <class Real>
 struct TransferResult {
     std::int32_t reset = 0;     ///< particles with a non-finite state, put to rest
     std::int32_t slowed = 0;    ///< particles limited to `limit`
+    std::int32_t far = 0;       ///< particles that moved faster than `near` along an axis
     Real max_speed = Real(0);   ///< along an axis, cells/s
 };
 
@@ -20,6 +21,7 @@ struct Transfer {
     Real flip_ratio;
     Real limit;             ///< cells/s; nothing moves faster
     Borders<Real> borders = {};
+    Real near = Real(1.0e30);  ///< cells/s: who moves faster along an axis is counted as far
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a
@@ -33,12 +35,17 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
                   StaggeredGrid<Real>& grid);
 
 /// Gathers both fields with the weights of particle-to-grid, moves the particle to second order,
-/// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank.
-/// With room for pairs the grid's fields are gone afterwards.
+/// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank. Any part of the
+/// pool can be gathered at a time, after one call of `prepare_gather`.
 /// Order: by particle. Cost: 16 loads, about 70 operations a particle.
 template <class Real>
-TransferResult<Real> grid_to_particle(StaggeredGrid<Real>& grid,
+TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
                                       const Transfer<Real>& transfer,
                                       Particles<Real>& particles);
+
+/// Lays the fields that are gathered side by side, where the grid has room for pairs: velocity_u
+/// to mass_v are gone then.
+template <class Real>
+void prepare_gather(StaggeredGrid<Real>& grid);
 
 }  // namespace weir

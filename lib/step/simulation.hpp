@@ -4,6 +4,7 @@
 #include "fluid/particles.hpp"
 #include "grid/staggered_grid.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "solid/contacts.hpp"
 #include "solid/layers.hpp"
 #include "step/settings.hpp"
 #include "weir/report.hpp"
@@ -18,6 +19,7 @@ struct Simulation {
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;
+    Contacts<Real> contacts;
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;
 };

@@ -1,6 +1,8 @@
 // The paper's flowchart (its Fig. 4), top to bottom.
 #include "step/substep.hpp"
 
+#include <cstring>
+
 #include "pressure/equation_of_state.hpp"
 #include "pressure/projection.hpp"
 #include "pressure/surface_level.hpp"
@@ -104,17 +106,55 @@ void fill_borders(Simulation<Real>& simulation) {
 }
 
 template <class Real>
-void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report) {
-    const Settings<Real>& settings = simulation.settings;
-    const Transfer<Real> transfer{dt_s,
-                                  settings.flip_ratio,
-                                  kLongestWay<Real> / dt_s,
-                                  settings.borders};
-    const TransferResult<Real> result =
-        grid_to_particle(simulation.grid, transfer, simulation.particles);
+void note(const TransferResult<Real>& result, Simulation<Real>& simulation, StepReport& report) {
     report.particles_reset += result.reset;
     report.particles_slowed += result.slowed;
-    simulation.max_speed = result.max_speed;
+    simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
+}
+
+template <class Real>
+void note(const CollideResult<Real>& result, Simulation<Real>& simulation, StepReport& report) {
+    report.particles_tested += result.tested;
+    report.particles_reflected += result.reflected;
+    report.particles_stuck = result.stuck;
+    report.particles_removed_stuck += result.removed;
+    simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
+}
+
+/// Moves the particles and lets them meet the solids: a block at a time, because a particle's path
+/// is known only while the place that it comes from is.
+template <class Real>
+void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
+            StepReport& report) {
+    const Settings<Real>& settings = simulation.settings;
+    Particles<Real>& particles = simulation.particles;
+    Transfer<Real> transfer{dt_s, settings.flip_ratio, kLongestWay<Real> / dt_s,
+                            settings.borders};
+    simulation.max_speed = Real(0);
+    prepare_gather(simulation.grid);
+    const Walls<Real>& walls = simulation.layers.walls;
+    if (!walls.active) {
+        note(grid_to_particle(simulation.grid, transfer, particles), simulation, report);
+        clock.charge(Stage::grid_to_particle);
+        return;
+    }
+    transfer.near = Real(1) / dt_s;
+    Vec2<Real> before[kBlock];
+    CollideResult<Real> collisions;
+    for (std::int32_t end = particles.count; end > 0;) {
+        const std::int32_t count = minimum(kBlock, end);
+        end -= count;
+        std::memcpy(before, particles.position + end,
+                    static_cast<std::size_t>(count) * sizeof before[0]);
+        Particles<Real> block = particles.part(end, count);
+        const TransferResult<Real> moved = grid_to_particle(simulation.grid, transfer, block);
+        note(moved, simulation, report);
+        clock.charge(Stage::grid_to_particle);
+        collide(simulation.grid.shape, walls, {before, moved.far > 0, dt_s}, end, count,
+                particles, simulation.contacts, collisions);
+        clock.charge(Stage::collide);
+    }
+    note(collisions, simulation, report);
 }
 
 }  // namespace
@@ -153,16 +193,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     }
     clock.charge(Stage::volume);
 
-    gather(simulation, dt_s, report);
-    clock.charge(Stage::grid_to_particle);
-
-    if (walls.active) {
-        const CollideResult<Real> result = collide(grid.shape, walls, simulation.particles);
-        report.particles_tested += result.tested;
-        report.particles_reflected += result.reflected;
-        simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
-        clock.charge(Stage::collide);
-    }
+    gather(simulation, dt_s, clock, report);
 }
 
 template void substep(Simulation<float>&, const SubstepPlan<float>&, StepReport&);

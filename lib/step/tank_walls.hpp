@@ -70,6 +70,7 @@ inline void advect(Vec2<Real> size, const Transfer<Real>& transfer, Vec2<Real> a
                    Vec2<Real>& x, Vec2<Real>& v, TransferResult<Real>& result) {
     TransferResult<Real> unused;
     v = limited(v, transfer.limit, result);
+    result.far += absolute(along.x) <= transfer.near && absolute(along.y) <= transfer.near ? 0 : 1;
     x = x + transfer.dt_s * limited(along, transfer.limit, unused);
     const Borders<Real>& b = transfer.borders;
     if (b.wrap_x) {

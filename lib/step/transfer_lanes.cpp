@@ -124,17 +124,22 @@ void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& g
     unpack(pairs_v, s.size(), grid.mass_v, grid.v);
 }
 
-TransferResult<float> gather_in_lanes(StaggeredGrid<float>& grid, const Transfer<float>& transfer,
+void pair_fields(StaggeredGrid<float>& grid) {
+    pack(grid.u, grid.mass_u, grid.shape.size(), grid.pairs);
+    pack(grid.v, grid.mass_v, grid.shape.size(), grid.u);
+}
+
+TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
+                                      const Transfer<float>& transfer,
                                       Particles<float>& particles) {
     const GridShape& s = grid.shape;
-    float* pairs_u = grid.pairs;
-    float* pairs_v = grid.u;
-    pack(grid.u, grid.mass_u, s.size(), pairs_u);
-    pack(grid.v, grid.mass_v, s.size(), pairs_v);
+    const float* pairs_u = grid.pairs;
+    const float* pairs_v = grid.u;
     const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
     const Lanes lowest = all_lanes(kWallGap<float>);
     const Lanes highest = Lanes{size.x, size.y, size.x, size.y} - lowest;
-    const Lanes limit = all_lanes(transfer.limit);
+    const float near = minimum(transfer.near, transfer.limit);
+    const Lanes limit{near, near, transfer.limit, transfer.limit};
     const Lanes flip_ratio = all_lanes(transfer.flip_ratio);
     const Lanes dt = all_lanes(transfer.dt_s);
     const Lanes half_dt = all_lanes(0.5F * transfer.dt_s);

@@ -12,8 +12,12 @@ namespace weir {
 /// Overwrites all of mass_u, mass_v, u, v and the scratch of the grid.
 void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid);
 
-/// As `grid_to_particle`. The grid's fields are gone afterwards.
-TransferResult<float> gather_in_lanes(StaggeredGrid<float>& grid, const Transfer<float>& transfer,
+/// As `prepare_gather`.
+void pair_fields(StaggeredGrid<float>& grid);
+
+/// As `grid_to_particle`.
+TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
+                                      const Transfer<float>& transfer,
                                       Particles<float>& particles);
 #endif
 

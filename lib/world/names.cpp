@@ -17,6 +17,8 @@ const char* init_text(Status status) {
         case Status::body_capacity_out_of_range: return "capacity.bodies: choose 0 … kMaxBodies";
         case Status::vertex_capacity_out_of_range:
             return "capacity.vertices: choose 0 … kMaxVertices";
+        case Status::contact_capacity_out_of_range:
+            return "capacity.contacts: choose 0 … kMaxBodies";
         case Status::cell_size_out_of_range: return "cell_m: choose 1e-6 … 1e3 m";
         case Status::gravity_not_finite: return "gravity is NaN or infinite: give a finite vector";
         case Status::gravity_out_of_range:

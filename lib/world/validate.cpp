@@ -106,8 +106,11 @@ Status check_capacity(const Capacity& capacity) {
     if (!within(capacity.bodies, 0, kMaxBodies)) {
         return Status::body_capacity_out_of_range;
     }
-    return within(capacity.vertices, 0, kMaxVertices) ? Status::ok
-                                                      : Status::vertex_capacity_out_of_range;
+    if (!within(capacity.vertices, 0, kMaxVertices)) {
+        return Status::vertex_capacity_out_of_range;
+    }
+    return within(capacity.contacts, 0, kMaxBodies) ? Status::ok
+                                                    : Status::contact_capacity_out_of_range;
 }
 
 Status check_world(const WorldDef& def) {

@@ -79,6 +79,8 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::density, simulation.pressure.density);
     carver.take(Block::level, simulation.pressure.level);
     carve_solids(carver, capacity, simulation);
+    carver.take(Block::contact, simulation.contacts.entry);
+    simulation.contacts.capacity = capacity.contacts;
 }
 
 template <class Real>
@@ -121,6 +123,18 @@ Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
     }
     settings.sound_speed = static_cast<Real>(sound_speed);
     return settings;
+}
+
+/// What a blow counts, in the units of the public face.
+template <class Real>
+void name_units(WorldState<Real>& state) {
+    Contacts<Real>& contacts = state.simulation.contacts;
+    const WorldDef& def = state.def;
+    contacts.cell_m = def.cell_m;
+    contacts.particle_m2 =
+        def.cell_m * def.cell_m / static_cast<float>(def.particles_per_cell);
+    contacts.second_density = def.second_density_ratio;
+    contacts.world = state.tag;
 }
 
 /// Different for two worlds that live at the same time. Part of names only, never of the state.
@@ -184,6 +198,8 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     simulation.settings = settings_of<Real>(def, state_->cells_per_m);
     simulation.ticks = def.ticks;
     simulation.layers.contour = def.contour;
+    simulation.layers.walls.binary = def.contour == Contour::mid_edge;
+    name_units(*state_);
     for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {
         new (simulation.bodies.body + slot) Body<Real>();
     }
@@ -218,6 +234,13 @@ FieldView<Real> World<Real>::signed_distance() const {
     }
     const GridShape& s = state_->simulation.grid.shape;
     return {state_->simulation.layers.walls.distance + s.index(0, 0), s.nx + 1, s.ny + 1, s.stride};
+}
+
+template <class Real>
+View<Contact> World<Real>::contacts() const {
+    return state_ == nullptr ? View<Contact>{}
+                             : View<Contact>{state_->simulation.contacts.entry,
+                                             state_->simulation.contacts.used};
 }
 
 template <class Real>
@@ -269,6 +292,7 @@ std::uint64_t World<Real>::state_hash() const {
     template FieldView<Real> World<Real>::pressure() const;                          \
     template float World<Real>::pressure_scale() const;                              \
     template FieldView<Real> World<Real>::signed_distance() const;                   \
+    template View<Contact> World<Real>::contacts() const;                            \
     template float World<Real>::cell_m() const;                                      \
     template std::int32_t World<Real>::cells_x() const;                              \
     template std::int32_t World<Real>::cells_y() const;                              \

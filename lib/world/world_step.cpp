@@ -71,6 +71,7 @@ StepReport World<Real>::step(float dt_s) {
     Simulation<Real>& simulation = state_->simulation;
     report.clamped = state_->pending;
     state_->pending = 0;
+    clear(simulation.contacts);
     const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s, report);
     if (dt > Seconds<Real>{}) {
         const SubstepPlan<Real> plan = plan_substeps(simulation, dt);
@@ -89,6 +90,8 @@ StepReport World<Real>::step(float dt_s) {
         report.substeps = plan.substeps;
         report.dt_s = static_cast<float>(dt);
     }
+    finish(simulation.contacts);
+    report.contacts_missed = simulation.contacts.missed;
     if (report.particles_slowed > 0) {
         mark(report, Clamped::speed);
     }

@@ -79,9 +79,13 @@ struct Stand {
     }
 
     /// Collides one particle.
-    CollideResult<float> hit(Vec2<float>& x, Vec2<float>& v) {
+    CollideResult<float> hit(Vec2<float>& x, Vec2<float>& v) { return hit(x, v, x); }
+    CollideResult<float> hit(Vec2<float>& x, Vec2<float>& v, Vec2<float> before) {
         Particles<float> one{&x, &v, 1, 1};
-        return collide(shape, walls, one);
+        Contacts<float> none;
+        CollideResult<float> result;
+        collide(shape, walls, {&before, true, 1.0F / 60.0F}, 0, 1, one, none, result);
+        return result;
     }
 };
 

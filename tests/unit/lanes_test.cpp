@@ -52,7 +52,9 @@ struct Tank {
         auto all = particles();
         const SurfaceLaw<float> wall{0.5F, 0.3F, 0.0F, false};
         const Borders<float> borders{wrap, wrap, wall, wall, wall, wall};
-        const Transfer<float> transfer{0.05F, 0.97F, limit, borders};
+        Transfer<float> transfer{0.05F, 0.97F, limit, borders};
+        transfer.near = 20.0F;
+        prepare_gather(grid);
         return grid_to_particle(grid, transfer, all);
     }
 };
@@ -94,6 +96,7 @@ TEST_P(GatherInLanes, HasThePlainLoopsBits) {
         EXPECT_EQ(result[0].reset, result[1].reset);
         EXPECT_EQ(result[0].slowed, result[1].slowed);
         EXPECT_EQ(result[0].slowed > 0, limit < 10.0F);
+        EXPECT_EQ(result[0].far, result[1].far);
         EXPECT_EQ(result[0].max_speed, result[1].max_speed);
     }
 }

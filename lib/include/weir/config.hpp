@@ -27,6 +27,7 @@ struct Capacity {
     std::int32_t cells_y = 32;      ///< kMinCells … kMaxCells
     std::int32_t bodies = 0;        ///< 0 … kMaxBodies, static and moving together
     std::int32_t vertices = 0;      ///< 0 … kMaxVertices, summed over all bodies
+    std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "weir/config.hpp"
+#include "weir/contact.hpp"
 
 namespace weir {
 
@@ -15,7 +16,7 @@ namespace weir {
 enum class Owner : std::uint8_t {
     world,      ///< the world's own state and the step's report
     particles,  ///< positions, velocities and kinds
-    bodies,     ///< body table
+    bodies,     ///< body table, contact events
     vertices,   ///< polygons, their pose in the tank, their convex pieces
     contour,    ///< signed distance at nodes (static and merged), contour matrix
     cut_cells,  ///< open fractions of faces and cells
@@ -35,6 +36,7 @@ enum class Block : std::uint8_t {
     particle_velocity,
     particle_kind,
     body_table,
+    contact,
     vertex_local,
     vertex_placed,
     piece_index,
@@ -103,6 +105,7 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::particle_velocity, Owner::particles, point, particles},
         {Block::particle_kind, Owner::particles, 1, capacity.second_liquid ? particles : 0},
         {Block::body_table, Owner::bodies, kBodyBytes, count(capacity.bodies)},
+        {Block::contact, Owner::bodies, sizeof(Contact), count(capacity.contacts)},
         {Block::vertex_local, Owner::vertices, point, vertices},
         {Block::vertex_placed, Owner::vertices, point, vertices},
         {Block::piece_index, Owner::vertices, index, kPieceIndicesPerVertex * vertices},

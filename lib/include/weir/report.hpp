@@ -43,7 +43,12 @@ struct StepReport {
     std::int32_t particles = 0;       ///< alive at the end
     std::int32_t nodes_rasterized = 0;  ///< contour nodes computed anew; 0 if nothing moved
     std::int32_t particles_tested = 0;     ///< in a cell that a contour line crosses or fills
-    std::int32_t particles_reflected = 0;  ///< found behind a contour line and turned back
+    std::int32_t particles_reflected = 0;  ///< found behind a contour line, or stopped before it
+    std::int32_t particles_stuck = 0;  ///< inside a solid at the end, on their way out
+    /// Removed because a solid left them no way out: none within 32 cells, or pressed by a moving
+    /// body against another body or the tank.
+    std::int32_t particles_removed_stuck = 0;
+    std::int32_t contacts_missed = 0;  ///< blows on bodies for which the contacts had no room
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
     std::int32_t particles_slowed = 0;     ///< limited to 2 cells a substep
 

@@ -13,6 +13,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     particle_capacity_out_of_range,
     body_capacity_out_of_range,
     vertex_capacity_out_of_range,
+    contact_capacity_out_of_range,
     cell_size_out_of_range,
     gravity_not_finite,
     gravity_out_of_range,

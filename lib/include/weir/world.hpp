@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "weir/config.hpp"
+#include "weir/contact.hpp"
 #include "weir/diagnostics.hpp"
 #include "weir/fixed.hpp"
 #include "weir/memory.hpp"
@@ -68,6 +69,10 @@ public:
     View<Vec2<Real>> particle_velocities() const;
     /// Which liquid they belong to. Empty if the world has no room for a second one.
     View<Liquid> particle_kinds() const;
+    /// What particles did to the bodies in the last step, one entry for each body that was hit, in
+    /// the order of the first blows. Empty without `capacity.contacts`. A body that was removed
+    /// since is still named.
+    View<Contact> contacts() const;
     /// Pressure at cell centres from the last substep, in the solver's own unit: multiply by
     /// `pressure_scale()` for p / ρ in m²/s², ρ the first liquid's. Columns and rows are cells.
     FieldView<Real> pressure() const;

@@ -1,0 +1,41 @@
+// Contact events: what the liquid's particles did to each body within a step, in a fixed buffer.
+#pragma once
+
+#include "solid/walls.hpp"
+#include "weir/contact.hpp"
+
+namespace weir {
+
+/// Without room (`capacity` 0) nothing is recorded and nothing is looked at.
+template <class Real>
+struct Contacts {
+    Contact* entry = nullptr;
+    std::int32_t capacity = 0;
+    std::int32_t used = 0;
+    std::int32_t missed = 0;       ///< blows on bodies for which there was no entry left
+    std::int32_t last = 0;         ///< where the last blow was entered
+    float cell_m = 1.0F;
+    float particle_m2 = 0.0F;      ///< area that a particle stands for
+    float second_density = 1.0F;
+    std::uint16_t world = 0;       ///< tag in the bodies' names
+};
+
+/// Forgets the last step's events.
+template <class Real>
+void clear(Contacts<Real>& contacts) {
+    contacts.used = 0;
+    contacts.missed = 0;
+    contacts.last = 0;
+}
+
+/// Enters a blow: the velocity that a particle of a liquid lost at a place. Cells and seconds.
+/// Cost: a search among the step's entries, from the last one that was hit.
+template <class Real>
+void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
+                 Liquid kind, Vec2<Real> place, Vec2<Real> lost);
+
+/// Sums of places become means, once the step is over.
+template <class Real>
+void finish(Contacts<Real>& contacts);
+
+}  // namespace weir

@@ -1,0 +1,104 @@
+// Where a point stands to the contour of its cell: the inside test of particles.
+#pragma once
+
+#include "contour/marching_squares.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+inline constexpr std::uint8_t kCellOutside = 0;
+inline constexpr std::uint8_t kCellInside = 15;
+
+template <class Real>
+struct CellView {
+    std::int32_t node = 0;  ///< lower left
+    Vec2<Real> local;       ///< 0 … 1 within the cell
+    Real corner[4] = {};
+};
+
+template <class Real>
+CellView<Real> cell_of(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
+    const auto i = static_cast<std::int32_t>(x.x);
+    const auto j = static_cast<std::int32_t>(x.y);
+    CellView<Real> cell;
+    cell.node = s.index(i, j);
+    cell.local = {x.x - static_cast<Real>(i), x.y - static_cast<Real>(j)};
+    const Real* low = walls.distance + cell.node;
+    const Real* high = low + s.stride;
+    cell.corner[0] = low[0];
+    cell.corner[1] = low[1];
+    cell.corner[2] = high[1];
+    cell.corner[3] = high[0];
+    return cell;
+}
+
+/// On a ridge, where two ways out are equally long, either will do, but one has to be taken.
+template <class Real>
+Vec2<Real> away_from_centre(Vec2<Real> local) {
+    const Vec2<Real> offset{local.x - Real(0.5), local.y - Real(0.5)};
+    const Real size = length(offset);
+    return size > Real(0) ? (Real(1) / size) * offset : Vec2<Real>{Real(0), Real(1)};
+}
+
+/// Distance and its direction of growth from the bilinear interpolant, for cells without a line.
+template <class Real>
+ContourHit<Real> interpolated_distance(const CellView<Real>& cell) {
+    const Real* d = cell.corner;
+    const Vec2<Real> f = cell.local;
+    const Real low = d[0] + f.x * (d[1] - d[0]);
+    const Real high = d[3] + f.x * (d[2] - d[3]);
+    const Vec2<Real> gradient{(d[1] - d[0]) + f.y * ((d[2] - d[3]) - (d[1] - d[0])), high - low};
+    const Real steepness = length(gradient);
+    ContourHit<Real> hit;
+    hit.distance = low + f.y * (high - low);
+    hit.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : away_from_centre(f);
+    return hit;
+}
+
+template <class Real>
+ContourHit<Real> hit_in(const CellView<Real>& cell, std::uint8_t which) {
+    return which == kCellInside ? interpolated_distance(cell)
+                                : contour_distance(contour_cell(cell.corner), cell.local);
+}
+
+template <class Real>
+std::uint8_t case_at(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
+    return walls.cell_case[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))];
+}
+
+/// The body at the node of the cell that is deepest inside.
+template <class Real>
+std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::int32_t node) {
+    const std::int32_t corner[4] = {node, node + 1, node + s.stride + 1, node + s.stride};
+    std::int32_t deepest = corner[0];
+    for (const std::int32_t candidate : corner) {
+        deepest = walls.distance[candidate] < walls.distance[deepest] ? candidate : deepest;
+    }
+    return walls.nearest[deepest];
+}
+
+/// Where a particle stands: in the open, or behind the contour of its cell.
+template <class Real>
+struct Standing {
+    ContourHit<Real> hit{};
+    std::uint16_t slot = kNoBody;  ///< the body that it is in
+    std::uint8_t which = kCellOutside;
+    bool inside = false;
+};
+
+/// A cell that is solid all over holds no open point, also where all its nodes lie on the outline.
+template <class Real>
+Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
+    Standing<Real> at;
+    at.which = case_at(shape, walls, x);
+    if (at.which == kCellOutside) {
+        return at;
+    }
+    const CellView<Real> cell = cell_of(shape, walls, x);
+    at.hit = hit_in(cell, at.which);
+    at.inside = at.hit.distance < Real(0) || (at.which == kCellInside && !walls.binary);
+    at.slot = at.inside ? touched_body(shape, walls, cell.node) : kNoBody;
+    return at;
+}
+
+}  // namespace weir

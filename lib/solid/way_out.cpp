@@ -1,0 +1,80 @@
+#include "solid/way_out.hpp"
+
+#include "solid/contour_hit.hpp"
+
+namespace weir {
+
+namespace {
+
+/// The places of a cell, as parts of its edge: off its rim, so that rounding keeps them in it.
+template <class Real>
+constexpr Real kPlaces[3] = {Real(0.0625), Real(0.5), Real(0.9375)};
+
+template <class Real>
+struct Nearest {
+    Vec2<Real> place;
+    Product<Real> square{};  ///< of its distance
+    bool found = false;
+};
+
+template <class Real>
+void look_into(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std::int32_t j,
+               Vec2<Real> from, Nearest<Real>& nearest) {
+    const std::uint8_t which = walls.cell_case[s.index(i, j)];
+    if (which == kCellInside) {
+        return;
+    }
+    for (const Real part_y : kPlaces<Real>) {
+        for (const Real part_x : kPlaces<Real>) {
+            const Vec2<Real> place{static_cast<Real>(i) + part_x, static_cast<Real>(j) + part_y};
+            const Vec2<Real> way = place - from;
+            const Product<Real> square = dot(way, way);
+            if (nearest.found && !(square < nearest.square)) {
+                continue;
+            }
+            if (which == kCellOutside || !standing(s, walls, place).inside) {
+                nearest = {place, square, true};
+            }
+        }
+    }
+}
+
+}  // namespace
+
+template <class Real>
+bool nearest_free_place(const GridShape& s, const Walls<Real>& walls, Vec2<Real> point,
+                        std::int32_t reach, Vec2<Real>& place) {
+    const auto ci = static_cast<std::int32_t>(point.x);
+    const auto cj = static_cast<std::int32_t>(point.y);
+    Nearest<Real> nearest;
+    for (std::int32_t ring = 0; ring <= reach; ++ring) {
+        // Cells of a ring are at least ring − 1 cells away.
+        const Product<Real> least = static_cast<Product<Real>>((ring - 1) * (ring - 1));
+        if (nearest.found && ring > 0 && nearest.square <= least) {
+            break;
+        }
+        const std::int32_t low = maximum(cj - ring, 0);
+        const std::int32_t high = minimum(cj + ring, s.ny - 1);
+        for (std::int32_t j = low; j <= high; ++j) {
+            const bool whole_row = j == cj - ring || j == cj + ring;
+            const std::int32_t step = whole_row || ring == 0 ? 1 : 2 * ring;
+            for (std::int32_t i = ci - ring; i <= ci + ring; i += step) {
+                if (i >= 0 && i < s.nx) {
+                    look_into(s, walls, i, j, point, nearest);
+                }
+            }
+        }
+    }
+    place = nearest.place;
+    return nearest.found;
+}
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template bool nearest_free_place(const GridShape&, const Walls<Real>&, Vec2<Real>,      \
+                                     std::int32_t, Vec2<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

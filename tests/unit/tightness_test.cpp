@@ -1,0 +1,203 @@
+// Nothing through a solid, nothing trapped in one, at any speed; what cannot be saved is counted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/vec2.hpp"
+#include "solid/way_out.hpp"
+#include "test_world.hpp"
+#include "weir/weir.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kCell = 0.02F;
+constexpr float kFrame = 1.0F / 60.0F;
+
+/// 32 × 32 cells without gravity; particles keep their own velocity (FLIP 1).
+WorldDef free_flight() {
+    WorldDef def;
+    def.capacity.cells_x = 32;
+    def.capacity.cells_y = 32;
+    def.capacity.particles = 4096;
+    def.capacity.bodies = 3;
+    def.capacity.vertices = 32;
+    def.capacity.contacts = 2;
+    def.gravity_mps2 = {0, 0};
+    def.flip_ratio = 1.0F;
+    def.volume_gain = 0.0F;
+    def.cfl = 2.0F;
+    return def;
+}
+
+/// In cells and cells per step.
+Status throw_one(World<float>& world, Vec2f at, Vec2f way) {
+    return world.add_particle(kCell * at, (kCell / kFrame) * way);
+}
+
+BodyId add(World<float>& world, const BodyDef& def, bool moving) {
+    BodyId id;
+    EXPECT_EQ(moving ? world.add_moving_body(def, &id) : world.add_static_body(def, &id),
+              Status::ok);
+    return id;
+}
+
+TEST(Tightness, AWallOfTwoCellsStopsWhatCrossesItInASubstep) {
+    for (const float speed : {0.9F, 1.9F, 3.8F}) {
+        for (float start = 10.0F; start < 12.0F; start += 0.13F) {
+            TestWorld<float> world(free_flight());
+            const Ring wall = rectangle(1.6F * kCell, 20 * kCell);
+            add(*world, body_of(wall, {15 * kCell, 16 * kCell}), false);
+            ASSERT_EQ(throw_one(*world, {start, 16.2F}, {speed, 0.1F}), Status::ok);
+            for (int step = 0; step < 12; ++step) {
+                world->step(kFrame);
+                ASSERT_LT(world->particle_positions()[0].x, 14.3F) << speed << " from " << start;
+            }
+        }
+    }
+}
+
+TEST(Tightness, AFastWallTakesAlongWhatItMeets) {
+    for (const float speed : {0.9F, 1.9F, 3.0F}) {
+        TestWorld<float> world(free_flight());
+        const Ring wall = rectangle(2.2F * kCell, 20 * kCell);
+        BodyDef def = body_of(wall, {4 * kCell, 16 * kCell});
+        def.motion.velocity_mps = {speed * kCell / kFrame, 0};
+        const BodyId id = add(*world, def, true);
+        for (float x = 8.0F; x < 9.0F; x += 0.1F) {
+            ASSERT_EQ(throw_one(*world, {x, 14.0F + x - 8.0F}, {0, 0}), Status::ok);
+        }
+        for (int step = 0; step < 6; ++step) {
+            world->step(kFrame);
+        }
+        Motion motion;
+        ASSERT_EQ(world->motion(id, &motion), Status::ok);
+        for (const Vec2f x : world->particle_positions()) {
+            EXPECT_GT(x.x, motion.position_m.x / kCell + 1.0F) << speed;
+        }
+        EXPECT_EQ(world->particle_positions().size, 10);
+    }
+}
+
+TEST(Tightness, ABodyPutOverLiquidIsLeftGentlyAndInTime) {
+    for (const float size : {4.0F, 12.0F, 20.0F}) {
+        WorldDef def = free_flight();
+        def.cfl = 1.0F;
+        TestWorld<float> world(def);
+        std::int32_t added = 0;
+        ASSERT_EQ(world->fill({{0.2F, 0.2F}, {0.44F, 0.44F}}, &added), Status::ok);
+        const Ring ring = rectangle(size * kCell, size * kCell);
+        add(*world, body_of(ring, {0.32F, 0.32F}), false);
+        std::int32_t substeps = 0;
+        std::int32_t stuck = 1;
+        while (stuck > 0 && substeps <= kLongestWayOut) {
+            const StepReport report = world->step(kFrame);
+            substeps += report.substeps;
+            stuck = report.particles_stuck;
+            EXPECT_EQ(report.particles_removed_stuck, 0);
+        }
+        EXPECT_LE(substeps, static_cast<std::int32_t>(0.5F * size) + 2) << size;
+        EXPECT_EQ(world->particle_positions().size, added);
+        for (const Vec2f x : world->particle_positions()) {
+            EXPECT_GT(distance_at(*world, x), -0.02) << x.x << ' ' << x.y;
+        }
+    }
+}
+
+/// Two overlapping bodies: between them the distance has a ridge that no gradient leaves.
+TEST(Tightness, ARidgeBetweenTwoBodiesHoldsNothing) {
+    TestWorld<float> world(free_flight());
+    std::int32_t added = 0;
+    ASSERT_EQ(world->fill({{0.2F, 0.28F}, {0.44F, 0.36F}}, &added), Status::ok);
+    const Ring left = rectangle(10 * kCell, 10 * kCell);
+    add(*world, body_of(left, {13 * kCell, 16 * kCell}), false);
+    add(*world, body_of(left, {19 * kCell, 16 * kCell}), false);
+    for (int step = 0; step < 8; ++step) {
+        world->step(kFrame);
+    }
+    for (const Vec2f x : world->particle_positions()) {
+        EXPECT_GT(distance_at(*world, x), -0.02);
+    }
+    EXPECT_EQ(world->particle_positions().size, added);
+}
+
+TEST(Tightness, WithoutAWayOutItIsRemovedAndCounted) {
+    WorldDef def = free_flight();
+    def.capacity.cells_x = 100;
+    def.capacity.cells_y = 100;
+    TestWorld<float> world(def);
+    ASSERT_EQ(throw_one(*world, {50, 50}, {0, 0}), Status::ok);
+    ASSERT_EQ(throw_one(*world, {50, 97}, {0, 0}), Status::ok);
+    const Ring ring = rectangle(90 * kCell, 90 * kCell);
+    add(*world, body_of(ring, {50 * kCell, 50 * kCell}), false);
+    const StepReport report = world->step(kFrame);
+    EXPECT_EQ(report.particles_removed_stuck, 1);
+    EXPECT_EQ(report.particles, 1);
+    EXPECT_NEAR(world->particle_positions()[0].y, 97.0F, 0.01F) << "the other one stays";
+}
+
+/// A press closes on liquid between it and the tank: what does not escape is counted, the rest
+/// stays outside.
+TEST(Tightness, APressLosesNothingUncounted) {
+    WorldDef def = free_flight();
+    def.gravity_mps2 = {0, -9.81F};
+    def.flip_ratio = 0.97F;
+    TestWorld<float> world(def);
+    std::int32_t added = 0;
+    ASSERT_EQ(world->fill({{0, 0}, {0.1F, 0.64F}}, &added), Status::ok);
+    const Ring ring = rectangle(4 * kCell, 34 * kCell);
+    BodyDef press = body_of(ring, {7.2F * kCell, 16 * kCell});
+    press.motion.velocity_mps = {-0.3F, 0};
+    add(*world, press, true);
+    std::int32_t removed = 0;
+    for (int step = 0; step < 40; ++step) {
+        const StepReport report = world->step(kFrame);
+        removed += report.particles_removed_stuck;
+        ASSERT_EQ(report.particles + removed, added);
+        EXPECT_LT(report.max_speed_mps, 10.0F) << "no explosion";
+    }
+    EXPECT_GT(removed, 0);
+}
+
+TEST(Tightness, ContactsNameTheBodyItsImpulseAndThePlace) {
+    TestWorld<float> world(free_flight());
+    const Ring wall = rectangle(4 * kCell, 8 * kCell);
+    const BodyId id = add(*world, body_of(wall, {16 * kCell, 16 * kCell}), false);
+    ASSERT_EQ(throw_one(*world, {13.4F, 16.0F}, {0.9F, 0.0F}), Status::ok);
+    const float before = world->particle_velocities()[0].x;
+    StepReport report = world->step(kFrame);
+    ASSERT_EQ(world->contacts().size, 1);
+    const Contact contact = world->contacts()[0];
+    EXPECT_EQ(contact.body.slot, id.slot);
+    EXPECT_EQ(contact.body.generation, id.generation);
+    EXPECT_EQ(contact.body.world, id.world);
+    EXPECT_EQ(contact.particles, 1);
+    // A quarter of a cell of liquid, stopped.
+    EXPECT_NEAR(contact.impulse_m3ps.x / (0.25F * kCell * kCell * kCell * before), 1.0F, 1.0e-3F);
+    EXPECT_NEAR(contact.place_m.x, 14 * kCell, 0.3F * kCell);
+    EXPECT_NEAR(contact.place_m.y, 16 * kCell, 0.1F * kCell);
+    EXPECT_EQ(report.contacts_missed, 0);
+    report = world->step(kFrame);
+    EXPECT_EQ(world->contacts().size, 0) << "events are of one step";
+}
+
+TEST(Tightness, ContactsWithoutRoomAreCounted) {
+    TestWorld<float> world(free_flight());
+    const Ring square = rectangle(4 * kCell, 4 * kCell);
+    for (const float y : {6.0F, 16.0F, 26.0F}) {
+        add(*world, body_of(square, {16 * kCell, y * kCell}), false);
+        ASSERT_EQ(throw_one(*world, {13.4F, y}, {0.9F, 0.0F}), Status::ok);
+    }
+    const StepReport report = world->step(kFrame);
+    EXPECT_EQ(world->contacts().size, 2);
+    EXPECT_EQ(report.contacts_missed, 1);
+    WorldDef none = free_flight();
+    none.capacity.contacts = 0;
+    EXPECT_LT(world_bytes<float>(none.capacity), world_bytes<float>(free_flight().capacity));
+    World<float> nothing;
+    EXPECT_EQ(nothing.contacts().size, 0);
+}
+
+}  // namespace
+}  // namespace weir
