@@ -9,6 +9,157 @@ namespace {
 template <class Real>
 constexpr Real kOnTheOutline = Real(1.0 / 16384.0);
 
+/// Larger than any distance within a tank, cells.
+template <class Real>
+constexpr Real kDeepest = Real(1.0e6);
+
+/// Edges flatter than this meet a row everywhere at once.
+template <class Real>
+constexpr Real kFlat = Real(1.0 / 64.0);
+
+/// The box, and the polygon's own distances at its nodes.
+template <class Real>
+struct Sheet {
+    NodeBox box;
+    Real* value;
+    std::int32_t origin;
+    std::int32_t stride;
+
+    Real* row(std::int32_t j) const { return value + origin + j * stride; }
+};
+
+/// First and last whole number of an interval, within limits.
+struct Span {
+    std::int32_t first;
+    std::int32_t last;
+};
+
+/// Limited before the conversion: a body may be far outside.
+template <class Real>
+Span whole_numbers(Real from, Real to, std::int32_t first, std::int32_t last) {
+    const Real low = static_cast<Real>(first);
+    const Real high = static_cast<Real>(last);
+    return {from > low ? ceil_to_int(minimum(from, high + Real(1))) : first,
+            to < high ? floor_to_int(maximum(to, low - Real(1))) : last};
+}
+
+/// Distance from the nodes of one row to one edge, where it is the least so far.
+template <class Real>
+struct EdgeRow {
+    Vec2<Real> from;
+    Vec2<Real> edge;
+    Vec2<Real> along;  ///< unit
+    Real size;
+
+    void measure(Real* row, const Span& nodes, Real y) const {
+        const Real dy = y - from.y;
+        const Real along_dy = along.y * dy;
+        const Real across_dy = along.x * dy;
+        for (std::int32_t i = nodes.first; i <= nodes.last; ++i) {
+            const Real dx = static_cast<Real>(i) - from.x;
+            const Real at = along.x * dx + along_dy;
+            const Real nearest = row[i];
+            if (at < Real(0) || at > size) {
+                const Vec2<Real> arm = at < Real(0) ? Vec2<Real>{dx, dy}
+                                                    : Vec2<Real>{dx - edge.x, dy - edge.y};
+                const Real square = dot(arm, arm);
+                row[i] = square < nearest * nearest ? square_root(square) : nearest;
+            } else {
+                row[i] = minimum(nearest, absolute(across_dy - along.y * dx));
+            }
+        }
+    }
+};
+
+/// An edge and the nodes within `far` of it.
+template <class Real>
+void measure_edge(Vec2<Real> from, Vec2<Real> to, Real far, const Sheet<Real>& sheet) {
+    const Vec2<Real> edge = to - from;
+    const Real size = length(edge);
+    if (!(size > Real(0))) {
+        return;
+    }
+    const EdgeRow<Real> measured{from, edge, {edge.x / size, edge.y / size}, size};
+    const bool steep = absolute(measured.along.y) > kFlat<Real>;
+    const Real run = steep ? measured.along.x / measured.along.y : Real(0);
+    const Real reach = steep ? far / absolute(measured.along.y) : Real(0);
+    const Real left = minimum(from.x, to.x) - far;
+    const Real right = maximum(from.x, to.x) + far;
+    const NodeBox& box = sheet.box;
+    const Span rows = whole_numbers(minimum(from.y, to.y) - far, maximum(from.y, to.y) + far,
+                                    box.j0, box.j1);
+    for (std::int32_t j = rows.first; j <= rows.last; ++j) {
+        const Real y = static_cast<Real>(j);
+        const Real middle = from.x + (y - from.y) * run;
+        const Span nodes = whole_numbers(steep ? maximum(left, middle - reach) : left,
+                                         steep ? minimum(right, middle + reach) : right,
+                                         box.i0, box.i1);
+        measured.measure(sheet.row(j), nodes, y);
+    }
+}
+
+/// Turns the sign of all nodes to the right of an edge.
+template <class Real>
+void turn_signs(Vec2<Real> from, Vec2<Real> to, const Bounds<Real>& tank,
+                const Sheet<Real>& sheet) {
+    const NodeBox& box = sheet.box;
+    const Span rows = whole_numbers(minimum(from.y, to.y) - Real(1),
+                                    maximum(from.y, to.y) + Real(1), box.j0, box.j1);
+    for (std::int32_t j = rows.first; j <= rows.last; ++j) {
+        const Real y = off_the_border(tank, Vec2<Real>{Real(0), static_cast<Real>(j)}).y;
+        if ((from.y <= y) == (to.y <= y)) {
+            continue;
+        }
+        const Real crossing = from.x + ((y - from.y) / (to.y - from.y)) * (to.x - from.x);
+        const auto right_of = [&](std::int32_t i) {
+            return off_the_border(tank, Vec2<Real>{static_cast<Real>(i), Real(0)}).x >= crossing;
+        };
+        // The border moves a node by less than a cell.
+        std::int32_t i = whole_numbers(crossing - Real(1), crossing, box.i0, box.i1).first;
+        while (i <= box.i1 && !right_of(i)) {
+            ++i;
+        }
+        Real* row = sheet.row(j);
+        for (; i <= box.i1; ++i) {
+            row[i] = Real(0) - row[i];  // not -row[i]: no negative zero
+        }
+    }
+}
+
+/// A node that no edge reached is at most a cell deeper than its neighbours.
+template <class Real>
+Real deep_distance(const RasterPolygon<Real>& polygon, const Sheet<Real>& sheet, std::int32_t i,
+                   std::int32_t j) {
+    Real bound = kDeepest<Real>;
+    if (i > sheet.box.i0 && sheet.row(j)[i - 1] < Real(0)) {
+        bound = minimum(bound, Real(1.001) - sheet.row(j)[i - 1]);
+    }
+    if (j > sheet.box.j0 && sheet.row(j - 1)[i] < Real(0)) {
+        bound = minimum(bound, Real(1.001) - sheet.row(j - 1)[i]);
+    }
+    const Vec2<Real> point{static_cast<Real>(i), static_cast<Real>(j)};
+    const Real depth = distance_to_outline(polygon.outline, point, bound, polygon.tank);
+    return Real(0) - (depth < bound ? depth : kDeepest<Real>);
+}
+
+template <class Real>
+void measure(const RasterPolygon<Real>& polygon, Real far, const Sheet<Real>& sheet) {
+    const NodeBox& box = sheet.box;
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+            sheet.row(j)[i] = far;
+        }
+    }
+    for_each_edge(polygon.outline, [&](Vec2<Real> from, Vec2<Real> to) {
+        if (!beyond(polygon.tank, from, to)) {
+            measure_edge(from, to, far, sheet);
+        }
+    });
+    for_each_edge(polygon.outline, [&](Vec2<Real> from, Vec2<Real> to) {
+        turn_signs(from, to, polygon.tank, sheet);
+    });
+}
+
 }  // namespace
 
 template <class Real>
@@ -32,35 +183,35 @@ NodeBox nodes_near(const Vec2<Real>* ring, std::int32_t count, Real margin, std:
 
 template <class Real>
 std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, bool binary,
-                       Real far, const NodeField<Real>& field) {
-    std::int32_t nodes = 0;
+                       Real far, Real* scratch, const NodeField<Real>& field) {
+    const Sheet<Real> sheet{box, scratch, field.origin, field.stride};
+    measure(polygon, far, sheet);
     for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        Real* row = sheet.row(j);
         for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-            const Vec2<Real> point{static_cast<Real>(i), static_cast<Real>(j)};
-            Real distance = signed_distance(polygon.outline, polygon.pieces, polygon.piece_length,
-                                            point, far, polygon.tank);
-            if (distance < kOnTheOutline<Real>) {
-                distance = minimum(distance, Real(0));
-            }
-            if (binary) {
-                distance = distance <= Real(0) ? Real(-0.5) : Real(0.5);
+            if (!(row[i] < kOnTheOutline<Real>)) {
+                row[i] = binary ? Real(0.5) : row[i];
+            } else if (binary) {
+                row[i] = Real(-0.5);
+            } else {
+                row[i] = row[i] <= Real(0) - far ? deep_distance(polygon, sheet, i, j)
+                                                 : minimum(row[i], Real(0));
             }
             const std::int32_t node = field.origin + j * field.stride + i;
-            if (distance < field.distance[node]) {
-                field.distance[node] = distance;
+            if (row[i] < field.distance[node]) {
+                field.distance[node] = row[i];
                 field.nearest[node] = polygon.name;
             }
-            ++nodes;
         }
     }
-    return nodes;
+    return (box.i1 - box.i0 + 1) * (box.j1 - box.j0 + 1);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                              \
     template NodeBox nodes_near(const Vec2<Real>*, std::int32_t, Real, std::int32_t,        \
                                 std::int32_t);                                              \
     template std::int32_t rasterize(const RasterPolygon<Real>&, const NodeBox&, bool, Real, \
-                                    const NodeField<Real>&);
+                                    Real*, const NodeField<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

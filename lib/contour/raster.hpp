@@ -15,12 +15,10 @@ struct NodeBox {
     bool empty() const { return i1 < i0 || j1 < j0; }
 };
 
-/// A placed polygon and its convex pieces, in cells.
+/// A placed polygon, in cells.
 template <class Real>
 struct RasterPolygon {
     Outline<Real> outline;
-    const std::uint16_t* pieces = nullptr;
-    std::int32_t piece_length = 0;
     std::uint16_t name = 0;  ///< written to the nodes of which it is the nearest
     Bounds<Real> tank;
 };
@@ -40,11 +38,17 @@ NodeBox nodes_near(const Vec2<Real>* ring, std::int32_t count, Real margin, std:
                    std::int32_t last_j);
 
 /// Merges a polygon into the field: a node takes the smaller of its distance and the polygon's,
-/// so that overlapping polygons become their union. `binary` writes −½ and +½ instead of the
-/// distance, which is the binary matrix of the paper: contour lines then run through mid-edges.
-/// Returns the number of nodes computed. Cost: nodes × edges.
+/// so that overlapping polygons become their union. Outside, distances end at `far`. `binary`
+/// writes −½ and +½ instead, which is the binary matrix of the paper: contour lines then run
+/// through mid-edges. Returns the number of nodes of the box.
+///
+/// Inside is what a ray from the left enters an odd number of times. Each edge is measured from
+/// the nodes within `far` of it only; deeper inside, nodes look for the nearest edge one by one,
+/// with their neighbours' distances for a bound.
+/// Cost: edges × their length × 2 far, and a look at every edge for each node that is deep inside.
+/// @param scratch a field of nodes with the same numbering, overwritten in the box.
 template <class Real>
 std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, bool binary,
-                       Real far, const NodeField<Real>& field);
+                       Real far, Real* scratch, const NodeField<Real>& field);
 
 }  // namespace weir

@@ -18,6 +18,23 @@ struct Bounds {
     Vec2<Real> high{Real(1.0e9), Real(1.0e9)};
 };
 
+/// Whether an edge lies on the border or beyond it, by rounding or clearly.
+template <class Real>
+bool beyond(const Bounds<Real>& bounds, Vec2<Real> a, Vec2<Real> b) {
+    constexpr Real kHair = Real(1.0 / 16384.0);
+    return maximum(a.x, b.x) <= bounds.low.x + kHair ||
+           minimum(a.x, b.x) >= bounds.high.x - kHair ||
+           maximum(a.y, b.y) <= bounds.low.y + kHair || minimum(a.y, b.y) >= bounds.high.y - kHair;
+}
+
+/// A solid that ends on the tank's border covers the nodes there, whatever rounding says.
+template <class Real>
+Vec2<Real> off_the_border(const Bounds<Real>& bounds, Vec2<Real> p) {
+    constexpr Real kNudge = Real(1.0 / 1024.0);
+    return {clamp(p.x, bounds.low.x + kNudge, bounds.high.x - kNudge),
+            clamp(p.y, bounds.low.y + kNudge, bounds.high.y - kNudge)};
+}
+
 /// Distance to the segment a b, never negative; exactly 0 for a point that rounding sees on it.
 template <class Real>
 Real distance_to_segment(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b);

@@ -31,11 +31,11 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
                   const NodeBox& box, Real* distance, std::uint16_t* nearest) {
     const Body<Real>& body = table.body[slot];
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
-    const RasterPolygon<Real> polygon{table.outline(body), table.piece_list(body),
-                                      body.piece_length, static_cast<std::uint16_t>(slot),
+    const RasterPolygon<Real> polygon{table.outline(body), static_cast<std::uint16_t>(slot),
                                       {{}, size}};
     const NodeField<Real> field{distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
-    return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>, field);
+    return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>,
+                     layers.scratch, field);
 }
 
 /// Copies the static layer into the merged one.

@@ -1,9 +1,6 @@
 #include "node_field.hpp"
 
 #include <cmath>
-#include <stdexcept>
-
-#include "geometry/convex_decomposition.hpp"
 
 namespace solids {
 
@@ -32,17 +29,10 @@ void NodeGrid<Real>::draw(const Points& outline, bool binary) {
         ring.push_back(weir::convert<Real>(p));
     }
     const auto count = static_cast<std::int32_t>(ring.size());
-    std::vector<std::uint16_t> links(ring.size() * weir::kLinksPerVertex);
-    std::vector<std::uint16_t> pieces(ring.size() * weir::kPieceIndicesPerVertex);
-    const std::int32_t length = weir::decompose<Real>(
-        ring.data(), count, {links.data(), static_cast<std::int32_t>(links.size())},
-        {pieces.data(), static_cast<std::int32_t>(pieces.size())});
-    if (length < 0) {
-        throw std::runtime_error("no convex pieces");
-    }
-    const weir::RasterPolygon<Real> polygon{ring.data(), count, pieces.data(), length, 0, {}};
+    const weir::RasterPolygon<Real> polygon{{ring.data(), count}, 0, {}};
+    std::vector<Real> scratch(distance.size());
     const weir::NodeBox box = weir::nodes_near(ring.data(), count, far, cells, cells);
-    weir::rasterize(polygon, box, binary, far,
+    weir::rasterize(polygon, box, binary, far, scratch.data(),
                     weir::NodeField<Real>{distance.data(), nearest.data(), 0, cells + 1});
 }
 

@@ -19,7 +19,7 @@ template <class Real>
 struct NodeGrid {
     explicit NodeGrid(int cells_a_side, Real furthest = Real(1.5));
 
-    /// Merges a polygon into the field. Throws if it cannot be cut into convex pieces.
+    /// Merges a polygon into the field.
     void draw(const Points& outline, bool binary = false);
     void corners(int i, int j, Real distance[4]) const;
 
