@@ -20,13 +20,13 @@ public:
     void add(float number) {
         std::uint32_t bits = 0;
         const float canonical = number == 0.0F ? 0.0F : number;
-        std::memcpy(&bits, &canonical, sizeof bits);
+        __builtin_memcpy(&bits, &canonical, sizeof bits);
         add(bits);
     }
     void add(double number) {
         std::uint64_t bits = 0;
         const double canonical = number == 0.0 ? 0.0 : number;
-        std::memcpy(&bits, &canonical, sizeof bits);
+        __builtin_memcpy(&bits, &canonical, sizeof bits);
         add(static_cast<std::uint32_t>(bits));
         add(static_cast<std::uint32_t>(bits >> 32U));
     }

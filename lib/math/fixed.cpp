@@ -7,7 +7,7 @@ namespace weir {
 template <int Fraction>
 FixedPoint<Fraction>::FixedPoint(float value) {
     std::uint32_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
+    __builtin_memcpy(&bits, &value, sizeof bits);
     const std::int32_t exponent = static_cast<std::int32_t>((bits >> 23U) & 0xFFU);
     const std::uint32_t mantissa = (bits & 0x7FFFFFU) | 0x800000U;
     // value = mantissa · 2^(exponent − 150), subnormals apart, which round to 0 anyway.

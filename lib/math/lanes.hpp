@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #if (defined(__SSE2__) || defined(__ARM_NEON)) && !defined(WEIR_PLAIN_LOOPS) && \
     (defined(__clang__) || __GNUC__ >= 12)
@@ -28,21 +27,21 @@ using LaneMask = std::int32_t __attribute__((vector_size(16)));
 /// From any address, in order.
 inline Lanes load_lanes(const float* from) {
     Lanes lanes;
-    std::memcpy(&lanes, from, sizeof lanes);
+    __builtin_memcpy(&lanes, from, sizeof lanes);
     return lanes;
 }
 inline void store_lanes(float* to, Lanes lanes) {
-    std::memcpy(to, &lanes, sizeof lanes);
+    __builtin_memcpy(to, &lanes, sizeof lanes);
 }
 /// Two floats at a time, lanes 0 and 1.
 inline Lanes load_pair(const float* from) {
     using Halves = double __attribute__((vector_size(16)));
     double both;
-    std::memcpy(&both, from, sizeof both);
+    __builtin_memcpy(&both, from, sizeof both);
     return reinterpret_cast<Lanes>(Halves{both, 0.0});
 }
 inline void store_pair(float* to, Lanes lanes) {
-    std::memcpy(to, &lanes, 2 * sizeof *to);
+    __builtin_memcpy(to, &lanes, 2 * sizeof *to);
 }
 inline Lanes all_lanes(float value) {
     return Lanes{value, value, value, value};
@@ -55,7 +54,7 @@ inline Lanes shuffle(Lanes a, Lanes b) {
 inline bool all_true(LaneMask mask) {
 #if defined(__SSE2__)
     Lanes signs;
-    std::memcpy(&signs, &mask, sizeof signs);
+    __builtin_memcpy(&signs, &mask, sizeof signs);
     return __builtin_ia32_movmskps(signs) == 0xF;
 #else
     return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
@@ -66,9 +65,9 @@ inline Lanes maximum(Lanes a, Lanes b) {
 }
 inline Lanes absolute(Lanes a) {
     LaneMask bits;
-    std::memcpy(&bits, &a, sizeof bits);
+    __builtin_memcpy(&bits, &a, sizeof bits);
     bits &= LaneMask{0x7FFFFFFF, 0x7FFFFFFF, 0x7FFFFFFF, 0x7FFFFFFF};
-    std::memcpy(&a, &bits, sizeof a);
+    __builtin_memcpy(&a, &bits, sizeof a);
     return a;
 }
 #endif

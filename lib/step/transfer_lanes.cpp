@@ -3,6 +3,8 @@
 // the other component, which are written after, or were read before.
 #include "step/transfer_lanes.hpp"
 
+#include <cstring>
+
 #include "step/tank_walls.hpp"
 
 namespace weir {
