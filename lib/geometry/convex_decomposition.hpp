@@ -1,35 +1,40 @@
-// A simple polygon as a few convex pieces: ear clipping (Eberly 2002, "Triangulation by ear
-// clipping"), then dropping the diagonals that no reflex corner needs (Hertel & Mehlhorn 1983,
-// "Fast triangulation of simple polygons").
+// A polygon, with holes or without, as a few convex pieces: ear clipping (Eberly 2002,
+// "Triangulation by ear clipping"), then dropping the diagonals that no reflex corner needs
+// (Hertel & Mehlhorn 1983, "Fast triangulation of simple polygons").
 #pragma once
 
 #include <cstdint>
 
 #include "base/array_view.hpp"
-#include "math/vec2.hpp"
+#include "geometry/outline.hpp"
 #include "weir/memory.hpp"
 
 namespace weir {
 
-inline constexpr std::int32_t kLinksPerVertex = 2;
+/// Places in the pools that a body takes: a hole joins the outer ring by a bridge, which doubles
+/// two corners, and one more keeps its end.
+constexpr std::int32_t places_for(std::int32_t vertices, std::int32_t holes) {
+    return vertices + kPlacesPerHole * holes;
+}
 
-/// Set-up: writes the ring's convex pieces, each as its number of vertices, then those vertices'
+/// Set-up: writes the polygon's convex pieces, each as its number of vertices, then those vertices'
 /// numbers counter-clockwise. A convex ring gives one piece; vertices on a straight edge are fine.
-/// Cost: of the order of count² orientation tests; count³ for a ring that touches itself.
-/// @param ring simple and counter-clockwise (`check_polygon`), 3 … kMaxBodyVertices vertices.
-///             Where rounding has made it touch itself, its flattest corners are cut off.
-/// @param links scratch, kLinksPerVertex a vertex.
-/// @param pieces at least kPieceIndicesPerVertex · (count - 2).
-/// @return how much of `pieces` is used, or -1 if the ring encloses nothing on its left.
+/// Cost: `clip_ear`'s, and holes × corners for the bridges.
+/// @param outline as `check_polygon` lets pass, turned so that the solid is to the left of every
+///                edge; corners together at most kMaxBodyVertices. Where rounding has made it touch
+///                itself, its flattest corners are cut off.
+/// @param scratch kScratchPerVertex a place. @param pieces kPieceIndicesPerVertex · (corners - 2),
+///                where a hole adds two corners to its own.
+/// @return how much of `pieces` is used, or -1 if the outline encloses nothing on its left.
 template <class Real>
-std::int32_t decompose(const Vec2<Real>* ring, std::int32_t count,
-                       ArrayView<std::uint16_t> links, ArrayView<std::uint16_t> pieces);
+std::int32_t decompose(const Outline<Real>& outline, ArrayView<std::uint16_t> scratch,
+                       ArrayView<std::uint16_t> pieces);
 
-extern template std::int32_t decompose(const Vec2<float>*, std::int32_t,
-                                       ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
-extern template std::int32_t decompose(const Vec2<double>*, std::int32_t,
-                                       ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
-extern template std::int32_t decompose(const Vec2<Fixed>*, std::int32_t,
-                                       ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
+extern template std::int32_t decompose(const Outline<float>&, ArrayView<std::uint16_t>,
+                                       ArrayView<std::uint16_t>);
+extern template std::int32_t decompose(const Outline<double>&, ArrayView<std::uint16_t>,
+                                       ArrayView<std::uint16_t>);
+extern template std::int32_t decompose(const Outline<Fixed>&, ArrayView<std::uint16_t>,
+                                       ArrayView<std::uint16_t>);
 
 }  // namespace weir

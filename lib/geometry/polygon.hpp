@@ -1,27 +1,18 @@
-// Polygons: what a body's outline must be, its area, and the inside test by left turns.
-// A ring is the list of a polygon's vertices, counter-clockwise; its last edge closes it.
+// Polygons: area, and the inside test by left turns; the checks of outlines are in
+// weir/geometry.hpp. A ring is the list of a polygon's vertices; its last edge closes it.
 #pragma once
 
 #include <cstdint>
 
 #include "math/vec2.hpp"
-#include "weir/status.hpp"
-#include "weir/types.hpp"
+#include "weir/geometry.hpp"
 
 namespace weir {
 
-/// Smallest area of a body over the square of its bounding box's diagonal. A float coordinate is
+/// Smallest area of a ring over the square of its bounding box's diagonal. A float coordinate is
 /// good to 6e-8 of the diagonal, so a sliver thinner than this has a width made of rounding; a
 /// wall of 1 mm by 100 m still passes.
 inline constexpr double kMinRelativeArea = 1e-6;
-
-/// Set-up: whether a body may have that outline. Total for every bit pattern of its floats.
-/// Names the first defect in this order: polygon_missing, _too_few_vertices, _too_many_vertices,
-/// _not_finite, _repeats_a_vertex (neighbours on the outline), _zero_area, _crosses_itself
-/// (also touches itself, or goes back over its own edge), _clockwise. An outline whose crossing
-/// halves cancel to no area is said to cross itself.
-/// Cost: one box test for each pair of edges.
-Status check_polygon(View<Vec2f> polygon);
 
 /// Twice the area of the triangle a b c: positive where the way a → b → c turns left.
 template <class Real>
@@ -39,11 +30,14 @@ constexpr bool is_left_turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
 template <class Real>
 Real twice_signed_area(const Vec2<Real>* ring, std::int32_t count);
 
-/// Whether a point is in a convex piece of a ring, its edge included: it lies to the left of
+/// The same in double, where products of floats are exact and squares cannot overflow.
+double twice_area_in_double(View<Vec2f> ring);
+
+/// Whether a point is in a convex piece of a polygon, its edge included: it lies to the left of
 /// every edge (the paper's test). A piece without area holds no point.
-/// @param piece vertex numbers of the ring, counter-clockwise.
+/// @param piece vertex numbers, counter-clockwise.
 template <class Real>
-bool inside_convex(const Vec2<Real>* ring, const std::uint16_t* piece, std::int32_t count,
+bool inside_convex(const Vec2<Real>* vertices, const std::uint16_t* piece, std::int32_t count,
                    Vec2<Real> point);
 
 extern template float twice_signed_area(const Vec2<float>*, std::int32_t);

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "geometry/convex_decomposition.hpp"
+#include "geometry/ring_copy.hpp"
 
 namespace weir {
 
@@ -14,6 +15,22 @@ template <class T>
 void close_gap(T* pool, std::int32_t first, std::int32_t count, std::int32_t used) {
     std::memmove(pool + first, pool + first + count,
                  static_cast<std::size_t>(used - first - count) * sizeof(T));
+}
+
+/// Returns how many vertices stay; where each ring ends is noted in the table's scratch.
+template <class Real>
+std::int32_t copy_rings(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
+                        const Body<Real>& body) {
+    Vec2<Real>* to = table.local + body.first_vertex;
+    std::int32_t count = 0;
+    for (std::int32_t ring = 0; ring < body.rings; ++ring) {
+        const View<Vec2f> from = ring == 0 ? def.polygon : def.holes[ring - 1];
+        copy_ring(from, ring == 0, [&](Vec2f vertex) {
+            to[count++] = convert<Real>(cells_per_m * convert<Face<Real>>(vertex));
+        });
+        table.scratch[ring] = static_cast<std::uint16_t>(count);
+    }
+    return count;
 }
 
 }  // namespace
@@ -35,17 +52,20 @@ bool exists(const BodyTable<Real>& table, BodyId id) {
 }
 
 template <class Real>
-bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Face<Real> cells_per_m,
+bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
                  Body<Real>& body) {
     body.first_vertex = table.vertices_used;
-    body.vertex_count = polygon_m.size;
-    body.room = body.vertex_count;
-    Vec2<Real>* ring = table.local + body.first_vertex;
-    for (std::int32_t k = 0; k < polygon_m.size; ++k) {
-        ring[k] = convert<Real>(cells_per_m * convert<Face<Real>>(polygon_m[k]));
-    }
-    const ArrayView<std::uint16_t> pieces{table.piece_list(body), kPerVertex * body.vertex_count};
-    body.piece_length = decompose(ring, body.vertex_count, table.links, pieces);
+    body.rings = 1 + def.holes.size;
+    body.vertex_count = copy_rings(table, def, cells_per_m, body);
+    body.room = places_for(body.vertex_count, def.holes.size);
+    // The table of ring ends is written behind a list that may yet shrink.
+    std::uint16_t* ends = table.piece_list(body) + kPerVertex * body.room - body.rings;
+    std::memmove(ends, table.scratch.data, static_cast<std::size_t>(body.rings) * sizeof *ends);
+    const ArrayView<std::uint16_t> pieces{table.piece_list(body),
+                                          kPerVertex * body.room - body.rings};
+    Outline<Real> outline = table.outline(body);
+    outline.vertex = table.local + body.first_vertex;
+    body.piece_length = decompose(outline, table.scratch, pieces);
     if (body.piece_length < 0) {
         return false;
     }
@@ -86,7 +106,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
 #define WEIR_INSTANTIATE(Real)                                                            \
     template std::int32_t find_free_slot(const BodyTable<Real>&);                         \
     template bool exists(const BodyTable<Real>&, BodyId);                                 \
-    template bool add_polygon(BodyTable<Real>&, View<Vec2f>, Face<Real>, Body<Real>&);    \
+    template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
     template void place(BodyTable<Real>&, const Body<Real>&);                             \
     template void remove(BodyTable<Real>&, std::int32_t);
 WEIR_INSTANTIATE(float)

@@ -26,7 +26,7 @@ struct Body {
     std::int32_t vertex_count = 0;  ///< in all rings
     std::int32_t room = 0;          ///< places that it takes in the pools
     std::int32_t rings = 1;         ///< 1 + holes
-    std::int32_t piece_length = 0;  ///< used entries of its piece list; the ring ends follow
+    std::int32_t piece_length = 0;  ///< used entries of its piece list
     NodeBox drawn;                  ///< nodes that it wrote when it was last rasterized
     NodeBox left;                   ///< and the time before
     std::uint16_t generation = 0;
@@ -44,13 +44,18 @@ struct BodyTable {
     Vec2<Real>* local = nullptr;    ///< vertices in the bodies' own frames
     Vec2<Real>* placed = nullptr;   ///< the same vertices in the tank, at the current poses
     std::uint16_t* pieces = nullptr;
-    ArrayView<std::uint16_t> links;  ///< scratch of the triangulation
+    ArrayView<std::uint16_t> scratch;  ///< of the decomposition
     std::int32_t vertex_capacity = 0;
     std::int32_t vertices_used = 0;
 
     const Vec2<Real>* ring(const Body<Real>& of) const { return placed + of.first_vertex; }
+    /// They stand at the end of the body's room for pieces.
+    const std::uint16_t* ring_ends(const Body<Real>& of) const {
+        return piece_list(of) + static_cast<std::int32_t>(kPieceIndicesPerVertex) * of.room -
+               of.rings;
+    }
     Outline<Real> outline(const Body<Real>& of) const {
-        return {ring(of), of.vertex_count, of.rings, piece_list(of) + of.piece_length};
+        return {ring(of), of.vertex_count, of.rings, ring_ends(of)};
     }
     std::uint16_t* piece_list(const Body<Real>& of) const {
         return pieces + static_cast<std::int32_t>(kPieceIndicesPerVertex) * of.first_vertex;
@@ -68,7 +73,7 @@ bool exists(const BodyTable<Real>& table, BodyId id);
 /// Copies the polygon behind the vertices in use and cuts it into convex pieces. The caller has
 /// checked it and that there is room. False: no triangulation was found; nothing changed.
 template <class Real>
-bool add_polygon(BodyTable<Real>& table, View<Vec2f> polygon_m, Face<Real> cells_per_m,
+bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
                  Body<Real>& body);
 
 /// Turns and moves the vertices to the body's pose.

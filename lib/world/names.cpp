@@ -75,14 +75,15 @@ const char* content_text(Status status) {
         case Status::polygon_missing: return "polygon is null: point it at the vertices";
         case Status::polygon_too_few_vertices: return "polygon: at least 3 vertices";
         case Status::polygon_too_many_vertices:
-            return "polygon: at most kMaxBodyVertices; simplify it";
+            return "polygon: at most kMaxBodyVertices, check_polygon counts them; simplify it";
         case Status::polygon_not_finite: return "polygon has a NaN or infinite vertex";
-        case Status::polygon_repeats_a_vertex:
-            return "polygon has the same vertex twice in a row: drop one";
-        case Status::polygon_clockwise:
-            return "polygon is clockwise: reverse the order of its vertices";
-        case Status::polygon_zero_area: return "polygon has no area";
-        case Status::polygon_crosses_itself: return "polygon crosses or touches itself: split it";
+        case Status::polygon_zero_area: return "polygon, or a hole in it, has no area";
+        case Status::polygon_crosses_itself:
+            return "polygon crosses or touches itself: check_polygon says where; split it";
+        case Status::polygon_hole_crosses:
+            return "a hole crosses or touches another ring: check_polygon says where";
+        case Status::polygon_hole_outside:
+            return "a hole lies outside the polygon or within another hole: leave it out";
         case Status::polygon_outside_domain:
             return "polygon lies wholly outside the tank: move it in";
         case Status::position_out_of_range:

@@ -169,12 +169,9 @@ Status check_motion(const Motion& motion, float cell_m) {
 }
 
 Status check_body(const BodyDef& def, float cell_m) {
-    const Status polygon = check_polygon(def.polygon);
+    const Status polygon = check_polygon(def.polygon, def.holes);
     if (polygon != Status::ok) {
         return polygon;
-    }
-    if (def.holes.size != 0) {
-        return Status::unknown_option;  // they are on their way
     }
     const float furthest = kFurthest * cell_m;
     for (const Vec2f& vertex : def.polygon) {

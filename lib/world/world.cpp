@@ -37,8 +37,8 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::vertex_local, bodies.local);
     carver.take(Block::vertex_placed, bodies.placed);
     carver.take(Block::piece_index, bodies.pieces);
-    carver.take(Block::triangulation_links, bodies.links.data);
-    bodies.links.size = 2 * capacity.vertices;
+    carver.take(Block::decomposition_scratch, bodies.scratch.data);
+    bodies.scratch.size = static_cast<std::int32_t>(kScratchPerVertex) * capacity.vertices;
     bodies.capacity = capacity.bodies;
     bodies.vertex_capacity = capacity.vertices;
 
@@ -168,6 +168,9 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
             hash.add(number);
         }
         hash.add(static_cast<std::uint32_t>(body.surface.no_slip));
+        for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
+            hash.add(table.outline(body).end_of(ring));
+        }
         for (std::int32_t k = 0; k < body.vertex_count; ++k) {
             hash.add(table.local[body.first_vertex + k].x);
             hash.add(table.local[body.first_vertex + k].y);

@@ -1,4 +1,5 @@
 // Bodies: adding, moving, asking, removing.
+#include "geometry/convex_decomposition.hpp"
 #include "solid/layers.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
@@ -8,6 +9,14 @@ namespace weir {
 namespace {
 
 using detail::WorldState;
+
+std::int32_t places_needed(const BodyDef& def) {
+    std::int32_t vertices = def.polygon.size;
+    for (const View<Vec2f>& hole : def.holes) {
+        vertices += hole.size;
+    }
+    return places_for(vertices, def.holes.size);
+}
 
 template <class Real>
 Status check_room(const WorldState<Real>& state, const BodyDef& def, const BodyId* id) {
@@ -22,7 +31,7 @@ Status check_room(const WorldState<Real>& state, const BodyDef& def, const BodyI
     if (find_free_slot(table) < 0) {
         return Status::no_free_body;
     }
-    return def.polygon.size > table.vertex_capacity - table.vertices_used
+    return places_needed(def) > table.vertex_capacity - table.vertices_used
                ? Status::no_free_vertex
                : Status::ok;
 }
@@ -69,7 +78,7 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
     body.kind = kind;
     body.surface = surface_law<Real>(def.surface, state.cells_per_m);
     set_pose(state, def.motion, body);
-    if (!add_polygon(table, def.polygon, state.cells_per_m, body)) {
+    if (!add_polygon(table, def, state.cells_per_m, body)) {
         return Status::polygon_crosses_itself;
     }
     place(table, body);

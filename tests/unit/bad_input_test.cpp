@@ -15,6 +15,14 @@ Status add(Fixture& f, const Ring& ring, Vec2f at = {0.16F, 0.16F}) {
     return (*f).add_static_body(body_of(ring, at), &id);
 }
 
+Status add_holed(Fixture& f, const Ring& hole) {
+    const View<Vec2f> holes[] = {{hole.data(), static_cast<std::int32_t>(hole.size())}};
+    BodyDef def = body_of(kTriangle, {0.16F, 0.16F});
+    def.holes = {holes, 1};
+    BodyId id;
+    return (*f).add_static_body(def, &id);
+}
+
 /// Both ways to add a body must agree on a changed definition.
 Status add_changed(Fixture& f, const std::function<void(BodyDef&)>& change) {
     BodyDef def = body_of(kTriangle, {0.16F, 0.16F});
@@ -65,14 +73,18 @@ const std::vector<Row>& polygon_rows() {
          Status::polygon_not_finite},
         {"vertex infinite", [](Fixture& f) { return add(f, {{0, 0}, {0.1F, 0}, {0, kInf}}); },
          Status::polygon_not_finite},
-        {"vertex repeated",
-         [](Fixture& f) { return add(f, {{0, 0}, {0.1F, 0}, {0.1F, 0}, {0, 0.1F}}); },
-         Status::polygon_repeats_a_vertex},
-        {"first vertex again at the end",
-         [](Fixture& f) { return add(f, {{0, 0}, {0.1F, 0}, {0, 0.1F}, {0, 0}}); },
-         Status::polygon_repeats_a_vertex},
-        {"clockwise", [](Fixture& f) { return add(f, {{0, 0}, {0, 0.1F}, {0.1F, 0}}); },
-         Status::polygon_clockwise},
+        {"holes null", CHANGED_BODY(holes.size, 1), Status::polygon_missing},
+        {"hole of two", [](Fixture& f) { return add_holed(f, {{0.01F, 0.01F}, {0.02F, 0.02F}}); },
+         Status::polygon_too_few_vertices},
+        {"hole NaN",
+         [](Fixture& f) { return add_holed(f, {{0.01F, 0.01F}, {0.02F, 0.01F}, {kNan, 0.02F}}); },
+         Status::polygon_not_finite},
+        {"hole across the outline",
+         [](Fixture& f) { return add_holed(f, {{0.01F, 0.01F}, {0.09F, 0.01F}, {0.01F, 0.02F}}); },
+         Status::polygon_hole_crosses},
+        {"hole beside the outline",
+         [](Fixture& f) { return add_holed(f, {{0.1F, 0.01F}, {0.12F, 0.01F}, {0.1F, 0.02F}}); },
+         Status::polygon_hole_outside},
         {"no area", [](Fixture& f) { return add(f, {{0, 0}, {0.05F, 0}, {0.1F, 0}}); },
          Status::polygon_zero_area},
         {"bow tie",

@@ -26,7 +26,7 @@ struct Capacity {
     std::int32_t cells_x = 32;      ///< kMinCells … kMaxCells; the tank is cells_x × cells_y cells
     std::int32_t cells_y = 32;      ///< kMinCells … kMaxCells
     std::int32_t bodies = 0;        ///< 0 … kMaxBodies, static and moving together
-    std::int32_t vertices = 0;      ///< 0 … kMaxVertices, summed over all bodies
+    std::int32_t vertices = 0;      ///< 0 … kMaxVertices, of all bodies; and 3 a hole
     std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
 };
@@ -137,8 +137,10 @@ struct Motion {
 
 /// A solid: a simple polygon, with holes or without, given in the body's own frame.
 struct BodyDef {
-    View<Vec2f> polygon;       ///< m; 3 … kMaxBodyVertices; copied
-    View<View<Vec2f>> holes;   ///< m; rings inside the polygon, none in another; copied
+    /// Outer ring, m; 3 … kMaxBodyVertices vertices, holes included and 3 more for each; either
+    /// way round. Copied, without repeated vertices and straight corners.
+    View<Vec2f> polygon;
+    View<View<Vec2f>> holes;   ///< rings inside it, none in another; either way round; copied
     Motion motion;             ///< a static body takes only position and angle
     Surface surface;
 };

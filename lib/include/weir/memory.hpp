@@ -40,7 +40,7 @@ enum class Block : std::uint8_t {
     vertex_local,
     vertex_placed,
     piece_index,
-    triangulation_links,
+    decomposition_scratch,
     static_distance,
     static_body,
     merged_distance,
@@ -73,6 +73,11 @@ inline constexpr std::size_t kBodyBytes = 144;
 
 /// Largest index of a piece list: a triangle per vertex, each a count and three vertex numbers.
 inline constexpr std::size_t kPieceIndicesPerVertex = 4;
+/// Scratch of the decomposition into pieces, numbers.
+inline constexpr std::size_t kScratchPerVertex = 5;
+/// What a hole takes besides its vertices: its bridge to the outer ring doubles two of them, and
+/// one more place keeps the hole's end.
+inline constexpr std::int32_t kPlacesPerHole = 3;
 
 struct Layout {
     std::size_t offset[kBlockCount] = {};
@@ -109,7 +114,7 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::vertex_local, Owner::vertices, point, vertices},
         {Block::vertex_placed, Owner::vertices, point, vertices},
         {Block::piece_index, Owner::vertices, index, kPieceIndicesPerVertex * vertices},
-        {Block::triangulation_links, Owner::vertices, index, 2 * vertices},
+        {Block::decomposition_scratch, Owner::vertices, index, kScratchPerVertex * vertices},
         {Block::static_distance, Owner::contour, sizeof(Real), solid_cells},
         {Block::static_body, Owner::contour, index, solid_cells},
         {Block::merged_distance, Owner::contour, sizeof(Real), solid_cells},

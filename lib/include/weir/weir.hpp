@@ -4,6 +4,7 @@
 #include "weir/config.hpp"
 #include "weir/diagnostics.hpp"
 #include "weir/fault.hpp"
+#include "weir/geometry.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"
 #include "weir/status.hpp"
