@@ -24,7 +24,9 @@ struct CornerRing {
     std::int32_t vertex_of(std::int32_t corner) const {
         return sequence[corner] & ~static_cast<std::int32_t>(kBridge);
     }
-    Vec2<double> at(std::int32_t corner) const { return convert<double>(vertex[vertex_of(corner)]); }
+    Vec2<double> at(std::int32_t corner) const {
+        return convert<double>(vertex[vertex_of(corner)]);
+    }
     double turn_at(std::int32_t a, std::int32_t b, std::int32_t c) const {
         return turn(at(a), at(b), at(c));
     }

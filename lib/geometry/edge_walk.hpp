@@ -1,5 +1,5 @@
-// The edges of a polygon's rings as the caller gave them, one after the other. Edges without length,
-// between repeated vertices, are passed over.
+// The edges of a polygon's rings as the caller gave them, one after the other. Edges without
+// length, between repeated vertices, are passed over.
 #pragma once
 
 #include "math/vec2.hpp"
