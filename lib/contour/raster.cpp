@@ -198,7 +198,10 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
                                                  : minimum(row[i], Real(0));
             }
             const std::int32_t node = field.origin + j * field.stride + i;
-            if (row[i] < field.distance[node]) {
+            // Of two equally near the lower name, whichever was drawn first.
+            const Real stored = field.distance[node];
+            if (row[i] < stored ||
+                (row[i] == stored && row[i] < far && polygon.name < field.nearest[node])) {
                 field.distance[node] = row[i];
                 field.nearest[node] = polygon.name;
             }

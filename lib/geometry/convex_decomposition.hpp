@@ -30,6 +30,26 @@ template <class Real>
 std::int32_t decompose(const Outline<Real>& outline, ArrayView<std::uint16_t> scratch,
                        ArrayView<std::uint16_t> pieces);
 
+/// Whether a list of that length, `at(k)` its entries, is one of pieces of an outline of that
+/// many vertices, so that it can be gone through without leaving either.
+template <class At>
+bool pieces_fit(At at, std::int32_t length, std::int32_t vertices) {
+    std::int32_t next = 0;
+    while (next < length) {
+        const std::int32_t end = next + 1 + at(next);
+        if (end < next + 4 || end > length) {
+            return false;
+        }
+        for (std::int32_t k = next + 1; k < end; ++k) {
+            if (at(k) >= vertices) {
+                return false;
+            }
+        }
+        next = end;
+    }
+    return true;
+}
+
 extern template std::int32_t decompose(const Outline<float>&, ArrayView<std::uint16_t>,
                                        ArrayView<std::uint16_t>);
 extern template std::int32_t decompose(const Outline<double>&, ArrayView<std::uint16_t>,

@@ -8,6 +8,8 @@ void diffuse(const GridShape& s, const Real* level, std::int32_t back, std::int3
     const auto wet = [&](std::int32_t face) {
         return level[face] > kEmptyLevel<Real> && level[face - back] > kEmptyLevel<Real>;
     };
+    // The face before the one on the seam has cells that lie two beyond it: its image has not.
+    const std::int32_t period = back * (back == 1 ? s.nx : s.ny);
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
@@ -15,8 +17,11 @@ void diffuse(const GridShape& s, const Real* level, std::int32_t back, std::int3
                 continue;
             }
             const Real here = field[face];
+            const bool on_seam = (back == 1 ? i : j) == 0;
             const auto pull = [&](std::int32_t neighbour) {
-                return wet(neighbour) ? field[neighbour] - here : Real(0);
+                const bool beyond = on_seam && neighbour == face - back;
+                return wet(beyond ? neighbour + period : neighbour) ? field[neighbour] - here
+                                                                    : Real(0);
             };
             out[face] = here + amount * ((pull(face - 1) + pull(face + 1)) +
                                          (pull(face - s.stride) + pull(face + s.stride)));

@@ -151,6 +151,16 @@ std::int32_t redraw_static(Layers<Real>& layers, BodyTable<Real>& table) {
     return nodes + refresh(layers, table, everywhere(layers));
 }
 
+template <class Real>
+void redraw_all(Layers<Real>& layers, BodyTable<Real>& table) {
+    clear_layers(layers);
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        Body<Real>& body = table.body[slot];
+        body.drawn = body.kind == BodyKind::free ? NodeBox{} : reach(layers.shape, table, body);
+    }
+    redraw_static(layers, table);
+}
+
 /// Every body that moved leaves a rectangle and enters one; both are wiped, then all bodies that
 /// reach into any of them are drawn. Merging takes the smaller distance, so drawing a body again
 /// where it stands already changes nothing.
@@ -202,6 +212,7 @@ void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
     template void clear_layers(Layers<Real>&);                                           \
     template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t);    \
     template std::int32_t redraw_static(Layers<Real>&, BodyTable<Real>&);                \
+    template void redraw_all(Layers<Real>&, BodyTable<Real>&);                           \
     template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);                 \
     template void erase_moving(Layers<Real>&, BodyTable<Real>&, std::int32_t);
 WEIR_INSTANTIATE(float)

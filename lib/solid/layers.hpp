@@ -36,6 +36,10 @@ std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int3
 template <class Real>
 std::int32_t redraw_static(Layers<Real>& layers, BodyTable<Real>& table);
 
+/// Draws everything anew from the bodies' poses alone: what merging step by step would have led to.
+template <class Real>
+void redraw_all(Layers<Real>& layers, BodyTable<Real>& table);
+
 /// Merges the moving bodies that moved since the last call, each within the rectangle that it
 /// left and the one that it entered. Returns the number of nodes that were computed: 0 if nothing
 /// moved.

@@ -40,11 +40,17 @@ void sharpen(const GridShape& s, const Real* level, std::int32_t back, std::int3
     const auto deep = [&](std::int32_t face) {
         return level[face] > Real(0) && level[face - back] > Real(0);
     };
+    // The face before the one on the seam has cells that lie two beyond it: its image has not.
+    const auto before = [&](std::int32_t face, std::int32_t i, std::int32_t j) {
+        const bool on_seam = (back == 1 ? i : j) == 0;
+        return face - back + (on_seam ? back * (back == 1 ? s.nx : s.ny) : 0);
+    };
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
-            if (!deep(face) || !deep(face - 1) || !deep(face + 1) || !deep(face - s.stride) ||
-                !deep(face + s.stride)) {
+            const std::int32_t along = back == 1 ? s.stride : 1;
+            if (!deep(face) || !deep(before(face, i, j)) || !deep(face + back) ||
+                !deep(face - along) || !deep(face + along)) {
                 continue;
             }
             const Real around = (field[face - 1] + field[face + 1]) +

@@ -109,11 +109,33 @@ const char* content_text(Status status) {
     }
 }
 
+/// Answers of `save` and `restore`. Null for another.
+const char* snapshot_text(Status status) {
+    switch (status) {
+        case Status::snapshot_missing: return "the pointer to the snapshot is null";
+        case Status::snapshot_room_too_small:
+            return "snapshot: snapshot_bytes<Real>(capacity) bytes are always enough";
+        case Status::snapshot_truncated: return "snapshot: its end is missing, hand over all of it";
+        case Status::snapshot_not_recognised: return "these bytes are no snapshot of a world";
+        case Status::snapshot_of_other_version:
+            return "snapshot: it was saved by another version of the library";
+        case Status::snapshot_of_other_scalar:
+            return "snapshot: it was saved by a world of another Real";
+        case Status::snapshot_of_other_capacity:
+            return "snapshot: init the world with the capacity that it was saved with";
+        case Status::snapshot_of_other_definition:
+            return "snapshot: init the world with the definition that it was saved with";
+        case Status::snapshot_damaged: return "snapshot: its contents were changed, use another";
+        default: return nullptr;
+    }
+}
+
 }  // namespace
 
 const char* status_text(Status status) {
     const char* text = init_text(status);
     text = text != nullptr ? text : content_text(status);
+    text = text != nullptr ? text : snapshot_text(status);
     return text != nullptr ? text : "not a status";
 }
 

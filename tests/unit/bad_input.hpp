@@ -54,6 +54,8 @@ struct Row {
 /// Tables of bad_input_init_test.cpp.
 const std::vector<Row>& init_rows();
 const std::vector<Row>& uninitialised_rows();
+/// Table of snapshot_test.cpp.
+const std::vector<Row>& snapshot_rows();
 
 /// Makes the call, and three steps beside a twin that never got it.
 inline void check(const Row& row) {

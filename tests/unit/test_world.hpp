@@ -24,6 +24,7 @@ public:
     }
 
     Status init_again() { return world_.init(def_, memory_.get(), bytes_); }
+    std::byte* memory() { return memory_.get(); }
     World<Real>* operator->() { return &world_; }
     const World<Real>* operator->() const { return &world_; }
     World<Real>& operator*() { return world_; }

@@ -1,7 +1,8 @@
 // The memory of a world: a sum of blocks, each with an owner, known at compile time.
 //
 // `layout` is the only place that says what is stored: `world_bytes` adds it up, `World::init`
-// carves along it, and the tables that people read are printed from it.
+// carves along it, a snapshot takes from it what it keeps, and the tables that people read are
+// printed from it.
 #pragma once
 
 #include <cstddef>
@@ -64,6 +65,16 @@ enum class Block : std::uint8_t {
 };
 inline constexpr std::int32_t kBlockCount = static_cast<std::int32_t>(Block::count);
 
+/// What a snapshot keeps of a block.
+enum class Kept : std::uint8_t {
+    nothing,    ///< scratch: each step writes it before it reads it
+    redrawn,    ///< computed again, to the bit, from what is kept
+    members,    ///< single members, listed in world/snapshot_members.hpp
+    whole,      ///< all of it
+    particles,  ///< as much as there are particles
+    vertices,   ///< as much as there are vertices
+};
+
 /// The caller's memory must start at a multiple of this.
 inline constexpr std::size_t world_alignment = 16;
 
@@ -84,6 +95,8 @@ struct Layout {
     std::size_t bytes[kBlockCount] = {};
     std::size_t owner_bytes[kOwnerCount] = {};
     std::size_t total_bytes = 0;
+    std::uint16_t element_bytes[kBlockCount] = {};
+    Kept kept[kBlockCount] = {};
 };
 
 /// Places every block of a world of that capacity. Pure; the same on every machine.
@@ -92,6 +105,7 @@ constexpr Layout layout(const Capacity& capacity) {
     struct Row {
         Block block;
         Owner owner;
+        Kept kept;
         std::size_t element_bytes;
         std::size_t elements;
     };
@@ -105,35 +119,39 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t index = sizeof(std::uint16_t);
     const Row rows[] = {
-        {Block::world_state, Owner::world, kWorldStateBytes, 1},
-        {Block::particle_position, Owner::particles, point, particles},
-        {Block::particle_velocity, Owner::particles, point, particles},
-        {Block::particle_kind, Owner::particles, 1, capacity.second_liquid ? particles : 0},
-        {Block::body_table, Owner::bodies, kBodyBytes, count(capacity.bodies)},
-        {Block::contact, Owner::bodies, sizeof(Contact), count(capacity.contacts)},
-        {Block::vertex_local, Owner::vertices, point, vertices},
-        {Block::vertex_placed, Owner::vertices, point, vertices},
-        {Block::piece_index, Owner::vertices, index, kPieceIndicesPerVertex * vertices},
-        {Block::decomposition_scratch, Owner::vertices, index, kScratchPerVertex * vertices},
-        {Block::static_distance, Owner::contour, sizeof(Real), solid_cells},
-        {Block::static_body, Owner::contour, index, solid_cells},
-        {Block::merged_distance, Owner::contour, sizeof(Real), solid_cells},
-        {Block::merged_body, Owner::contour, index, solid_cells},
-        {Block::contour_case, Owner::contour, 1, solid_cells},
-        {Block::open_u, Owner::cut_cells, sizeof(Real), solid_cells},
-        {Block::open_v, Owner::cut_cells, sizeof(Real), solid_cells},
-        {Block::full_density, Owner::cut_cells, sizeof(Real), solid_cells},
-        {Block::velocity_u, Owner::grid, sizeof(Real), cells},
-        {Block::mass_u, Owner::grid, sizeof(Real), cells},
-        {Block::velocity_v, Owner::grid, sizeof(Real), cells},
-        {Block::mass_v, Owner::grid, sizeof(Real), cells},
-        {Block::inverse_density_u, Owner::grid, sizeof(Real), mixed_cells},
-        {Block::inverse_density_v, Owner::grid, sizeof(Real), mixed_cells},
-        {Block::pressure, Owner::pressure, sizeof(Real), cells},
-        {Block::divergence, Owner::pressure, sizeof(Real), cells},
-        {Block::inverse_diagonal, Owner::pressure, sizeof(Real), cells},
-        {Block::density, Owner::pressure, sizeof(Real), cells},
-        {Block::level, Owner::pressure, sizeof(Real), cells},
+        {Block::world_state, Owner::world, Kept::members, kWorldStateBytes, 1},
+        {Block::particle_position, Owner::particles, Kept::particles, point, particles},
+        {Block::particle_velocity, Owner::particles, Kept::particles, point, particles},
+        {Block::particle_kind, Owner::particles, Kept::particles, 1,
+         capacity.second_liquid ? particles : 0},
+        {Block::body_table, Owner::bodies, Kept::members, kBodyBytes, count(capacity.bodies)},
+        {Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact),
+         count(capacity.contacts)},
+        {Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices},
+        {Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices},
+        {Block::piece_index, Owner::vertices, Kept::vertices,
+         kPieceIndicesPerVertex * index, vertices},
+        {Block::decomposition_scratch, Owner::vertices, Kept::nothing,
+         index, kScratchPerVertex * vertices},
+        {Block::static_distance, Owner::contour, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::static_body, Owner::contour, Kept::redrawn, index, solid_cells},
+        {Block::merged_distance, Owner::contour, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::merged_body, Owner::contour, Kept::redrawn, index, solid_cells},
+        {Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells},
+        {Block::open_u, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::open_v, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::full_density, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::velocity_u, Owner::grid, Kept::nothing, sizeof(Real), cells},
+        {Block::mass_u, Owner::grid, Kept::nothing, sizeof(Real), cells},
+        {Block::velocity_v, Owner::grid, Kept::nothing, sizeof(Real), cells},
+        {Block::mass_v, Owner::grid, Kept::nothing, sizeof(Real), cells},
+        {Block::inverse_density_u, Owner::grid, Kept::nothing, sizeof(Real), mixed_cells},
+        {Block::inverse_density_v, Owner::grid, Kept::nothing, sizeof(Real), mixed_cells},
+        {Block::pressure, Owner::pressure, Kept::whole, sizeof(Real), cells},
+        {Block::divergence, Owner::pressure, Kept::nothing, sizeof(Real), cells},
+        {Block::inverse_diagonal, Owner::pressure, Kept::nothing, sizeof(Real), cells},
+        {Block::density, Owner::pressure, Kept::nothing, sizeof(Real), cells},
+        {Block::level, Owner::pressure, Kept::nothing, sizeof(Real), cells},
     };
     Layout result;
     for (const Row& row : rows) {
@@ -142,6 +160,8 @@ constexpr Layout layout(const Capacity& capacity) {
         const auto slot = static_cast<std::size_t>(row.block);
         result.offset[slot] = result.total_bytes;
         result.bytes[slot] = bytes;
+        result.element_bytes[slot] = static_cast<std::uint16_t>(row.element_bytes);
+        result.kept[slot] = row.kept;
         result.owner_bytes[static_cast<std::size_t>(row.owner)] += bytes;
         result.total_bytes += bytes;
     }

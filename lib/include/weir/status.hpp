@@ -68,6 +68,16 @@ enum class [[nodiscard]] Status : std::uint8_t {
     box_not_finite,
     box_is_empty,
     box_outside_domain,
+    // snapshots
+    snapshot_missing,
+    snapshot_room_too_small,
+    snapshot_truncated,
+    snapshot_not_recognised,
+    snapshot_of_other_version,
+    snapshot_of_other_scalar,
+    snapshot_of_other_capacity,
+    snapshot_of_other_definition,
+    snapshot_damaged,
     count
 };
 

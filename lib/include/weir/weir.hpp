@@ -7,6 +7,7 @@
 #include "weir/geometry.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"
+#include "weir/snapshot.hpp"
 #include "weir/status.hpp"
 #include "weir/types.hpp"
 #include "weir/world.hpp"

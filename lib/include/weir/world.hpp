@@ -86,6 +86,19 @@ public:
     /// as a scatter; changes no state, but the views of the grid are stale afterwards.
     Status diagnose(Diagnostics* diagnostics);
 
+    /// Copies all that decides the future into the caller's memory, which may stand anywhere.
+    /// @param bytes `snapshot_bytes<Real>(capacity)` always suffice.
+    /// @param written bytes that were used, may be null. Refused: nothing is written.
+    Status save(void* memory, std::size_t bytes, std::size_t* written = nullptr) const;
+    /// Goes back to a snapshot, from this world or another of the same definition, in this run of
+    /// the program or before: all steps from there on have the same bits. Refuses what is
+    /// truncated, damaged or of another kind, whatever its bytes are, and leaves the world as it
+    /// was. Bodies that were placed since the last step are seen where they are. Names of bodies
+    /// hold the place of the world in memory: in one that lies elsewhere ask for the new ones.
+    Status restore(const void* snapshot, std::size_t bytes);
+    /// The name of the body in that slot of the table, 0 … capacity.bodies − 1.
+    Status body_in_slot(std::int32_t slot, BodyId* id) const;
+
     float cell_m() const;
     std::int32_t cells_x() const;
     std::int32_t cells_y() const;

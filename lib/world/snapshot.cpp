@@ -1,0 +1,334 @@
+// Snapshots: the world into a caller's buffer and back. A program that takes none does not link
+// this file.
+#include "weir/snapshot.hpp"
+
+#include "base/assert.hpp"
+#include "geometry/convex_decomposition.hpp"
+#include "solid/layers.hpp"
+#include "weir/world.hpp"
+#include "world/snapshot_frame.hpp"
+#include "world/snapshot_members.hpp"
+
+namespace weir {
+
+namespace {
+
+using detail::WorldState;
+
+template <class Real>
+std::byte* memory_of(WorldState<Real>& state, const Layout& plan, std::int32_t block) {
+    return reinterpret_cast<std::byte*>(&state) + plan.offset[block];
+}
+
+/// How many elements of a block are kept beside those that the bodies keep.
+std::size_t elements_kept(const Layout& plan, std::int32_t block, const Extents& extents) {
+    if (plan.bytes[block] == 0) {
+        return 0;
+    }
+    switch (plan.kept[block]) {
+        case Kept::whole: return plan.bytes[block] / plan.element_bytes[block];
+        case Kept::particles: return static_cast<std::size_t>(extents.particles);
+        default: return 0;
+    }
+}
+
+bool by_vertex(const Layout& plan, std::int32_t block) {
+    return plan.kept[block] == Kept::vertices;
+}
+
+/// One kind of element, and whether those that a snapshot brings may be let in.
+template <class T>
+T read(const std::byte* from, std::size_t index) {
+    T value;
+    std::memcpy(&value, from + index * sizeof value, sizeof value);
+    return value;
+}
+
+template <class Real>
+bool all_finite(const std::byte* from, std::size_t numbers) {
+    for (std::size_t k = 0; k < numbers; ++k) {
+        if (!is_finite(read<Real>(from, k))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <class Real>
+bool all_in_tank(const GridShape& s, const std::byte* from, std::size_t points) {
+    for (std::size_t k = 0; k < points; ++k) {
+        const Vec2<Real> x = read<Vec2<Real>>(from, k);
+        const bool inside = x.x >= Real(0) && x.x < static_cast<Real>(s.nx) && x.y >= Real(0) &&
+                            x.y < static_cast<Real>(s.ny);
+        if (!inside) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool all_kinds(const std::byte* from, std::size_t kinds) {
+    for (std::size_t k = 0; k < kinds; ++k) {
+        if (static_cast<std::uint8_t>(from[k]) > static_cast<std::uint8_t>(Liquid::second)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <class Real>
+bool all_vertices(const std::byte* from, std::size_t vertices) {
+    for (std::size_t k = 0; k < 2 * vertices; ++k) {
+        constexpr Real kFurthest = Believed<Real>::furthest_vertex;
+        if (!(absolute(read<Real>(from, k)) <= kFurthest)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Numbers in a body's piece list and, if it has holes, of its ring ends behind it.
+template <class Real>
+std::int32_t indices_of(const Body<Real>& body) {
+    return body.piece_length + (body.rings > 1 ? body.rings : 0);
+}
+
+/// Whether all numbers name vertices of the body, and every ring has one.
+template <class Real>
+bool all_indices(const std::byte* from, const Body<Real>& body) {
+    const auto at = [&](std::int32_t k) {
+        return static_cast<std::int32_t>(
+            read<std::uint16_t>(from, static_cast<std::size_t>(k)));
+    };
+    std::int32_t end = body.rings > 1 ? 0 : body.vertex_count;
+    for (std::int32_t k = body.piece_length; k < indices_of(body); ++k) {
+        if (at(k) <= end) {
+            return false;
+        }
+        end = at(k);
+    }
+    return end == body.vertex_count && pieces_fit(at, body.piece_length, body.vertex_count);
+}
+
+/// How many of a body's places in a block are in use.
+template <class Real>
+std::size_t elements_of(Block block, const Body<Real>& body) {
+    constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);
+    return static_cast<std::size_t>(block == Block::piece_index
+                                        ? (indices_of(body) + kPerPlace - 1) / kPerPlace
+                                        : body.vertex_count);
+}
+
+/// Whether elements of a block that come from outside can do no harm. No default: a block that is
+/// added has to be thought of.
+template <class Real>
+bool harmless(Block block, const GridShape& shape, const std::byte* from, std::size_t elements,
+              const Body<Real>& of) {
+    switch (block) {
+        case Block::particle_position: return all_in_tank<Real>(shape, from, elements);
+        case Block::particle_velocity: return all_finite<Real>(from, 2 * elements);
+        case Block::particle_kind: return all_kinds(from, elements);
+        case Block::vertex_local: return all_vertices<Real>(from, elements);
+        case Block::piece_index: return all_indices(from, of);
+        case Block::pressure: return all_finite<Real>(from, elements);
+        case Block::world_state:
+        case Block::body_table:
+        case Block::vertex_placed:
+        case Block::triangulation_links:
+        case Block::static_distance:
+        case Block::static_body:
+        case Block::merged_distance:
+        case Block::merged_body:
+        case Block::contour_case:
+        case Block::open_u:
+        case Block::open_v:
+        case Block::full_density:
+        case Block::velocity_u:
+        case Block::velocity_v:
+        case Block::mass_u:
+        case Block::mass_v:
+        case Block::inverse_density_u:
+        case Block::inverse_density_v:
+        case Block::divergence:
+        case Block::inverse_diagonal:
+        case Block::density:
+        case Block::level:
+        case Block::count: break;
+    }
+    return false;
+}
+
+template <class Real>
+void write(SnapshotWriter& writer, const Layout& plan, const Head& head,
+           WorldState<Real>& state) {
+    write_head(writer, plan, head);
+    const Extents extents = world_members(writer, state);
+    const BodyTable<Real>& table = state.simulation.bodies;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        Body<Real>& body = table.body[slot];
+        body_members(writer, table.vertex_capacity, body);
+        for (std::int32_t block = 0; block < kBlockCount; ++block) {
+            const std::size_t size = plan.element_bytes[block];
+            if (by_vertex(plan, block)) {
+                writer.array(memory_of(state, plan, block) +
+                                 static_cast<std::size_t>(body.first_vertex) * size,
+                             elements_of(static_cast<Block>(block), body) * size);
+            }
+        }
+    }
+    for (std::int32_t block = 0; block < kBlockCount; ++block) {
+        writer.array(memory_of(state, plan, block),
+                     elements_kept(plan, block, extents) * plan.element_bytes[block]);
+    }
+    writer.word64(writer.checksum());
+}
+
+/// Goes through all that follows the head. `apply` is false to look only, and true to take it over
+/// after it was looked at.
+template <class Stream, class Real>
+void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldState<Real>& state) {
+    Stream stream{reader};
+    const GridShape& shape = state.simulation.grid.shape;
+    BodyTable<Real>& table = state.simulation.bodies;
+    const auto take = [&](std::int32_t block, std::size_t first, std::size_t elements,
+                          const Body<Real>& of) {
+        const std::size_t size = plan.element_bytes[block];
+        const std::byte* from = reader.array(elements * size);
+        if (from == nullptr) {
+            return;
+        }
+        if (apply) {
+            std::memcpy(memory_of(state, plan, block) + first * size, from, elements * size);
+        } else if (elements > 0 && !harmless<Real>(static_cast<Block>(block), shape, from,
+                                                   elements, of)) {
+            reader.refuse();
+        }
+    };
+    const Extents extents = world_members(stream, state);
+    std::int32_t places = 0;
+    for (std::int32_t slot = 0; slot < table.capacity && reader.sound(); ++slot) {
+        Body<Real> body;
+        MemberRead members{reader};
+        body_members(members, extents.vertices - places, body);
+        const bool exists = body.kind != BodyKind::free;
+        if (exists ? body.vertex_count < 2 || body.vertex_count > kMaxBodyVertices
+                   : body.room > 0 || body.moved) {
+            reader.refuse();
+        }
+        body.first_vertex = places;
+        for (std::int32_t block = 0; block < kBlockCount && reader.sound(); ++block) {
+            if (by_vertex(plan, block)) {
+                take(block, static_cast<std::size_t>(places),
+                     elements_of(static_cast<Block>(block), body), body);
+            }
+        }
+        places += body.room;
+        if (apply) {
+            table.body[slot] = body;
+        }
+    }
+    if (places != extents.vertices) {
+        reader.refuse();
+    }
+    for (std::int32_t block = 0; block < kBlockCount && reader.sound(); ++block) {
+        take(block, 0, elements_kept(plan, block, extents), {});
+    }
+}
+
+/// Computes again what follows from what was kept.
+template <class Real>
+void redraw(Simulation<Real>& simulation) {
+    BodyTable<Real>& table = simulation.bodies;
+    table.used = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        if (table.body[slot].kind != BodyKind::free) {
+            ++table.used;
+            place(table, table.body[slot]);
+        }
+    }
+    simulation.layers.walls.active = table.used > 0;
+    if (table.capacity > 0) {
+        redraw_all(simulation.layers, table);
+    }
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::save(void* memory, std::size_t bytes, std::size_t* written) const {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    if (memory == nullptr) {
+        return Status::snapshot_missing;
+    }
+    const Layout plan = layout<Real>(state_->def.capacity);
+    SnapshotWriter counter(nullptr);
+    write(counter, plan, Head{}, *state_);
+    WEIR_ASSERT(counter.bytes() <= snapshot_bytes<Real>(state_->def.capacity));
+    if (counter.bytes() > bytes) {
+        return Status::snapshot_room_too_small;
+    }
+    SnapshotWriter writer(memory);
+    write(writer, plan, head_of(*state_, counter.bytes()), *state_);
+    if (written != nullptr) {
+        *written = writer.bytes();
+    }
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    if (snapshot == nullptr) {
+        return Status::snapshot_missing;
+    }
+    const Layout plan = layout<Real>(state_->def.capacity);
+    const Status frame = check_frame(snapshot, bytes, plan, *state_);
+    if (frame != Status::ok) {
+        return frame;
+    }
+    SnapshotReader head(snapshot, bytes);
+    head.array(2 * kWordBytes);
+    const auto end = static_cast<std::size_t>(head.word64());
+    const auto* contents = static_cast<const std::byte*>(snapshot) + kHeadBytes;
+    const std::size_t length = end - kHeadBytes - kChecksumBytes;
+    SnapshotReader look(contents, length);
+    go_through<MemberCheck>(look, false, plan, *state_);
+    if (!look.sound() || !look.at_end()) {
+        return Status::snapshot_damaged;
+    }
+    SnapshotReader take(contents, length);
+    go_through<MemberRead>(take, true, plan, *state_);
+    redraw(state_->simulation);
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::body_in_slot(std::int32_t slot, BodyId* id) const {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    if (id == nullptr) {
+        return Status::output_missing;
+    }
+    const BodyTable<Real>& table = state_->simulation.bodies;
+    if (slot < 0 || slot >= table.capacity || table.body[slot].kind == BodyKind::free) {
+        return Status::stale_body;
+    }
+    *id = {static_cast<std::uint16_t>(slot), table.body[slot].generation, state_->tag};
+    return Status::ok;
+}
+
+#define WEIR_INSTANTIATE(Real)                                                          \
+    template Status World<Real>::save(void*, std::size_t, std::size_t*) const;          \
+    template Status World<Real>::restore(const void*, std::size_t);                     \
+    template Status World<Real>::body_in_slot(std::int32_t, BodyId*) const;
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

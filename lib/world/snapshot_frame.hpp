@@ -1,0 +1,139 @@
+// Head and checksum of a snapshot: what it is, and whether it fits the world.
+#pragma once
+
+#include "base/hash.hpp"
+#include "world/snapshot_stream.hpp"
+#include "world/world_state.hpp"
+
+namespace weir {
+
+inline constexpr std::uint32_t kSnapshotMagic = 0x52494557;  // "WEIR"
+/// Raised with every change of what is written. A changed `layout` shows by itself.
+inline constexpr std::uint32_t kSnapshotVersion = 1;
+inline constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
+
+/// Which arithmetic wrote the numbers: how it writes 1.5.
+template <class Real>
+std::uint64_t scalar_code() {
+    const Real sample = Real(1.5);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &sample, sizeof sample);
+    return bits;
+}
+
+/// All of the definition but capacity, which has a status of its own, and the counter.
+inline std::uint64_t fingerprint(const WorldDef& def) {
+    const auto& [capacity, cell_m, gravity, particles_per_cell, pressure, contour, sweeps, cfl,
+                 max_substeps, flip_ratio, volume_gain, sound_speed, viscosity, surface_tension,
+                 second_density, restitution, no_slip, slide_bottom, slide_top, slide_left,
+                 slide_right, periodic_x, periodic_y, ticks] = def;
+    Hash hash;
+    const float numbers[] = {cell_m, gravity.x, gravity.y, cfl, flip_ratio, volume_gain,
+                             sound_speed, viscosity, surface_tension, second_density, restitution,
+                             slide_bottom, slide_top, slide_left, slide_right};
+    for (const float number : numbers) {
+        hash.add(number);
+    }
+    const std::int32_t counts[] = {particles_per_cell, sweeps, max_substeps};
+    for (const std::int32_t count : counts) {
+        hash.add(count);
+    }
+    hash.add(static_cast<std::uint32_t>(pressure));
+    hash.add(static_cast<std::uint32_t>(contour));
+    const bool choices[] = {no_slip, periodic_x, periodic_y};
+    for (const bool choice : choices) {
+        hash.add(static_cast<std::uint32_t>(choice));
+    }
+    return hash.value();
+}
+
+/// What the head of a snapshot says. Its length in words is the same for every world.
+struct Head {
+    std::uint64_t bytes = 0;
+    std::uint64_t scalar = 0;
+    std::uint64_t capacity = 0;
+    std::uint64_t definition = 0;
+};
+inline constexpr std::size_t kHeadBytes = 2 * kWordBytes + sizeof(Head);
+
+inline std::uint64_t capacity_code(const Capacity& of) {
+    const auto& [particles, cells_x, cells_y, bodies, vertices, second_liquid] = of;
+    Hash hash;
+    const std::int32_t numbers[] = {particles, cells_x, cells_y, bodies, vertices};
+    for (const std::int32_t number : numbers) {
+        hash.add(number);
+    }
+    hash.add(static_cast<std::uint32_t>(second_liquid));
+    return hash.value();
+}
+
+/// kSnapshotVersion, and how `layout` describes the blocks.
+inline std::uint32_t format_code(const Layout& plan) {
+    Hash hash;
+    hash.add(kSnapshotVersion);
+    for (std::int32_t block = 0; block < kBlockCount; ++block) {
+        // Pointers make these two blocks longer on some machines; their members do not.
+        const bool members = plan.kept[block] == Kept::members;
+        hash.add(static_cast<std::uint32_t>(plan.kept[block]));
+        hash.add(members ? 0U : static_cast<std::uint32_t>(plan.element_bytes[block]));
+    }
+    return static_cast<std::uint32_t>(hash.value());
+}
+
+template <class Real>
+Head head_of(const detail::WorldState<Real>& state, std::size_t bytes) {
+    return {bytes, scalar_code<Real>(), capacity_code(state.def.capacity), fingerprint(state.def)};
+}
+
+inline void write_head(SnapshotWriter& writer, const Layout& plan, const Head& head) {
+    writer.word(kSnapshotMagic);
+    writer.word(format_code(plan));
+    writer.word64(head.bytes);
+    writer.word64(head.scalar);
+    writer.word64(head.capacity);
+    writer.word64(head.definition);
+}
+
+/// Whether frame and checksum are those of a snapshot, and of a snapshot of this world.
+template <class Real>
+Status check_frame(const void* data, std::size_t size, const Layout& plan,
+                   const detail::WorldState<Real>& state) {
+    SnapshotReader reader(data, size);
+    const std::uint32_t magic = reader.word();
+    const std::uint32_t format = reader.word();
+    const Head head{reader.word64(), reader.word64(), reader.word64(), reader.word64()};
+    if (!reader.sound()) {
+        return Status::snapshot_truncated;
+    }
+    if (magic != kSnapshotMagic) {
+        return Status::snapshot_not_recognised;
+    }
+    const std::uint64_t scalar = scalar_code<Real>();
+    if (format != format_code(plan) && head.scalar == scalar) {
+        return Status::snapshot_of_other_version;
+    }
+    if (head.bytes > size) {
+        return Status::snapshot_truncated;
+    }
+    if (head.bytes % kWordBytes != 0 || head.bytes < kHeadBytes + kChecksumBytes) {
+        return Status::snapshot_damaged;
+    }
+    Checksum sum;
+    SnapshotReader words(data, static_cast<std::size_t>(head.bytes));
+    for (std::uint64_t at = 0; at < head.bytes - kChecksumBytes; at += kWordBytes) {
+        sum.add(words.word());
+    }
+    if (words.word64() != sum.value()) {
+        return Status::snapshot_damaged;
+    }
+    if (head.scalar != scalar) {
+        return Status::snapshot_of_other_scalar;
+    }
+    if (head.capacity != capacity_code(state.def.capacity)) {
+        return Status::snapshot_of_other_capacity;
+    }
+    return head.definition == fingerprint(state.def) ? Status::ok
+                                                     : Status::snapshot_of_other_definition;
+}
+
+}  // namespace weir

@@ -1,0 +1,97 @@
+// What a snapshot keeps of each record, and within which limits it is believed. Every record that
+// holds state is taken apart here: a member that is added to one of them does not compile until
+// somebody has decided whether it belongs to the state.
+#pragma once
+
+#include "world/world_state.hpp"
+
+namespace weir {
+
+/// Numbers outside are no state of a world, in cells and seconds. Products of two are finite.
+template <class Real>
+struct Believed {
+    static constexpr Real low = Real(-1.0e15);
+    static constexpr Real high = Real(1.0e15);
+    static constexpr Real furthest_vertex = Real(1.0e6);  ///< from its body's origin
+};
+/// Fixed-point numbers saturate: none is absurd.
+template <int F>
+struct Believed<FixedPoint<F>> {
+    static constexpr FixedPoint<F> low = FixedPoint<F>::of_raw(kLeastRaw);
+    static constexpr FixedPoint<F> high = FixedPoint<F>::of_raw(kMostRaw);
+    static constexpr FixedPoint<F> furthest_vertex = high;
+};
+
+template <class Real>
+inline constexpr Real kLargestAngleKept = Real(1.0e4);  ///< rad
+
+/// How much of the blocks there is.
+struct Extents {
+    std::int32_t particles = 0;
+    std::int32_t vertices = 0;
+};
+
+template <class Real, class Stream>
+void any_member(Stream& stream, Real& value) {
+    stream.member(value, Believed<Real>::low, Believed<Real>::high);
+}
+template <class Real, class Stream>
+void positive_member(Stream& stream, Real& value) {
+    stream.member(value, Real{}, Believed<Real>::high);
+}
+template <class Real, class Stream>
+void any_member(Stream& stream, Vec2<Real>& vector) {
+    any_member(stream, vector.x);
+    any_member(stream, vector.y);
+}
+
+/// Members of the world. Settings come from the definition, which has to be the same; of them only
+/// gravity changes by a call. Walls are drawn again from the bodies.
+template <class Real, class Stream>
+Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
+    auto& [simulation, def, cells_per_m, tag, pending] = state;
+    auto& [settings, particles, grid, pressure_fields, bodies, layers, max_speed, ticks] =
+        simulation;
+    auto& [pressure, divergence, inverse_diagonal, density, level, on_surface, last_dt,
+           gravity_change] = pressure_fields;
+    auto& [position, velocity, count, capacity, kind] = particles;
+    auto& [body, body_capacity, used, local, placed, pieces, links, vertex_capacity,
+           vertices_used] = bodies;
+    auto& [shape, contour, static_distance, static_nearest, walls, scratch] = layers;
+    [[maybe_unused]] auto& [active, moving, distance, nearest, cell_case, open_u, open_v,
+                            full_density, wall_body] = walls;
+    any_member(stream, settings.gravity);
+    positive_member(stream, max_speed);
+    positive_member(stream, last_dt);
+    stream.member(gravity_change, Real(0), Real(1));
+    stream.member(on_surface, false, true);
+    stream.member(pending, 0U, 0xFFFFFFFFU);
+    Extents extents;
+    extents.particles = stream.member(count, 0, capacity);
+    extents.vertices = stream.member(vertices_used, 0, vertex_capacity);
+    return extents;
+}
+
+/// Members of a body. Its vertices are kept by slot, whatever their order in the pool was, and
+/// where it was drawn follows from its pose.
+template <class Real, class Stream>
+void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) {
+    auto& [position, velocity, angle, spin, restitution, radius, first_vertex, vertex_count,
+           room, rings, piece_length, drawn, left, generation, kind, moved] = record;
+    stream.member(kind, BodyKind::free, BodyKind::moving);
+    stream.member(generation, 0, 0xFFFF);
+    any_member(stream, position);
+    any_member(stream, velocity);
+    stream.member(angle, -kLargestAngleKept<Real>, kLargestAngleKept<Real>);
+    any_member(stream, spin);
+    stream.member(restitution, Real(0), Real(1));
+    positive_member(stream, radius);
+    stream.member(moved, false, true);
+    constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);
+    const std::int32_t places = stream.member(room, 0, most_places);
+    const std::int32_t count = stream.member(vertex_count, 0, places);
+    const std::int32_t ends = stream.member(rings, 1, maximum(count, 1));
+    stream.member(piece_length, 0, maximum(kPerPlace * places - ends, 0));
+}
+
+}  // namespace weir
