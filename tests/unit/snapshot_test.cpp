@@ -106,6 +106,7 @@ TEST(Snapshot, RestoredWorldGoesOnWithTheSameBits) {
             expect_goes_on_alike<float>(kind, seed);
         }
         expect_goes_on_alike<double>(kind, 13);
+        expect_goes_on_alike<Fixed>(kind, 14);
     }
 }
 

@@ -81,9 +81,11 @@ bool all_inside(const World<Real>& world) {
     const View<Vec2<Real>> x = world.particle_positions();
     const View<Vec2<Real>> v = world.particle_velocities();
     for (std::int32_t k = 0; k < x.size; ++k) {
-        const bool inside = x[k].x > 0 && x[k].x < static_cast<Real>(world.cells_x()) &&
-                            x[k].y > 0 && x[k].y < static_cast<Real>(world.cells_y());
-        const bool finite = v[k].x - v[k].x == 0 && v[k].y - v[k].y == 0;
+        const Vec2<double> at{static_cast<double>(x[k].x), static_cast<double>(x[k].y)};
+        const double sum = static_cast<double>(v[k].x) + static_cast<double>(v[k].y);
+        const bool inside = at.x >= 0 && at.x < world.cells_x() && at.y >= 0 &&
+                            at.y < world.cells_y();
+        const bool finite = sum - sum == 0;
         if (!inside || !finite) {
             return false;
         }

@@ -1,0 +1,158 @@
+// Snapshots from an enemy: any bytes, also behind a checksum that fits. They are refused or
+// restored, and what was restored can be stepped, changed and removed; the sanitizers watch.
+#include <cstdlib>
+#include <cstring>
+
+#include "busy_world.hpp"
+
+namespace weir {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// Of the format, see weir/snapshot.hpp.
+constexpr std::size_t kLengthAt = 8;
+constexpr std::size_t kHeadBytes = 40;
+constexpr std::size_t kChecksumBytes = 8;
+
+std::uint32_t word_at(const Bytes& bytes, std::size_t at) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + at, sizeof word);
+    return word;
+}
+
+void set_word(Bytes& bytes, std::size_t at, std::uint32_t word) {
+    std::memcpy(bytes.data() + at, &word, sizeof word);
+}
+
+/// Makes length and checksum those of the contents.
+void forge(Bytes& bytes) {
+    const std::uint64_t length = bytes.size();
+    std::memcpy(bytes.data() + kLengthAt, &length, sizeof length);
+    std::uint64_t sum = 0xCBF29CE484222325ULL;
+    const std::size_t end = bytes.size() - kChecksumBytes;
+    for (std::size_t at = 0; at < end; at += 4) {
+        sum = (sum ^ word_at(bytes, at)) * 0x100000001B3ULL;
+    }
+    std::memcpy(bytes.data() + end, &sum, sizeof sum);
+}
+
+std::uint32_t nasty_word(Dice& dice, std::uint32_t old) {
+    constexpr std::uint32_t kNasty[] = {0U,          1U,          2U,          3U,
+                                        0xFFFFFFFFU, 0x80000000U, 0x7FFFFFFFU, 0x7FC00000U,
+                                        0x7F800000U, 0xFF800000U, 0x7F7FFFFFU, 0x58635FA9U,
+                                        0x41900000U, 0x418FFFFFU, 0x00000001U, 0x0000FFFFU};
+    switch (dice.below(5)) {
+        case 0: return kNasty[dice.below(16)];
+        case 1: return old + 1U;
+        case 2: return old - 1U;
+        case 3: return old ^ (1U << dice.below(32));
+        default: return static_cast<std::uint32_t>(dice.bits());
+    }
+}
+
+std::size_t any_word(Dice& dice, const Bytes& bytes) {
+    const auto words = static_cast<std::int32_t>((bytes.size() - kHeadBytes - kChecksumBytes) / 4);
+    // The first ones, which say how much there is of everything, more often than the rest.
+    const std::int32_t word = dice.below(2) == 0 ? dice.below(words < 90 ? words : 90)
+                                                 : dice.below(words);
+    return kHeadBytes + 4 * static_cast<std::size_t>(word);
+}
+
+void spoil(Bytes& bytes, const Bytes& other, Dice& dice) {
+    const std::int32_t times = 1 + dice.below(4);
+    for (std::int32_t k = 0; k < times && bytes.size() > kHeadBytes + kChecksumBytes + 4; ++k) {
+        const std::size_t at = any_word(dice, bytes);
+        const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+        switch (dice.below(12)) {
+            case 0: bytes.erase(place, place + 4); break;
+            case 1: bytes.insert(place, 4, std::byte{0}); break;
+            case 2: bytes.resize(at + kChecksumBytes); break;
+            case 3:
+                if (at < other.size()) {  // on with another one's
+                    bytes.resize(at);
+                    bytes.insert(bytes.end(), other.begin() + static_cast<std::ptrdiff_t>(at),
+                                 other.end());
+                }
+                break;
+            default: set_word(bytes, at, nasty_word(dice, word_at(bytes, at))); break;
+        }
+    }
+    if (dice.below(8) != 0) {
+        forge(bytes);
+    }
+}
+
+/// Uses everything that a snapshot could have made point elsewhere.
+template <class Real>
+void use(World<Real>& world, Dice& dice) {
+    world.step(1.0F / 60.0F);
+    EXPECT_TRUE(all_inside(world));
+    live(world, dice, 2);
+    BodyId id;
+    for (std::int32_t slot = 0; slot < 5; ++slot) {
+        if (world.body_in_slot(slot, &id) == Status::ok) {
+            EXPECT_EQ(world.remove_body(id), Status::ok);
+        }
+    }
+    put_body(world, dice);
+    world.step(1.0F / 60.0F);
+    EXPECT_TRUE(all_inside(world));
+}
+
+template <class Real>
+std::int64_t attack(std::int32_t kind, std::int64_t times, std::uint64_t seed) {
+    WorldDef def = busy_def(kind);
+    def.capacity.particles = 60;
+    def.max_substeps = 2;
+    def.pressure_sweeps = 2;
+    TestWorld<Real> world(def);
+    Dice dice(seed);
+    Bytes snapshot[2];
+    for (Bytes& bytes : snapshot) {
+        EXPECT_EQ(world->fill({{0, 0}, {0.05F, 0.05F}}), Status::ok);
+        live(*world, dice, 25);
+        bytes.resize(snapshot_bytes<Real>(def.capacity));
+        std::size_t written = 0;
+        EXPECT_EQ(world->save(bytes.data(), bytes.size(), &written), Status::ok);
+        bytes.resize(written);
+        EXPECT_EQ(world.init_again(), Status::ok);
+    }
+    std::int64_t restored = 0;
+    std::uint64_t hash = world->state_hash();
+    for (std::int64_t time = 0; time < times; ++time) {
+        Bytes bytes = snapshot[dice.below(2)];
+        spoil(bytes, snapshot[dice.below(2)], dice);
+        if (world->restore(bytes.data(), bytes.size()) == Status::ok) {
+            ++restored;
+            use(*world, dice);
+            EXPECT_EQ(world->restore(snapshot[0].data(), snapshot[0].size()), Status::ok);
+            hash = world->state_hash();
+        } else if (time % 64 == 0) {
+            EXPECT_EQ(world->state_hash(), hash) << "a refused snapshot changed the world";
+        }
+        if (testing::Test::HasFailure()) {
+            ADD_FAILURE() << "kind " << kind << " seed " << seed << " time " << time;
+            break;
+        }
+    }
+    return restored;
+}
+
+/// WEIR_SNAPSHOTS: how many in all.
+TEST(SnapshotFuzz, NothingGetsPast) {
+    const char* wanted = std::getenv("WEIR_SNAPSHOTS");
+    const std::int64_t times = wanted != nullptr ? std::atoll(wanted) : 10000;
+    std::int64_t restored = 0;
+    for (std::int32_t kind = 0; kind < kBusyKinds; ++kind) {
+        restored += attack<float>(kind, times / kBusyKinds / 2, 1);
+        restored += attack<double>(kind, times / kBusyKinds / 4, 2);
+        restored += attack<Fixed>(kind, times / kBusyKinds / 4, 3);
+    }
+    std::printf("%lld forged snapshots, %lld restored\n", static_cast<long long>(times),
+                static_cast<long long>(restored));
+    EXPECT_GT(restored, times / 100) << "the test no longer gets behind the checksum";
+}
+
+}  // namespace
+}  // namespace weir
