@@ -87,21 +87,17 @@ bool all_vertices(const std::byte* from, std::size_t vertices) {
     return true;
 }
 
-/// Numbers in a body's piece list and, if it has holes, of its ring ends behind it.
-template <class Real>
-std::int32_t indices_of(const Body<Real>& body) {
-    return body.piece_length + (body.rings > 1 ? body.rings : 0);
-}
-
-/// Whether all numbers name vertices of the body, and every ring has one.
+/// Whether all numbers in a body's room for pieces name vertices of it, and every ring has one.
 template <class Real>
 bool all_indices(const std::byte* from, const Body<Real>& body) {
     const auto at = [&](std::int32_t k) {
         return static_cast<std::int32_t>(
             read<std::uint16_t>(from, static_cast<std::size_t>(k)));
     };
-    std::int32_t end = body.rings > 1 ? 0 : body.vertex_count;
-    for (std::int32_t k = body.piece_length; k < indices_of(body); ++k) {
+    const std::int32_t end_of_room =
+        static_cast<std::int32_t>(kPieceIndicesPerVertex) * body.room;
+    std::int32_t end = 0;
+    for (std::int32_t k = end_of_room - body.rings; k < end_of_room; ++k) {
         if (at(k) <= end) {
             return false;
         }
@@ -110,13 +106,10 @@ bool all_indices(const std::byte* from, const Body<Real>& body) {
     return end == body.vertex_count && pieces_fit(at, body.piece_length, body.vertex_count);
 }
 
-/// How many of a body's places in a block are in use.
+/// How many of a body's places in a block are kept. Ring ends stand at the end of its pieces.
 template <class Real>
 std::size_t elements_of(Block block, const Body<Real>& body) {
-    constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);
-    return static_cast<std::size_t>(block == Block::piece_index
-                                        ? (indices_of(body) + kPerPlace - 1) / kPerPlace
-                                        : body.vertex_count);
+    return static_cast<std::size_t>(block == Block::piece_index ? body.room : body.vertex_count);
 }
 
 /// Whether elements of a block that come from outside can do no harm. No default: a block that is
@@ -134,7 +127,8 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::world_state:
         case Block::body_table:
         case Block::vertex_placed:
-        case Block::triangulation_links:
+        case Block::contact:
+        case Block::decomposition_scratch:
         case Block::static_distance:
         case Block::static_body:
         case Block::merged_distance:
@@ -247,6 +241,7 @@ void redraw(Simulation<Real>& simulation) {
         }
     }
     simulation.layers.walls.active = table.used > 0;
+    clear(simulation.contacts);
     if (table.capacity > 0) {
         redraw_all(simulation.layers, table);
     }

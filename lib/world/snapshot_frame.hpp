@@ -21,16 +21,23 @@ std::uint64_t scalar_code() {
     return bits;
 }
 
+inline void add_surface(Hash& hash, const Surface& surface) {
+    const auto& [restitution, friction, no_slip, conveyor] = surface;
+    hash.add(restitution);
+    hash.add(friction);
+    hash.add(static_cast<std::uint32_t>(no_slip));
+    hash.add(conveyor);
+}
+
 /// All of the definition but capacity, which has a status of its own, and the counter.
 inline std::uint64_t fingerprint(const WorldDef& def) {
     const auto& [capacity, cell_m, gravity, particles_per_cell, pressure, contour, sweeps, cfl,
                  max_substeps, flip_ratio, volume_gain, sound_speed, viscosity, surface_tension,
-                 second_density, restitution, no_slip, slide_bottom, slide_top, slide_left,
-                 slide_right, periodic_x, periodic_y, ticks] = def;
+                 second_density, walls, periodic_x, periodic_y, ticks] = def;
+    const auto& [bottom, right, top, left] = walls;
     Hash hash;
-    const float numbers[] = {cell_m, gravity.x, gravity.y, cfl, flip_ratio, volume_gain,
-                             sound_speed, viscosity, surface_tension, second_density, restitution,
-                             slide_bottom, slide_top, slide_left, slide_right};
+    const float numbers[] = {cell_m,      gravity.x,   gravity.y, cfl,             flip_ratio,
+                             volume_gain, sound_speed, viscosity, surface_tension, second_density};
     for (const float number : numbers) {
         hash.add(number);
     }
@@ -38,12 +45,14 @@ inline std::uint64_t fingerprint(const WorldDef& def) {
     for (const std::int32_t count : counts) {
         hash.add(count);
     }
+    const Surface surfaces[] = {bottom, right, top, left};
+    for (const Surface& surface : surfaces) {
+        add_surface(hash, surface);
+    }
     hash.add(static_cast<std::uint32_t>(pressure));
     hash.add(static_cast<std::uint32_t>(contour));
-    const bool choices[] = {no_slip, periodic_x, periodic_y};
-    for (const bool choice : choices) {
-        hash.add(static_cast<std::uint32_t>(choice));
-    }
+    hash.add(static_cast<std::uint32_t>(periodic_x));
+    hash.add(static_cast<std::uint32_t>(periodic_y));
     return hash.value();
 }
 
@@ -57,9 +66,10 @@ struct Head {
 inline constexpr std::size_t kHeadBytes = 2 * kWordBytes + sizeof(Head);
 
 inline std::uint64_t capacity_code(const Capacity& of) {
-    const auto& [particles, cells_x, cells_y, bodies, vertices, second_liquid] = of;
+    const auto& [particles, cells_x, cells_y, bodies, vertices, contacts, second_liquid] = of;
     Hash hash;
-    const std::int32_t numbers[] = {particles, cells_x, cells_y, bodies, vertices};
+    const std::int32_t numbers[] = {particles, cells_x, cells_y,
+                                    bodies,    vertices, contacts};
     for (const std::int32_t number : numbers) {
         hash.add(number);
     }

@@ -50,16 +50,16 @@ void any_member(Stream& stream, Vec2<Real>& vector) {
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, tag, pending] = state;
-    auto& [settings, particles, grid, pressure_fields, bodies, layers, max_speed, ticks] =
-        simulation;
+    auto& [settings, particles, grid, pressure_fields, bodies, layers, contacts, max_speed,
+           ticks] = simulation;
     auto& [pressure, divergence, inverse_diagonal, density, level, on_surface, last_dt,
            gravity_change] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
-    auto& [body, body_capacity, used, local, placed, pieces, links, vertex_capacity,
+    auto& [body, body_capacity, used, local, placed, pieces, scratch_list, vertex_capacity,
            vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, scratch] = layers;
-    [[maybe_unused]] auto& [active, moving, distance, nearest, cell_case, open_u, open_v,
-                            full_density, wall_body] = walls;
+    [[maybe_unused]] auto& [active, moving, binary, distance, nearest, cell_case, open_u,
+                            open_v, full_density, wall_body] = walls;
     any_member(stream, settings.gravity);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);
@@ -76,8 +76,9 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
 /// where it was drawn follows from its pose.
 template <class Real, class Stream>
 void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) {
-    auto& [position, velocity, angle, spin, restitution, radius, first_vertex, vertex_count,
-           room, rings, piece_length, drawn, left, generation, kind, moved] = record;
+    auto& [position, velocity, angle, spin, surface, radius, first_vertex, vertex_count, room,
+           rings, piece_length, drawn, left, generation, kind, moved] = record;
+    auto& [restitution, friction, conveyor, no_slip] = surface;
     stream.member(kind, BodyKind::free, BodyKind::moving);
     stream.member(generation, 0, 0xFFFF);
     any_member(stream, position);
@@ -85,6 +86,9 @@ void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) 
     stream.member(angle, -kLargestAngleKept<Real>, kLargestAngleKept<Real>);
     any_member(stream, spin);
     stream.member(restitution, Real(0), Real(1));
+    positive_member(stream, friction);
+    any_member(stream, conveyor);
+    stream.member(no_slip, false, true);
     positive_member(stream, radius);
     stream.member(moved, false, true);
     constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);

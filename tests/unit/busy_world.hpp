@@ -38,13 +38,14 @@ inline WorldDef busy_def(std::int32_t kind) {
     def.capacity.cells_x = 18;
     def.capacity.cells_y = 14;
     def.capacity.bodies = 5;
-    def.capacity.vertices = 24;
+    def.capacity.vertices = 32;
+    def.capacity.contacts = 2;
     switch (kind) {
         case 1: def.contour = Contour::mid_edge; break;
         case 2:
             def.pressure = Pressure::equation_of_state;
             def.sound_speed_mps = 3.0F;
-            def.wall_restitution = 0.5F;
+            def.walls.top.restitution = 0.5F;
             break;
         case 3:
             def.capacity.second_liquid = true;
@@ -52,12 +53,12 @@ inline WorldDef busy_def(std::int32_t kind) {
             break;
         case 4:
             def.viscosity_m2ps = 2.0e-3F;
-            def.no_slip = true;
-            def.slide_top_mps = 0.2F;
+            def.walls = every_wall({0.0F, 0.3F, true, 0.2F});
             break;
         case 5:
             def.capacity.bodies = 0;
             def.capacity.vertices = 0;
+            def.capacity.contacts = 0;
             def.periodic_x = true;
             def.surface_tension_m3ps2 = 2.0e-4F;
             break;
@@ -68,6 +69,7 @@ inline WorldDef busy_def(std::int32_t kind) {
         case 7:
             def.capacity.bodies = 0;
             def.capacity.vertices = 0;
+            def.capacity.contacts = 0;
             def.periodic_y = true;
             def.periodic_x = true;
             def.volume_gain = 0.0F;
@@ -94,7 +96,13 @@ void put_body(World<Real>& world, Dice& dice) {
     const Vec2f at{0.02F * static_cast<float>(dice.below(16)),
                    0.02F * static_cast<float>(dice.below(12))};
     BodyDef def = body_of(ring, at);
-    def.restitution = dice.between(0.0F, 1.0F);
+    const Ring hole = {{0.01F, 0.01F}, {0.03F, 0.01F}, {0.01F, 0.03F}};
+    const View<Vec2f> holes[] = {{hole.data(), 3}};
+    if (ring[1].y == 0.0F && ring.size() < 5) {
+        def.holes = {holes, dice.below(2)};
+    }
+    def.surface = {dice.between(0.0F, 1.0F), dice.between(0.0F, 0.5F), dice.below(2) == 0,
+                   dice.between(-0.2F, 0.2F)};
     BodyId id;
     Status added = Status::ok;
     if (dice.below(2) == 0) {

@@ -124,7 +124,7 @@ TEST(Snapshot, PictureDoesNotTellWhenBodiesCame) {
         ASSERT_EQ(one->add_static_body(left, &first), Status::ok);
         ASSERT_EQ(one->add_static_body(right, &id), Status::ok);
         ASSERT_EQ(one->remove_body(first), Status::ok);
-        left.restitution = 1.0F;
+        left.surface.restitution = 1.0F;
         ASSERT_EQ(moving ? one->add_moving_body(left, &id) : one->add_static_body(left, &id),
                   Status::ok);
         EXPECT_EQ(id.slot, first.slot);
@@ -250,7 +250,7 @@ const std::vector<Row>& snapshot_rows() {
          Status::snapshot_of_other_definition},
         {"other walls",
          [](Fixture& f) {
-             return restore_of<float>(f, changed([](WorldDef& d) { d.no_slip = true; }));
+             return restore_of<float>(f, changed([](WorldDef& d) { d.walls.left.no_slip = true; }));
          },
          Status::snapshot_of_other_definition},
     };
