@@ -27,30 +27,54 @@ Corners<Real> corners_of(const GridShape& s, const Walls<Real>& walls, std::int3
     return {{low[0], low[1], low[s.stride + 1], low[s.stride]}};
 }
 
-/// Case and open faces of the cells whose nodes changed.
+constexpr std::uint8_t kOpen = 0;
+constexpr std::uint8_t kSolid = 15;
+
+constexpr bool is_cut(std::uint8_t solid_nodes) {
+    return solid_nodes != kOpen && solid_nodes != kSolid;
+}
+
+/// Cases of the cells whose nodes changed, and the faces around them.
 template <class Real>
 void contour_matrix(const GridShape& s, const NodeBox& cells, Walls<Real>& walls) {
+    const Real* d = walls.distance;
+    // The bits of a node and of the one above it, as they stand on the left side of a case.
+    const auto side = [&](std::int32_t node) {
+        return (d[node] <= Real(0) ? 1U : 0U) | (d[node + s.stride] <= Real(0) ? 8U : 0U);
+    };
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
-        for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
-            const std::int32_t c = s.index(i, j);
-            const Corners<Real> corner = corners_of(s, walls, c);
-            const Real* d = corner.distance;
-            walls.cell_case[c] = contour_case(d);
-            walls.open_u[c] = open_fraction(d[0], d[3]);
-            walls.open_u[c + 1] = open_fraction(d[1], d[2]);
-            walls.open_v[c] = open_fraction(d[0], d[1]);
-            walls.open_v[c + s.stride] = open_fraction(d[3], d[2]);
+        std::int32_t c = s.index(cells.i0, j);
+        std::uint32_t left = side(c);
+        for (std::int32_t i = cells.i0; i <= cells.i1; ++i, ++c) {
+            const std::uint32_t right = side(c + 1);
+            const auto solid_nodes =
+                static_cast<std::uint8_t>(left | (right & 1U) << 1U | (right & 8U) >> 1U);
+            walls.cell_case[c] = solid_nodes;
+            const bool cut = is_cut(solid_nodes);
+            const Real whole = Real(solid_nodes == kOpen ? 1 : 0);
+            walls.open_u[c] = cut ? open_fraction(d[c], d[c + s.stride]) : whole;
+            walls.open_v[c] = cut ? open_fraction(d[c], d[c + 1]) : whole;
+            left = right;
         }
+        walls.open_u[c] = open_fraction(d[c], d[c + s.stride]);
+    }
+    const std::int32_t top = s.index(cells.i1, cells.j1 + 1);
+    for (std::int32_t c = s.index(cells.i0, cells.j1 + 1); c <= top; ++c) {
+        walls.open_v[c] = open_fraction(d[c], d[c + 1]);
     }
 }
 
 template <class Real>
 void open_areas(const GridShape& s, const NodeBox& cells, const Walls<Real>& walls, Real* area) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
-        for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
-            const std::int32_t c = s.index(i, j);
-            const Real open = open_area(corners_of(s, walls, c).distance);
-            area[c] = open < kSliver<Real> ? Real(0) : open;
+        const std::int32_t last = s.index(cells.i1, j);
+        for (std::int32_t c = s.index(cells.i0, j); c <= last; ++c) {
+            const std::uint8_t solid_nodes = walls.cell_case[c];
+            area[c] = Real(solid_nodes == kOpen ? 1 : 0);
+            if (is_cut(solid_nodes)) {
+                const Real open = open_area(corners_of(s, walls, c).distance);
+                area[c] = open < kSliver<Real> ? Real(0) : open;
+            }
         }
     }
 }
@@ -59,9 +83,9 @@ template <class Real>
 void close_slivers(const GridShape& s, const NodeBox& cells, const Real* area,
                    Walls<Real>& walls) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
-        for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
-            const std::int32_t c = s.index(i, j);
-            if (area[c] == Real(0)) {
+        const std::int32_t last = s.index(cells.i1, j);
+        for (std::int32_t c = s.index(cells.i0, j); c <= last; ++c) {
+            if (area[c] == Real(0) && walls.cell_case[c] != kSolid) {
                 walls.open_u[c] = Real(0);
                 walls.open_u[c + 1] = Real(0);
                 walls.open_v[c] = Real(0);
@@ -87,6 +111,29 @@ Real full_density(const GridShape& s, const Real* area, std::int32_t i, std::int
     return Real(0.375) * at(i, j) + (Real(0.125) * sides + Real(0.03125) * corners);
 }
 
+/// What is around a cell: full densities, and whether a wall is near.
+template <class Real>
+void look_around(const GridShape& s, const NodeBox& cells, const Real* area, Walls<Real>& walls) {
+    for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
+        const std::int32_t below = j > 0 ? -s.stride : 0;
+        const std::int32_t above = j + 1 < s.ny ? s.stride : 0;
+        for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
+            const std::int32_t c = s.index(i, j);
+            std::uint32_t any = 0;
+            std::uint32_t all = kSolid;
+            for (std::int32_t k = c - (i > 0 ? 1 : 0); k <= c + (i + 1 < s.nx ? 1 : 0); ++k) {
+                const std::uint8_t* at = walls.cell_case + k;
+                any |= static_cast<std::uint32_t>(at[below] | at[0] | at[above]);
+                all &= static_cast<std::uint32_t>(at[below] & at[0] & at[above]);
+            }
+            const bool near = any != kOpen && all != kSolid;
+            walls.full_density[c] = near ? full_density(s, area, i, j)
+                                         : Real(any == kOpen ? 1 : 0);
+            mark_near(walls, s, i, j, near);
+        }
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -98,11 +145,7 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, Real* scratc
     contour_matrix(shape, cells_around(shape, nodes, 0), walls);
     open_areas(shape, cells_around(shape, nodes, 2), walls, scratch);
     close_slivers(shape, inner, scratch, walls);
-    for (std::int32_t j = inner.j0; j <= inner.j1; ++j) {
-        for (std::int32_t i = inner.i0; i <= inner.i1; ++i) {
-            walls.full_density[shape.index(i, j)] = full_density(shape, scratch, i, j);
-        }
-    }
+    look_around(shape, inner, scratch, walls);
 }
 
 template void update_cut_cells(const GridShape&, const NodeBox&, float*, Walls<float>&);

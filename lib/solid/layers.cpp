@@ -1,5 +1,7 @@
 #include "solid/layers.hpp"
 
+#include <cstring>
+
 #include "contour/raster.hpp"
 #include "solid/cut_cells.hpp"
 
@@ -41,12 +43,16 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
 /// Copies the static layer into the merged one.
 template <class Real>
 void restore(Layers<Real>& layers, const NodeBox& box) {
+    if (box.empty()) {
+        return;
+    }
+    const auto nodes = static_cast<std::size_t>(box.i1 - box.i0 + 1);
     for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-            const std::int32_t node = layers.shape.index(i, j);
-            layers.walls.distance[node] = layers.static_distance[node];
-            layers.walls.nearest[node] = layers.static_nearest[node];
-        }
+        const std::int32_t node = layers.shape.index(box.i0, j);
+        std::memcpy(layers.walls.distance + node, layers.static_distance + node,
+                    nodes * sizeof(Real));
+        std::memcpy(layers.walls.nearest + node, layers.static_nearest + node,
+                    nodes * sizeof(std::uint16_t));
     }
 }
 
@@ -123,6 +129,9 @@ void clear_layers(Layers<Real>& layers) {
         walls.open_v[c] = Real(1);
         walls.full_density[c] = Real(1);
     }
+    std::memset(walls.near, 0,
+                static_cast<std::size_t>(near_words(layers.shape) * layers.shape.ny) *
+                    sizeof walls.near[0]);
 }
 
 template <class Real>

@@ -20,8 +20,39 @@ struct Walls {
     Real* open_u = nullptr;             ///< open fraction of the u face, 0 … 1
     Real* open_v = nullptr;
     Real* full_density = nullptr;       ///< density that a cell shows when all around it is full
+    std::uint32_t* near = nullptr;      ///< a bit a cell: it or one around it is cut by a wall
     const Body<Real>* body = nullptr;
 };
+
+/// Words of `near` for one row of cells.
+inline std::int32_t near_words(const GridShape& shape) {
+    return (shape.nx + 31) / 32;
+}
+
+template <class Real>
+inline void mark_near(Walls<Real>& walls, const GridShape& shape, std::int32_t i, std::int32_t j,
+                      bool near) {
+    std::uint32_t& word = walls.near[j * near_words(shape) + i / 32];
+    const std::uint32_t bit = 1U << (static_cast<std::uint32_t>(i) % 32U);
+    word = near ? word | bit : word & ~bit;
+}
+
+/// Calls visit(i, j) for every cell near a wall, row by row. Where there is none, 32 cells cost one
+/// look.
+template <class Real, class Visit>
+inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, Visit visit) {
+    const std::int32_t words = near_words(shape);
+    for (std::int32_t j = 0; j < shape.ny; ++j) {
+        for (std::int32_t k = 0; k < words; ++k) {
+            std::int32_t i = 32 * k;
+            for (std::uint32_t left = walls.near[j * words + k]; left != 0; left >>= 1U, ++i) {
+                if ((left & 1U) != 0) {
+                    visit(i, j);
+                }
+            }
+        }
+    }
+}
 
 /// Velocity of the body's material at a point of the tank, cells/s.
 template <class Real>

@@ -1,7 +1,5 @@
 #include "step/boundary_condition.hpp"
 
-#include <cstring>
-
 #include "fluid/particles.hpp"
 
 namespace weir {
@@ -64,36 +62,34 @@ Vec2<Real> mirrored(const StaggeredGrid<Real>& grid, const Mirror<Real>& mirror,
 }
 
 template <class Real>
-void mirror_u(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
-              const StaggeredGrid<Real>& grid, Real* out) {
+Real mirror_u(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
+              const StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const std::int32_t low = s.index(i, j);
     const std::int32_t high = low + s.stride;
     const Real* d = walls.distance;
     const Real distance = Real(0.5) * (d[low] + d[high]);
     if (walls.open_u[low] > Real(0) || distance < kDeepest<Real>) {
-        return;
+        return grid.u[low];
     }
     const Vec2<Real> gradient{
         Real(0.25) * ((d[low + 1] + d[high + 1]) - (d[low - 1] + d[high - 1])), d[high] - d[low]};
     const Vec2<Real> face{static_cast<Real>(i), static_cast<Real>(j) + Real(0.5)};
     const Vec2<Real> wall = wall_velocity(walls, low, high, face);
     const Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
-    if (near_liquid(s, level, mirror.point)) {
-        out[low] = mirrored(grid, mirror, wall).x;
-    }
+    return near_liquid(s, level, mirror.point) ? mirrored(grid, mirror, wall).x : grid.u[low];
 }
 
 template <class Real>
-void mirror_v(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
-              const StaggeredGrid<Real>& grid, Real* out) {
+Real mirror_v(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
+              const StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const std::int32_t left = s.index(i, j);
     const std::int32_t right = left + 1;
     const Real* d = walls.distance;
     const Real distance = Real(0.5) * (d[left] + d[right]);
     if (walls.open_v[left] > Real(0) || distance < kDeepest<Real>) {
-        return;
+        return grid.v[left];
     }
     const Vec2<Real> gradient{d[right] - d[left],
                               Real(0.25) * ((d[left + s.stride] + d[right + s.stride]) -
@@ -101,9 +97,7 @@ void mirror_v(const Walls<Real>& walls, const Real* level, std::int32_t i, std::
     const Vec2<Real> face{static_cast<Real>(i) + Real(0.5), static_cast<Real>(j)};
     const Vec2<Real> wall = wall_velocity(walls, left, right, face);
     const Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
-    if (near_liquid(s, level, mirror.point)) {
-        out[left] = mirrored(grid, mirror, wall).y;
-    }
+    return near_liquid(s, level, mirror.point) ? mirrored(grid, mirror, wall).y : grid.v[left];
 }
 
 }  // namespace
@@ -113,22 +107,21 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const Real* level = fields.level;
-    const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof(Real);
-    std::memcpy(fields.divergence, grid.u, bytes);
-    std::memcpy(fields.inverse_diagonal, grid.v, bytes);
-    StaggeredGrid<Real> liquid = grid;
-    liquid.u = fields.divergence;
-    liquid.v = fields.inverse_diagonal;
-    for (std::int32_t j = 0; j < s.ny; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            if (i > 0) {
-                mirror_u(walls, level, i, j, liquid, grid.u);
-            }
-            if (j > 0) {
-                mirror_v(walls, level, i, j, liquid, grid.v);
-            }
-        }
-    }
+    // All are computed before the first is written: they read each other.
+    std::int32_t count = 0;
+    for_each_near(s, walls, [&](std::int32_t i, std::int32_t j) {
+        const std::int32_t c = s.index(i, j);
+        fields.divergence[count] = i > 0 ? mirror_u(walls, level, i, j, grid) : grid.u[c];
+        fields.inverse_diagonal[count] = j > 0 ? mirror_v(walls, level, i, j, grid) : grid.v[c];
+        ++count;
+    });
+    count = 0;
+    for_each_near(s, walls, [&](std::int32_t i, std::int32_t j) {
+        const std::int32_t c = s.index(i, j);
+        grid.u[c] = fields.divergence[count];
+        grid.v[c] = fields.inverse_diagonal[count];
+        ++count;
+    });
 }
 
 template void mirror_in_solids(const Walls<float>&, PressureFields<float>&,

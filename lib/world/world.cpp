@@ -48,6 +48,7 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::merged_distance, layers.walls.distance);
     carver.take(Block::merged_body, layers.walls.nearest);
     carver.take(Block::contour_case, layers.walls.cell_case);
+    carver.take(Block::near_wall, layers.walls.near);
     carver.take(Block::open_u, layers.walls.open_u);
     carver.take(Block::open_v, layers.walls.open_v);
     carver.take(Block::full_density, layers.walls.full_density);

@@ -47,6 +47,7 @@ enum class Block : std::uint8_t {
     merged_distance,
     merged_body,
     contour_case,
+    near_wall,  ///< a bit a cell
     open_u,
     open_v,
     full_density,
@@ -115,6 +116,8 @@ constexpr Layout layout(const Capacity& capacity) {
     // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
     const std::size_t cells = (count(capacity.cells_x) + 2) * (count(capacity.cells_y) + 2);
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
+    const std::size_t near_words =
+        capacity.bodies > 0 ? (count(capacity.cells_x) + 31) / 32 * count(capacity.cells_y) : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t index = sizeof(std::uint16_t);
@@ -138,6 +141,7 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::merged_distance, Owner::contour, Kept::redrawn, sizeof(Real), solid_cells},
         {Block::merged_body, Owner::contour, Kept::redrawn, index, solid_cells},
         {Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells},
+        {Block::near_wall, Owner::contour, Kept::redrawn, sizeof(std::uint32_t), near_words},
         {Block::open_u, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
         {Block::open_v, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
         {Block::full_density, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
