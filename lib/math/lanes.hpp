@@ -60,6 +60,14 @@ inline bool all_true(LaneMask mask) {
     return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
 #endif
 }
+/// Whether any lane has its sign set; a negative zero may count as one.
+inline bool any_negative(Lanes a) {
+#if defined(__SSE2__)
+    return __builtin_ia32_movmskps(a) != 0;
+#else
+    return a[0] < 0.0F || a[1] < 0.0F || a[2] < 0.0F || a[3] < 0.0F;
+#endif
+}
 inline Lanes maximum(Lanes a, Lanes b) {
     return a < b ? b : a;
 }

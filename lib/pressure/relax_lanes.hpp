@@ -38,7 +38,7 @@ std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
     // A load across the last two stores would wait for both: the other colour is carried along.
     Lanes odd_before = all_lanes(p[c - 1]);
     for (; c + 8 <= end; c += 8) {
-        const Lanes inverse = load_eight(fields.inverse_diagonal + c).even;
+        Lanes inverse = load_eight(fields.inverse_diagonal + c).even;
         const LaneMask dry = inverse == all_lanes(0.0F);
         const EvenOdd here = load_eight(p + c);
         const Lanes left = shuffle<3, 4, 5, 6>(odd_before, here.odd);
@@ -49,13 +49,14 @@ std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
         const Lanes lower = load_eight(p + c - stride).even;
         const Lanes upper = load_eight(p + c + stride).even;
         Lanes sum = (left + here.odd) + (lower + upper);
-        if (Solids && !all_true(inverse >= all_lanes(0.0F))) {
+        if (Solids && any_negative(inverse)) {
             const EvenOdd u = load_eight(open_u + c);
             const Lanes v_lower = load_eight(open_v + c).even;
             const Lanes v_upper = load_eight(open_v + c + stride).even;
             sum = (u.even * left + u.odd * here.odd) + (v_lower * lower + v_upper * upper);
+            inverse = absolute(inverse);
         }
-        const Lanes target = (sum - load_eight(fields.divergence + c).even) * absolute(inverse);
+        const Lanes target = (sum - load_eight(fields.divergence + c).even) * inverse;
         const Lanes relaxed = here.even + factor * (target - here.even);
         const Lanes even = dry ? here.even : relaxed;
         store_lanes(p + c, shuffle<0, 4, 1, 5>(even, here.odd));

@@ -243,6 +243,22 @@ bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
     return !at.inside || lead_out(scene, k, at.slot, before);
 }
 
+/// The last of `count` particles whose cell has solid in it, or −1. Most are answered here.
+template <class Real>
+std::int32_t last_near_wall(const GridShape& shape, const std::uint8_t* cell_case,
+                            const Vec2<Real>* position, std::int32_t count) {
+    const std::int32_t stride = shape.stride;
+    const std::uint8_t* origin = cell_case + shape.index(0, 0);
+    while (--count >= 0) {
+        const Vec2<Real> x = position[count];
+        if (origin[static_cast<std::int32_t>(x.y) * stride + static_cast<std::int32_t>(x.x)] !=
+            kCellOutside) {
+            break;
+        }
+    }
+    return count;
+}
+
 }  // namespace
 
 template <class Real>
@@ -250,7 +266,12 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
              std::int32_t first, std::int32_t count, Particles<Real>& particles,
              Contacts<Real>& contacts, CollideResult<Real>& result) {
     Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s};
-    for (std::int32_t n = count - 1; n >= 0; --n) {
+    for (std::int32_t n = count; n > 0;) {
+        n = flight.far ? n - 1
+                       : last_near_wall(shape, walls.cell_case, particles.position + first, n);
+        if (n < 0) {
+            return;
+        }
         const std::int32_t k = first + n;
         const Vec2<Real> x = particles.position[k];
         const bool far = flight.far && is_far(flight.before[n], x);

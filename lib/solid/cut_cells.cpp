@@ -111,25 +111,36 @@ Real full_density(const GridShape& s, const Real* area, std::int32_t i, std::int
     return Real(0.375) * at(i, j) + (Real(0.125) * sides + Real(0.03125) * corners);
 }
 
+/// Cases of a cell and the ones below and above it, joined.
+struct Column {
+    std::uint32_t any;
+    std::uint32_t all;
+};
+
 /// What is around a cell: full densities, and whether a wall is near.
 template <class Real>
 void look_around(const GridShape& s, const NodeBox& cells, const Real* area, Walls<Real>& walls) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         const std::int32_t below = j > 0 ? -s.stride : 0;
         const std::int32_t above = j + 1 < s.ny ? s.stride : 0;
+        const auto column = [&](std::int32_t i) {
+            const std::uint8_t* at = walls.cell_case + s.index(clamp(i, 0, s.nx - 1), j);
+            const std::uint32_t low = at[below];
+            const std::uint32_t here = at[0];
+            const std::uint32_t high = at[above];
+            return Column{low | here | high, low & here & high};
+        };
+        Column left = column(cells.i0 - 1);
+        Column middle = column(cells.i0);
         for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
-            const std::int32_t c = s.index(i, j);
-            std::uint32_t any = 0;
-            std::uint32_t all = kSolid;
-            for (std::int32_t k = c - (i > 0 ? 1 : 0); k <= c + (i + 1 < s.nx ? 1 : 0); ++k) {
-                const std::uint8_t* at = walls.cell_case + k;
-                any |= static_cast<std::uint32_t>(at[below] | at[0] | at[above]);
-                all &= static_cast<std::uint32_t>(at[below] & at[0] & at[above]);
-            }
-            const bool near = any != kOpen && all != kSolid;
-            walls.full_density[c] = near ? full_density(s, area, i, j)
-                                         : Real(any == kOpen ? 1 : 0);
+            const Column right = column(i + 1);
+            const std::uint32_t any = left.any | middle.any | right.any;
+            const bool near = any != kOpen && (left.all & middle.all & right.all) != kSolid;
+            walls.full_density[s.index(i, j)] =
+                near ? full_density(s, area, i, j) : Real(any == kOpen ? 1 : 0);
             mark_near(walls, s, i, j, near);
+            left = middle;
+            middle = right;
         }
     }
 }

@@ -115,6 +115,34 @@ void empty_static(Layers<Real>& layers) {
     }
 }
 
+/// Cut cells of all bodies that moved: rectangle by rectangle or, where these are so many that they
+/// overlap, everywhere at once.
+template <class Real>
+void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
+    std::int32_t cells = 0;
+    const auto each = [&](auto visit) {
+        for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+            const Body<Real>& body = table.body[slot];
+            const NodeBox changed = unite(body.left, body.drawn);
+            if (body.moved && !changed.empty()) {
+                visit(changed);
+            }
+        }
+    };
+    const std::int32_t all_cells = layers.shape.nx * layers.shape.ny;
+    each([&](const NodeBox& box) {
+        const std::int32_t more = (box.i1 - box.i0 + 4) * (box.j1 - box.j0 + 4);
+        cells = minimum(cells + more, all_cells);
+    });
+    if (cells == all_cells) {
+        update_cut_cells(layers.shape, everywhere(layers), layers.scratch, layers.walls);
+        return;
+    }
+    each([&](const NodeBox& box) {
+        update_cut_cells(layers.shape, box, layers.scratch, layers.walls);
+    });
+}
+
 }  // namespace
 
 template <class Real>
@@ -199,13 +227,7 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
                           layers.walls.nearest);
         }
     }
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        const Body<Real>& body = table.body[slot];
-        const NodeBox changed = unite(body.left, body.drawn);
-        if (body.moved && !changed.empty()) {
-            update_cut_cells(layers.shape, changed, layers.scratch, layers.walls);
-        }
-    }
+    update_where_moved(layers, table);
     forget_moves(table);
     return nodes;
 }

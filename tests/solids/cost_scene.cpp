@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr int kParticles = 25000;
+constexpr int kParticles = 50000;
 
 paper_bench::Scene scene_of(const std::string& name) {
     using paper_bench::Setting;
