@@ -134,6 +134,7 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::merged_distance:
         case Block::merged_body:
         case Block::contour_case:
+        case Block::near_wall:
         case Block::open_u:
         case Block::open_v:
         case Block::full_density:

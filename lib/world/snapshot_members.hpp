@@ -59,7 +59,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
            vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, scratch] = layers;
     [[maybe_unused]] auto& [active, moving, binary, distance, nearest, cell_case, open_u,
-                            open_v, full_density, wall_body] = walls;
+                            open_v, full_density, near, wall_body] = walls;
     any_member(stream, settings.gravity);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);
