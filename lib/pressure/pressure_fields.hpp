@@ -2,8 +2,26 @@
 #pragma once
 
 #include "grid/staggered_grid.hpp"
+#include "weir/memory.hpp"
 
 namespace weir {
+
+/// The tank in cells four times as large, with its own ring of ghost cells.
+template <class Real>
+struct CoarseGrid {
+    GridShape shape;
+    Real* correction = nullptr;
+    Real* residual = nullptr;
+    Real* inverse_diagonal = nullptr;  ///< 0 where there is no liquid
+    Real* weight_u = nullptr;  ///< of the left face: open share / density / distance, summed
+    Real* weight_v = nullptr;
+    Real* reach_u = nullptr;  ///< the same without density. With one liquid they are the weights
+    Real* reach_v = nullptr;
+    Real* centre_x = nullptr;  ///< mean of the liquid cells' columns within the coarse cell, 0 … 3
+    Real* centre_y = nullptr;
+    std::int32_t first_row = 0;  ///< of those that hold liquid
+    std::int32_t last_row = -1;
+};
 
 template <class Real>
 struct PressureFields {
@@ -12,6 +30,7 @@ struct PressureFields {
     Real* inverse_diagonal = nullptr;  ///< 0 where the cell is not liquid
     Real* density = nullptr;           ///< 1 = full at rest
     Real* level = nullptr;             ///< height of the surface over the centre, cells; > 0 liquid
+    CoarseGrid<Real> coarse;
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     Real gravity_change = Real(1);     ///< strength of gravity now over then, at most 1

@@ -1,49 +1,18 @@
 #include "pressure/projection.hpp"
 
+#include "pressure/coarse_correction.hpp"
 #include "pressure/relax_lanes.hpp"
 
 namespace weir {
 
 namespace {
 
-/// The first solve of a world's life starts from nothing: it gets this many times the sweeps.
+/// The first solve of a world's life starts from nothing: it gets this many cycles.
 constexpr std::int32_t kColdStart = 8;
 
-/// Best for liquid n rows deep, closed below and with its surface on top: 2 / (1 + sin(π / 2n))
-/// (Young 1954), and sin x ≈ x. Beyond 32 rows the best factor is too much for a few sweeps on a
-/// surface that breaks: a dam break 64 rows high exploded with it.
+/// The coarse grid takes care of what is smooth: sweeps only have to smooth what is left.
 template <class Real>
-Real over_relaxation(std::int32_t depth, std::int32_t sweeps) {
-    if (sweeps < 8) {
-        return Real(1.4);  // too few to damp what over-relaxation stirs up
-    }
-    const Real n = static_cast<Real>(clamp(depth, 16, 32));
-    return Real(2) / (Real(1) + Real(1.5707963) / n);
-}
-
-/// What a pressure difference of 1 across a face moves through it: open share × 1/density.
-template <bool Solids, bool Mixed, class Real>
-struct Weights {
-    const Walls<Real>& walls;
-    const StaggeredGrid<Real>& grid;
-
-    Real open_u(std::int32_t face) const { return Solids ? walls.open_u[face] : Real(1); }
-    Real open_v(std::int32_t face) const { return Solids ? walls.open_v[face] : Real(1); }
-    Real light_u(std::int32_t face) const {
-        return Mixed ? grid.inverse_density_u[face] : Real(1);
-    }
-    Real light_v(std::int32_t face) const {
-        return Mixed ? grid.inverse_density_v[face] : Real(1);
-    }
-    Real u(std::int32_t face) const {
-        return Solids && Mixed ? open_u(face) * light_u(face)
-                               : (Solids ? open_u(face) : light_u(face));
-    }
-    Real v(std::int32_t face) const {
-        return Solids && Mixed ? open_v(face) * light_v(face)
-                               : (Solids ? open_v(face) : light_v(face));
-    }
-};
+constexpr Real kRelaxation = Real(1.4);
 
 /// One face of a cell: how much it adds to the diagonal.
 template <class Real>
@@ -76,10 +45,10 @@ struct Rows {
 };
 
 template <bool Solids, bool Mixed, class Real>
-Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
-           const Walls<Real>& walls, Real rescale, PressureFields<Real>& fields) {
-    const GridShape& s = grid.shape;
-    const Weights<Solids, Mixed, Real> weights{walls, grid};
+Rows build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
+           PressureFields<Real>& fields) {
+    const Walls<Real>& walls = weights.walls;
+    const GridShape& s = weights.grid.shape;
     Rows rows{s.ny, -1};
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
@@ -91,38 +60,28 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                 continue;
             }
             const std::int32_t up = c + s.stride;
-            const bool has_left = i > 0 || borders.wrap_x;
-            const bool has_right = i + 1 < s.nx || borders.wrap_x;
-            const bool has_lower = j > 0 || borders.wrap_y;
-            const bool has_upper = j + 1 < s.ny || borders.wrap_y;
-            const Real left = has_left ? weights.u(c) : Real(0);
-            const Real right = has_right ? weights.u(c + 1) : Real(0);
-            const Real lower = has_lower ? weights.v(c) : Real(0);
-            const Real upper = has_upper ? weights.v(up) : Real(0);
-            const Real diagonal = (face_coefficient(left, level, fields.level[c - 1]) +
-                                   face_coefficient(right, level, fields.level[c + 1])) +
-                                  (face_coefficient(lower, level, fields.level[c - s.stride]) +
-                                   face_coefficient(upper, level, fields.level[up]));
+            const Faces<Real> w = weights.around(i, j);
+            const Real diagonal =
+                (face_coefficient(w.left, level, fields.level[c - 1]) +
+                 face_coefficient(w.right, level, fields.level[c + 1])) +
+                (face_coefficient(w.lower, level, fields.level[c - s.stride]) +
+                 face_coefficient(w.upper, level, fields.level[up]));
             if (!(diagonal > Real(0))) {
                 fields.pressure[c] = Real(0);
                 continue;
             }
-            const Real out_right = (has_right ? weights.open_u(c + 1) : Real(0)) * grid.u[c + 1];
-            const Real out_left = (has_left ? weights.open_u(c) : Real(0)) * grid.u[c];
-            const Real out_upper = (has_upper ? weights.open_v(up) : Real(0)) * grid.v[up];
-            const Real out_lower = (has_lower ? weights.open_v(c) : Real(0)) * grid.v[c];
-            Real divergence = (out_right - out_left) + (out_upper - out_lower);
+            Real divergence = weights.outflow(i, j);
             if (Solids && walls.moving && walls.cell_case[c] != 0) {
                 divergence += wall_flow(s, walls, i, j);
             }
             if (fields.on_surface) {
-                divergence -= (surface_share(left, level, c - 1, fields) +
-                               surface_share(right, level, c + 1, fields)) +
-                              (surface_share(lower, level, c - s.stride, fields) +
-                               surface_share(upper, level, up, fields));
+                divergence -= (surface_share(w.left, level, c - 1, fields) +
+                               surface_share(w.right, level, c + 1, fields)) +
+                              (surface_share(w.lower, level, c - s.stride, fields) +
+                               surface_share(w.upper, level, up, fields));
             }
             fields.divergence[c] = divergence;
-            // The sign tells `relax` which cells a wall touches.
+            // The sign tells which cells a wall touches.
             fields.inverse_diagonal[c] =
                 Real(Solids && !untouched(walls, c, up) ? -1 : 1) / diagonal;
             // A number that is none would stay for ever: the solve starts from the last pressure.
@@ -135,28 +94,23 @@ Rows build(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
 }
 
 template <bool Solids, bool Mixed, class Real>
-void relax(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, Rows rows, Real omega,
-           std::int32_t colour, PressureFields<Real>& fields) {
-    const GridShape& s = grid.shape;
-    const Weights<Solids, Mixed, Real> weights{walls, grid};
+void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
+           PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
     Real* p = fields.pressure;
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         const std::int32_t end = s.index(s.nx, j);
         std::int32_t c = s.index((j + colour) & 1, j);
         if constexpr (kHasLanes<Real> && !Mixed) {
-            c = relax_row<Solids>(fields, walls.open_u, walls.open_v, omega, s.stride, c, end);
+            c = relax_row<Solids>(fields, weights.walls.open_u, weights.walls.open_v,
+                                  kRelaxation<Real>, s.stride, c, end);
         }
         for (; c < end; c += 2) {
             const Real inverse = fields.inverse_diagonal[c];
-            const std::int32_t up = c + s.stride;
-            if (!Mixed && inverse > Real(0)) {
-                // Beyond the tank and in air the pressure is 0: only the diagonal tells them apart.
-                const Real sum = (p[c - 1] + p[c + 1]) + (p[c - s.stride] + p[up]);
-                p[c] += omega * ((sum - fields.divergence[c]) * inverse - p[c]);
-            } else if ((Solids || Mixed) && inverse != Real(0)) {
-                const Real sum = (weights.u(c) * p[c - 1] + weights.u(c + 1) * p[c + 1]) +
-                                 (weights.v(c) * p[c - s.stride] + weights.v(up) * p[up]);
-                p[c] += omega * ((sum - fields.divergence[c]) * absolute(inverse) - p[c]);
+            if (inverse != Real(0)) {
+                const Real target =
+                    (weights.weighted(p, c, inverse) - fields.divergence[c]) * absolute(inverse);
+                p[c] += kRelaxation<Real> * (target - p[c]);
             }
         }
     }
@@ -182,20 +136,19 @@ inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before, R
 }
 
 template <bool Solids, bool Mixed, class Real>
-void project(const Borders<Real>& borders, const Walls<Real>& walls,
-             const PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
+void project(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFields<Real>& fields,
+             StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
-    const Weights<Solids, Mixed, Real> weights{walls, grid};
+    const Real* open_u = Solids ? weights.walls.open_u : nullptr;
+    const Real* open_v = Solids ? weights.walls.open_v : nullptr;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (i > 0 || borders.wrap_x) {
-                accelerate(grid.u, c, c - 1, weights.light_u(c), Solids ? walls.open_u : nullptr,
-                           fields);
+            if (weights.has_left(i)) {
+                accelerate(grid.u, c, c - 1, weights.light_u(c), open_u, fields);
             }
-            if (j > 0 || borders.wrap_y) {
-                accelerate(grid.v, c, c - s.stride, weights.light_v(c),
-                           Solids ? walls.open_v : nullptr, fields);
+            if (weights.has_lower(j)) {
+                accelerate(grid.v, c, c - s.stride, weights.light_v(c), open_v, fields);
             }
         }
     }
@@ -203,18 +156,21 @@ void project(const Borders<Real>& borders, const Walls<Real>& walls,
 
 template <bool Solids, bool Mixed, class Real>
 void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
-           std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
-    const Rows rows = build<Solids, Mixed>(grid, borders, walls, rescale, fields);
-    // A drop's pressure is held all around: less suits it better.
-    const Real omega = fields.on_surface
-                           ? Real(1.8)
-                           : over_relaxation<Real>(rows.high - rows.low + 1, sweeps);
+           std::int32_t cycles, std::int32_t sweeps, StaggeredGrid<Real>& grid,
+           PressureFields<Real>& fields) {
+    const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
+    const Rows rows = build(weights, rescale, fields);
+    set_up_coarse(weights, fields);
     extend_cells(borders, grid.shape, fields.pressure);
-    for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
-        relax<Solids, Mixed>(grid, walls, rows, omega, half_sweep & 1, fields);
+    for (std::int32_t cycle = 0; cycle < cycles; ++cycle) {
+        correct_coarse(weights, fields);
         extend_cells(borders, grid.shape, fields.pressure);
+        for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
+            relax(weights, rows, half_sweep & 1, fields);
+            extend_cells(borders, grid.shape, fields.pressure);
+        }
     }
-    project<Solids, Mixed>(borders, walls, fields, grid);
+    project(weights, fields, grid);
 }
 
 }  // namespace
@@ -228,13 +184,13 @@ void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<
             ? minimum(fields.gravity_change * (dt_s / fields.last_dt), Real(16))
             : Real(0);
     fields.gravity_change = Real(1);
-    const std::int32_t times = fields.last_dt > Seconds<Real>{} ? sweeps : kColdStart * sweeps;
+    const std::int32_t cycles = fields.last_dt > Seconds<Real>{} ? 1 : kColdStart;
     fields.last_dt = dt_s;
     const bool mixed = grid.inverse_density_u != nullptr;
     const auto solver = walls.active ? (mixed ? solve<true, true, Real> : solve<true, false, Real>)
                                      : (mixed ? solve<false, true, Real>
                                               : solve<false, false, Real>);
-    solver(borders, walls, rescale, times, grid, fields);
+    solver(borders, walls, rescale, cycles, sweeps, grid, fields);
 }
 
 template void projection(const Borders<float>&, const Walls<float>&, float, std::int32_t,

@@ -11,9 +11,9 @@ namespace weir {
 /// the level is zero between two cell centres (Gibou, Fedkiw, Cheng & Kang 2002), at the pressure
 /// that the air cell beside it holds (`fields.on_surface`; otherwise 0), and with faces open as far
 /// as the solids leave them (Ng, Min & Gibou 2009). With two liquids faces answer by the inverse
-/// density that the grid holds. Starts from the last pressure and makes
-/// `sweeps` red-black relaxations, no more and no less: time is bounded, the result is the same on
-/// every machine. Cost: about 10 operations a liquid cell and sweep.
+/// density that the grid holds. Starts from the last pressure, makes one correction on a coarse
+/// grid and then `sweeps` red-black relaxations, no more and no less: time is bounded, the result
+/// is the same on every machine. Cost: about 10 operations a liquid cell and sweep.
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields);

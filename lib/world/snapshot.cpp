@@ -148,6 +148,7 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::inverse_diagonal:
         case Block::density:
         case Block::level:
+        case Block::coarse_cells:
         case Block::count: break;
     }
     return false;

@@ -52,7 +52,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, tag, pending] = state;
     auto& [settings, particles, grid, pressure_fields, bodies, layers, contacts, max_speed,
            ticks] = simulation;
-    auto& [pressure, divergence, inverse_diagonal, density, level, on_surface, last_dt,
+    auto& [pressure, divergence, inverse_diagonal, density, level, coarse, on_surface, last_dt,
            gravity_change] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     auto& [body, body_capacity, used, local, placed, pieces, scratch_list, vertex_capacity,

@@ -57,6 +57,27 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
 }
 
 template <class Real>
+void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Real>& coarse) {
+    const std::int32_t nx = coarse_cells(capacity.cells_x);
+    coarse.shape = {nx, coarse_cells(capacity.cells_y), nx + 2};
+    Real* next = nullptr;
+    carver.take(Block::coarse_cells, next);
+    Real** const fields[] = {&coarse.correction, &coarse.residual, &coarse.inverse_diagonal,
+                             &coarse.weight_u,   &coarse.weight_v, &coarse.centre_x,
+                             &coarse.centre_y,   &coarse.reach_u,  &coarse.reach_v};
+    const std::int32_t count =
+        capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields;
+    for (std::int32_t k = 0; k < count; ++k) {
+        *fields[k] = next;
+        next += coarse.shape.size();
+    }
+    if (!capacity.second_liquid) {
+        coarse.reach_u = coarse.weight_u;
+        coarse.reach_v = coarse.weight_v;
+    }
+}
+
+template <class Real>
 void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& simulation) {
     const GridShape shape{capacity.cells_x, capacity.cells_y, capacity.cells_x + 2};
     simulation.grid.shape = shape;
@@ -79,6 +100,7 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::inverse_diagonal, simulation.pressure.inverse_diagonal);
     carver.take(Block::density, simulation.pressure.density);
     carver.take(Block::level, simulation.pressure.level);
+    carve_coarse(carver, capacity, simulation.pressure.coarse);
     carve_solids(carver, capacity, simulation);
     carver.take(Block::contact, simulation.contacts.entry);
     simulation.contacts.capacity = capacity.contacts;

@@ -368,14 +368,11 @@ double asymmetry(std::int32_t width, std::int32_t steps) {
     return worst;
 }
 
-/// On an odd number of cells a mirror keeps the colours of the red-black sweeps.
-TEST(Symmetry, IsKeptWithinRounding) {
-    EXPECT_LT(asymmetry<double>(33, 30), 1.0e-9);
-    EXPECT_LT(asymmetry<float>(33, 12), 1.0e-3);
-}
-
-/// On an even number it swaps them: what 16 sweeps leave undone then differs between the sides.
-TEST(Symmetry, IsCloseOnAnEvenNumberOfCells) {
+/// A mirror swaps the colours of the red-black sweeps, or shifts the coarse cells: what the solve
+/// leaves undone differs between the sides. No width keeps both.
+TEST(Symmetry, IsCloseWhateverTheWidth) {
+    EXPECT_LT(asymmetry<double>(33, 12), 0.02);
+    EXPECT_LT(asymmetry<float>(33, 12), 0.02);
     EXPECT_LT(asymmetry<double>(32, 12), 0.02);
     EXPECT_LT(asymmetry<float>(32, 12), 0.02);
 }

@@ -62,6 +62,7 @@ enum class Block : std::uint8_t {
     inverse_diagonal,
     density,
     level,
+    coarse_cells,  ///< numbers for each cell of the pressure's coarse grid
     count
 };
 inline constexpr std::int32_t kBlockCount = static_cast<std::int32_t>(Block::count);
@@ -82,6 +83,16 @@ inline constexpr std::size_t world_alignment = 16;
 /// Room for records whose types are private; checked by static_assert where they are defined.
 inline constexpr std::size_t kWorldStateBytes = 1024;
 inline constexpr std::size_t kBodyBytes = 144;
+
+/// The pressure's coarse grid: cells along an edge of its cells, and numbers for each of them.
+inline constexpr std::int32_t kCoarseEdge = 4;
+inline constexpr std::int32_t kCoarseFields = 7;
+inline constexpr std::int32_t kCoarseFieldsOfTwoLiquids = 9;
+
+/// Coarse cells along an axis of so many cells.
+constexpr std::int32_t coarse_cells(std::int32_t cells) {
+    return (cells + kCoarseEdge - 1) / kCoarseEdge;
+}
 
 /// Largest index of a piece list: a triangle per vertex, each a count and three vertex numbers.
 inline constexpr std::size_t kPieceIndicesPerVertex = 4;
@@ -115,6 +126,10 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t vertices = count(capacity.vertices);
     // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
     const std::size_t cells = (count(capacity.cells_x) + 2) * (count(capacity.cells_y) + 2);
+    const std::size_t coarse = (count(coarse_cells(capacity.cells_x)) + 2) *
+                               (count(coarse_cells(capacity.cells_y)) + 2);
+    const std::size_t coarse_fields =
+        count(capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields);
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
     const std::size_t near_words =
         capacity.bodies > 0 ? (count(capacity.cells_x) + 31) / 32 * count(capacity.cells_y) : 0;
@@ -156,6 +171,8 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::inverse_diagonal, Owner::pressure, Kept::nothing, sizeof(Real), cells},
         {Block::density, Owner::pressure, Kept::nothing, sizeof(Real), cells},
         {Block::level, Owner::pressure, Kept::nothing, sizeof(Real), cells},
+        {Block::coarse_cells, Owner::pressure, Kept::nothing, sizeof(Real),
+         coarse_fields * coarse},
     };
     Layout result;
     for (const Row& row : rows) {
