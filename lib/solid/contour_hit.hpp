@@ -1,6 +1,7 @@
 // Where a point stands to the contour of its cell: the inside test of particles.
 #pragma once
 
+#include "contour/gradient.hpp"
 #include "contour/marching_squares.hpp"
 #include "solid/walls.hpp"
 
@@ -86,6 +87,17 @@ struct Standing {
     bool inside = false;
 };
 
+/// Normal where a particle is behind the line of its cell.
+template <class Real>
+Vec2<Real> normal_behind(const GridShape& s, const Walls<Real>& walls, const CellView<Real>& cell,
+                         Vec2<Real> x, Vec2<Real> line_normal) {
+    const auto i = static_cast<std::int32_t>(x.x);
+    const auto j = static_cast<std::int32_t>(x.y);
+    const Neighbours has{i > 0, i + 1 < s.nx, j > 0, j + 1 < s.ny};
+    return wall_normal(walls.distance + cell.node, s.stride, cell.local, has, kBand<Real>,
+                       line_normal);
+}
+
 /// A cell that is solid all over holds no open point, also where all its nodes lie on the outline.
 template <class Real>
 Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
@@ -97,6 +109,9 @@ Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<R
     const CellView<Real> cell = cell_of(shape, walls, x);
     at.hit = hit_in(cell, at.which);
     at.inside = at.hit.distance < Real(0) || (at.which == kCellInside && !walls.binary);
+    if (at.inside && at.which != kCellInside && !walls.binary) {
+        at.hit.normal = normal_behind(shape, walls, cell, x, at.hit.normal);
+    }
     at.slot = at.inside ? touched_body(shape, walls, cell.node) : kNoBody;
     return at;
 }

@@ -9,11 +9,6 @@
 
 namespace weir {
 
-/// Nodes further out than this know no wall, cells. (kFarFromSolids of the public face.) Contour
-/// lines need nodes up to one cell out, gradients in the solid's first cell a little more.
-template <class Real>
-inline constexpr Real kBand = Real(1.5);
-
 template <class Real>
 struct Layers {
     GridShape shape;

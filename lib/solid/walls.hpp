@@ -8,6 +8,11 @@ namespace weir {
 
 inline constexpr std::uint16_t kNoBody = 0xFFFF;
 
+/// Nodes further out than this know no wall, cells. (kFarFromSolids of the public face.) Contour
+/// lines need nodes up to one cell out, gradients in the solid's first cell a little more.
+template <class Real>
+inline constexpr Real kBand = Real(1.5);
+
 /// Arrays share the grid's numbering. `active` false: no body exists and none of them is read.
 template <class Real>
 struct Walls {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contour/gradient.hpp"
 #include "node_field.hpp"
 #include "problems.hpp"
 
@@ -29,9 +30,21 @@ double angle_between(Vec2<double> a, Vec2<double> b) {
     return std::atan2(weir::cross(a, b), weir::dot(a, b));
 }
 
+/// The normal that a particle meets on a contour line, or the line's own.
+Vec2<double> normal_at(const NodeGrid<float>& grid, int i, int j,
+                       const weir::ContourLine<float>& line, bool binary) {
+    const auto middle = 0.5F * (line.from + line.to);
+    const float* node = grid.distance.data() + j * (grid.cells + 1) + i;
+    const weir::Neighbours has{i > 0, i + 1 < grid.cells, j > 0, j + 1 < grid.cells};
+    return weir::convert<double>(
+        binary ? line.normal
+               : weir::wall_normal(node, grid.cells + 1, middle, has, grid.far, line.normal));
+}
+
 /// Adds every contour line of the field; `normal(p)` and `distance(p)` are the exact ones.
 template <class Normal, class Distance>
-void compare(const NodeGrid<float>& grid, Normal normal, Distance distance, Error& error) {
+void compare(const NodeGrid<float>& grid, bool binary, Normal normal, Distance distance,
+             Error& error) {
     for (int j = 0; j < grid.cells; ++j) {
         for (int i = 0; i < grid.cells; ++i) {
             float corner[4];
@@ -43,8 +56,8 @@ void compare(const NodeGrid<float>& grid, Normal normal, Distance distance, Erro
                 const auto to = origin + weir::convert<double>(cell.line[k].to);
                 const auto middle = 0.5 * (from + to);
                 const double size = weir::length(to - from);
-                const double angle = std::abs(angle_between(
-                    weir::convert<double>(cell.line[k].normal), normal(middle)));
+                const double angle = std::abs(
+                    angle_between(normal_at(grid, i, j, cell.line[k], binary), normal(middle)));
                 const double off = std::abs(distance(middle));
                 error.length += size;
                 error.angle_squares += size * angle * angle;
@@ -73,7 +86,7 @@ Error of_lines(bool binary) {
                        on - far * along},
                       binary);
             compare(
-                grid, [&](Vec2<double>) { return n; },
+                grid, binary, [&](Vec2<double>) { return n; },
                 [&](Vec2<double> p) { return weir::dot(p - on, n); }, error);
         }
     }
@@ -87,7 +100,7 @@ Error of_circles(double radius, bool binary) {
         NodeGrid<float> grid(kCells);
         grid.draw(regular_polygon(1000, radius, centre, 0.1), binary);
         compare(
-            grid, [&](Vec2<double> p) { return p - centre; },
+            grid, binary, [&](Vec2<double> p) { return p - centre; },
             [&](Vec2<double> p) { return weir::length(p - centre) - radius; }, error);
     }
     return error;

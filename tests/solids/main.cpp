@@ -23,6 +23,8 @@ constexpr Problem kProblems[] = {
     // Tightness.
     // Moving bodies.
     // Still water.
+    {"R4c", "still water between inclined walls", solids::still_water},
+    {"R6b", "sloshing between inclined walls", solids::sloshing},
     // Cost.
 };
 

@@ -20,6 +20,8 @@ void contour_normals(Report& report, const Effort& effort);  // R3
 // Moving bodies.
 
 // Still water.
+void still_water(Report& report, const Effort& effort);  // R4c
+void sloshing(Report& report, const Effort& effort);     // R6b
 
 // Cost.
 

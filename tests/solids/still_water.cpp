@@ -1,0 +1,221 @@
+// R4c and R6b: still water and sloshing between inclined walls, upright and with the whole scene
+// turned by 17.3 degrees. Exact: p = ρ g depth; ω² = g / h for u = A y, v = A x about the apex of a
+// 90 degree V, whose surface stays plane.
+#include <cmath>
+
+#include "problems.hpp"
+#include "vessel.hpp"
+
+namespace solids {
+
+namespace {
+
+constexpr double kTilt = 17.3 * M_PI / 180.0;
+
+/// Apex, and what is inside.
+struct Wedge {
+    Vessel vessel;
+    Vec apex;
+    double depth;
+};
+
+Wedge v_tank(int depth, double tilt) {
+    Wedge wedge;
+    const double half = 1.45 * depth;  // half of the tank: room for the V turned
+    wedge.vessel.cells_x = static_cast<int>(2.0 * half) + 6;
+    wedge.vessel.cells_y = static_cast<int>(2.0 * half) + 6;
+    wedge.vessel.tilt = tilt;
+    const Vec middle = wedge.vessel.middle();
+    const Vec apex{middle.x + 0.31, middle.y - 0.62 * depth - 0.17};
+    const double far = 4.0 * depth + 20.0;
+    wedge.apex = apex;
+    wedge.depth = depth;
+    wedge.vessel.walls = {
+        {apex, {apex.x - far, apex.y + far}, {apex.x - far, apex.y - far}, {apex.x, apex.y - far}},
+        {apex, {apex.x, apex.y - far}, {apex.x + far, apex.y - far}, {apex.x + far, apex.y + far}}};
+    wedge.vessel.liquid = [apex, depth](Vec p) {
+        const Vec d = p - apex;
+        return d.y < depth && d.y > std::abs(d.x);
+    };
+    return wedge;
+}
+
+/// A box of four walls, three cells thick, half full.
+Vessel turned_box(int depth, double tilt) {
+    Vessel vessel;
+    const double width = 1.5 * depth;
+    const double height = 1.5 * depth;
+    vessel.cells_x = static_cast<int>(1.45 * (width + 8.0));
+    vessel.cells_y = vessel.cells_x;
+    vessel.tilt = tilt;
+    const Vec low{vessel.middle().x - 0.5 * width, vessel.middle().y - 0.5 * height};
+    const Vec high{low.x + width, low.y + height};
+    const double t = 3.0;
+    const auto slab = [](Vec a, Vec b) {
+        return Points{{a.x, a.y}, {b.x, a.y}, {b.x, b.y}, {a.x, b.y}};
+    };
+    vessel.walls = {slab({low.x - t, low.y - t}, {high.x + t, low.y}),
+                    slab({low.x - t, high.y}, {high.x + t, high.y + t}),
+                    slab({low.x - t, low.y - t}, {low.x, high.y + t}),
+                    slab({high.x, low.y - t}, {high.x + t, high.y + t})};
+    vessel.liquid = [low, high, depth](Vec p) {
+        return p.x > low.x && p.x < high.x && p.y > low.y && p.y < low.y + depth;
+    };
+    return vessel;
+}
+
+/// Root of the mean square of p − ρ g (depth below the surface), over ρ g h, of the cells whose
+/// centres are in the liquid.
+double pressure_error(const Vessel& vessel, const Pool& pool, double surface, double depth) {
+    double squares = 0.0;
+    int count = 0;
+    for (int j = 0; j < vessel.cells_y; ++j) {
+        for (int i = 0; i < vessel.cells_x; ++i) {
+            const Vec p = vessel.to_frame({i + 0.5, j + 0.5});
+            if (vessel.liquid(p) && surface - p.y > 0.5) {
+                const double error =
+                    pool.pressure(i, j) / (kGravity * depth) - (surface - p.y) / depth;
+                squares += error * error;
+                ++count;
+            }
+        }
+    }
+    return std::sqrt(squares / count);
+}
+
+/// Mean of the error over the last fifth of 40 √(h/g), and what still moves.
+void rest(Report& report, const std::string& name, const Vessel& vessel, double surface,
+          double depth, double limit) {
+    Pool pool(vessel);
+    const int steps = static_cast<int>(40.0 * std::sqrt(depth / kGravity) * 60.0);
+    pool.run(steps - steps / 5);
+    double error = 0.0;
+    double speed = 0.0;
+    for (int k = 0; k < steps / 5; ++k) {
+        pool.step();
+        error += pressure_error(vessel, pool, surface, depth) / (steps / 5);
+        speed += pool.rms_speed() / (steps / 5);
+    }
+    report.at_most(name + ".pressure_l2", 100.0 * error, "%", limit);
+    report.at_most(name + ".kinetic_energy",
+                   speed * speed / (kGravity * depth), "of mgh/2", 1e-5);
+}
+
+double limit_of(int depth) {
+    return depth <= 16 ? 1.5 : (depth <= 32 ? 0.5 : 0.1);
+}
+
+struct Slosh {
+    double frequency_error = 0.0;
+    double loss = 0.0;  ///< of the amplitude, a period
+    double penetration = 0.0;
+};
+
+/// Four periods of the V's own mode, after the lattice has come to rest.
+Slosh slosh(int depth, double tilt) {
+    const Wedge wedge = v_tank(depth, tilt);
+    Pool pool(wedge.vessel);
+    pool.run(300);
+    const double h = std::sqrt(0.25 * pool.particles());  // area h²
+    const double omega = std::sqrt(kGravity / h);
+    const double a = 0.03 * omega;
+    pool.stir([&](Vec p) {
+        return Vec{a * (p.y - wedge.apex.y), a * (p.x - wedge.apex.x)};
+    });
+    const auto amplitude = [&] {
+        double sum = 0.0;
+        double squares = 0.0;
+        for (int k = 0; k < pool.particles(); ++k) {
+            const Vec d = pool.position(k) - wedge.apex;
+            const Vec v = pool.velocity(k);
+            sum += v.x * d.y + v.y * d.x;
+            squares += weir::dot(d, d);
+        }
+        return sum / squares;
+    };
+    Slosh result;
+    const float dt = kFrame_s / 2.0F;
+    double time = 0.0;
+    double before = amplitude();
+    double first_crossing = 0.0;
+    double last_crossing = 0.0;
+    int crossings = 0;
+    std::vector<double> peaks;
+    double peak = 0.0;
+    const double end = 4.1 * 2.0 * M_PI / omega;
+    while (time < end) {
+        pool.step(dt);
+        time += static_cast<double>(pool.report().dt_s);
+        const double now = amplitude();
+        peak = std::max(peak, std::abs(now));
+        if ((now > 0.0) != (before > 0.0)) {
+            last_crossing = time - static_cast<double>(pool.report().dt_s) * now / (now - before);
+            first_crossing = crossings == 0 ? last_crossing : first_crossing;
+            if (crossings > 0) {
+                peaks.push_back(peak);
+            }
+            peak = 0.0;
+            ++crossings;
+        }
+        before = now;
+        for (int k = 0; k < pool.particles(); ++k) {
+            const Vec d = pool.position(k) - wedge.apex;
+            result.penetration =
+                std::max(result.penetration, (std::abs(d.x) - d.y) / std::sqrt(2.0));
+        }
+    }
+    const double half_periods = crossings - 1;
+    const double measured = M_PI * half_periods / (last_crossing - first_crossing);
+    result.frequency_error = measured / omega - 1.0;
+    const double span = 0.5 * static_cast<double>(peaks.size() - 1);
+    result.loss = 1.0 - std::pow(peaks.back() / peaks.front(), 1.0 / span);
+    return result;
+}
+
+}  // namespace
+
+void still_water(Report& report, const Effort& effort) {
+    for (const int depth : {16, 32, 64}) {
+        if (depth > 32 && !effort.full) {
+            continue;
+        }
+        const std::string cells = "." + std::to_string(depth);
+        for (const double tilt : {0.0, kTilt}) {
+            const Wedge wedge = v_tank(depth, tilt);
+            const std::string turned = tilt > 0.0 ? "_turned" : "";
+            rest(report, "R4c.v_tank" + turned + cells, wedge.vessel, wedge.apex.y + depth, depth,
+                 limit_of(depth));
+        }
+        const Vessel box = turned_box(depth, kTilt);
+        const double floor = box.middle().y - 0.75 * depth;
+        rest(report, "R4c.box_turned" + cells, box, floor + depth, depth, limit_of(depth));
+    }
+}
+
+void sloshing(Report& report, const Effort& effort) {
+    for (const int depth : {16, 32, 64}) {
+        if (depth > 32 && !effort.full) {
+            continue;
+        }
+        Slosh worst;
+        for (const double tilt : {0.0, kTilt}) {
+            const Slosh one = slosh(depth, tilt);
+            worst.frequency_error = std::max(worst.frequency_error, std::abs(one.frequency_error));
+            worst.loss = std::max(worst.loss, one.loss);
+            worst.penetration = std::max(worst.penetration, one.penetration);
+        }
+        const std::string name = "R6b.v_tank." + std::to_string(depth);
+        if (depth == 16) {
+            report.figure(name + ".frequency", 100.0 * worst.frequency_error, "%");
+            report.figure(name + ".loss", 100.0 * worst.loss, "%/period");
+        } else {
+            report.at_most(name + ".frequency", 100.0 * worst.frequency_error, "%",
+                           depth == 32 ? 0.3 : 0.15);
+            report.at_most(name + ".loss", 100.0 * worst.loss, "%/period",
+                           depth == 32 ? 1.9 : 0.7);
+        }
+        report.at_most(name + ".penetration", worst.penetration, "cells", 0.05);
+    }
+}
+
+}  // namespace solids
