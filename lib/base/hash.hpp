@@ -30,8 +30,8 @@ public:
         add(static_cast<std::uint32_t>(bits));
         add(static_cast<std::uint32_t>(bits >> 32U));
     }
-    template <int Fraction>
-    void add(FixedPoint<Fraction> number) {
+    template <int Fraction, class Storage>
+    void add(FixedPoint<Fraction, Storage> number) {
         add(number.raw);
     }
     std::uint64_t value() const { return value_; }

@@ -4,8 +4,8 @@
 
 namespace weir {
 
-template <int Fraction>
-FixedPoint<Fraction>::FixedPoint(float value) {
+template <int Fraction, class Storage>
+FixedPoint<Fraction, Storage>::FixedPoint(float value) {
     std::uint32_t bits = 0;
     __builtin_memcpy(&bits, &value, sizeof bits);
     const std::int32_t exponent = static_cast<std::int32_t>((bits >> 23U) & 0xFFU);
@@ -32,8 +32,9 @@ FixedPoint<Fraction>::FixedPoint(float value) {
 }
 
 template FixedPoint<16>::FixedPoint(float);
-template FixedPoint<24>::FixedPoint(float);
 template FixedPoint<30>::FixedPoint(float);
+template FixedPoint<16, PackedStorage>::FixedPoint(float);
+template FixedPoint<30, PackedStorage>::FixedPoint(float);
 
 namespace fixed {
 

@@ -8,8 +8,10 @@
 namespace weir {
 
 /// A number below 2: seconds of a step, to a billionth. And one below 128, to 6e-8: reciprocals.
-using FixedSeconds = FixedPoint<30>;
-using FixedRatio = FixedPoint<24>;
+template <class S>
+using FixedSeconds = FixedPoint<30, S>;
+template <class S>
+using FixedRatio = FixedPoint<24, S>;
 
 inline constexpr std::int32_t kMostRaw = 0x7FFFFFFF;
 inline constexpr std::int32_t kLeastRaw = -0x7FFFFFFF - 1;
@@ -56,41 +58,41 @@ std::uint32_t square_root(std::uint64_t value);
 
 }  // namespace fixed
 
-template <int F>
-inline FixedPoint<F> operator+(FixedPoint<F> a, FixedPoint<F> b) {
-    return FixedPoint<F>::of_raw(fixed::add(a.raw, b.raw));
+template <int F, class S>
+inline FixedPoint<F, S> operator+(FixedPoint<F, S> a, FixedPoint<F, S> b) {
+    return FixedPoint<F, S>::of_raw(fixed::add(a.raw, b.raw));
 }
-template <int F>
-inline FixedPoint<F> operator-(FixedPoint<F> a, FixedPoint<F> b) {
-    return FixedPoint<F>::of_raw(fixed::subtract(a.raw, b.raw));
+template <int F, class S>
+inline FixedPoint<F, S> operator-(FixedPoint<F, S> a, FixedPoint<F, S> b) {
+    return FixedPoint<F, S>::of_raw(fixed::subtract(a.raw, b.raw));
 }
-template <int F>
-inline FixedPoint<F> operator-(FixedPoint<F> a) {
-    return FixedPoint<F>::of_raw(fixed::subtract(0, a.raw));
+template <int F, class S>
+inline FixedPoint<F, S> operator-(FixedPoint<F, S> a) {
+    return FixedPoint<F, S>::of_raw(fixed::subtract(0, a.raw));
 }
 /// Of two kinds of numbers the product and the quotient are of the coarser kind.
-template <int F, int G>
-inline FixedPoint<(F < G ? F : G)> operator*(FixedPoint<F> a, FixedPoint<G> b) {
-    return FixedPoint<(F < G ? F : G)>::of_raw(fixed::multiply(a.raw, b.raw, F < G ? G : F));
+template <int F, int G, class S>
+inline FixedPoint<(F < G ? F : G), S> operator*(FixedPoint<F, S> a, FixedPoint<G, S> b) {
+    return FixedPoint<(F < G ? F : G), S>::of_raw(fixed::multiply(a.raw, b.raw, F < G ? G : F));
 }
-template <int F, int G>
-inline FixedPoint<(F < G ? F : G)> operator/(FixedPoint<F> a, FixedPoint<G> b) {
+template <int F, int G, class S>
+inline FixedPoint<(F < G ? F : G), S> operator/(FixedPoint<F, S> a, FixedPoint<G, S> b) {
     // raw / raw has F − G fractional bits.
-    return FixedPoint<(F < G ? F : G)>::of_raw(
+    return FixedPoint<(F < G ? F : G), S>::of_raw(
         fixed::quotient(a.raw, b.raw, (F < G ? F : G) - F + G));
 }
-template <int F>
-inline FixedPoint<F>& operator+=(FixedPoint<F>& a, FixedPoint<F> b) {
+template <int F, class S>
+inline FixedPoint<F, S>& operator+=(FixedPoint<F, S>& a, FixedPoint<F, S> b) {
     return a = a + b;
 }
-template <int F>
-inline FixedPoint<F>& operator-=(FixedPoint<F>& a, FixedPoint<F> b) {
+template <int F, class S>
+inline FixedPoint<F, S>& operator-=(FixedPoint<F, S>& a, FixedPoint<F, S> b) {
     return a = a - b;
 }
 
 #define WEIR_COMPARE(op)                                                  \
-    template <int F>                                                      \
-    constexpr bool operator op(FixedPoint<F> a, FixedPoint<F> b) {        \
+    template <int F, class S>                                             \
+    constexpr bool operator op(FixedPoint<F, S> a, FixedPoint<F, S> b) {  \
         return a.raw op b.raw;                                            \
     }
 WEIR_COMPARE(==)
@@ -102,39 +104,43 @@ WEIR_COMPARE(>=)
 #undef WEIR_COMPARE
 
 /// Every bit pattern is a number.
-template <int F>
-constexpr bool is_finite(FixedPoint<F>) {
+template <int F, class S>
+constexpr bool is_finite(FixedPoint<F, S>) {
     return true;
 }
 
-template <int F>
-constexpr std::int32_t floor_to_int(FixedPoint<F> value) {
+template <int F, class S>
+constexpr std::int32_t floor_to_int(FixedPoint<F, S> value) {
     return value.raw >> F;
 }
 
-template <int To>
+template <int To, class S>
 template <int From, std::enable_if_t<From != To, int>>
-constexpr FixedPoint<To>::FixedPoint(FixedPoint<From> value)
+constexpr FixedPoint<To, S>::FixedPoint(FixedPoint<From, S> value)
     : raw(To > From ? fixed::saturate(static_cast<std::int64_t>(value.raw) *
                                       (std::int64_t{1} << (To > From ? To - From : 0)))
                     : fixed::saturate(fixed::shifted(value.raw, From > To ? From - To : 1))) {}
 
 /// How many times one time is the other.
-inline Fixed operator/(FixedSeconds a, FixedSeconds b) {
-    return Fixed::of_raw(fixed::quotient(a.raw, b.raw, 16));
+template <class S>
+inline FixedPoint<16, S> operator/(FixedSeconds<S> a, FixedSeconds<S> b) {
+    return FixedPoint<16, S>::of_raw(fixed::quotient(a.raw, b.raw, 16));
 }
 /// An equal part of a time.
-inline FixedSeconds part_of(FixedSeconds whole, std::int32_t parts) {
-    return FixedSeconds::of_raw(fixed::quotient(whole.raw, parts, 0));
+template <class S>
+inline FixedSeconds<S> part_of(FixedSeconds<S> whole, std::int32_t parts) {
+    return FixedSeconds<S>::of_raw(fixed::quotient(whole.raw, parts, 0));
 }
 
 /// The square root of a number that is not negative, rounded to nearest.
-inline Fixed square_root(Fixed value) {
+template <class S>
+inline FixedPoint<16, S> square_root(FixedPoint<16, S> value) {
     const std::uint64_t widened = static_cast<std::uint64_t>(value.raw) << 16U;
-    return Fixed::of_raw(static_cast<std::int32_t>(fixed::square_root(widened)));
+    return FixedPoint<16, S>::of_raw(static_cast<std::int32_t>(fixed::square_root(widened)));
 }
 
 /// A sum of products at full width: squares of lengths across the tank.
+template <class S>
 struct WideFixed {
     std::int64_t raw = 0;  ///< Q31.32
 
@@ -145,37 +151,48 @@ struct WideFixed {
         value.raw = bits;
         return value;
     }
-    operator Fixed() const { return Fixed::of_raw(fixed::saturate(fixed::shifted(raw, 16))); }
+    operator FixedPoint<16, S>() const {
+        return FixedPoint<16, S>::of_raw(fixed::saturate(fixed::shifted(raw, 16)));
+    }
     constexpr explicit operator double() const { return static_cast<double>(raw) / 4294967296.0; }
 };
-inline WideFixed operator+(WideFixed a, WideFixed b) {
+template <class S>
+inline WideFixed<S> operator+(WideFixed<S> a, WideFixed<S> b) {
     std::int64_t sum = 0;
     const bool over = __builtin_add_overflow(a.raw, b.raw, &sum);
-    return WideFixed::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : sum);
+    return WideFixed<S>::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : sum);
 }
-inline WideFixed operator-(WideFixed a, WideFixed b) {
+template <class S>
+inline WideFixed<S> operator-(WideFixed<S> a, WideFixed<S> b) {
     std::int64_t difference = 0;
     const bool over = __builtin_sub_overflow(a.raw, b.raw, &difference);
-    return WideFixed::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : difference);
+    return WideFixed<S>::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : difference);
 }
-inline WideFixed operator-(WideFixed a) { return WideFixed{} - a; }
-constexpr bool operator<(WideFixed a, WideFixed b) { return a.raw < b.raw; }
-constexpr bool operator<=(WideFixed a, WideFixed b) { return a.raw <= b.raw; }
-constexpr bool operator>(WideFixed a, WideFixed b) { return a.raw > b.raw; }
-constexpr bool operator>=(WideFixed a, WideFixed b) { return a.raw >= b.raw; }
+template <class S>
+inline WideFixed<S> operator-(WideFixed<S> a) { return WideFixed<S>{} - a; }
+template <class S>
+constexpr bool operator<(WideFixed<S> a, WideFixed<S> b) { return a.raw < b.raw; }
+template <class S>
+constexpr bool operator<=(WideFixed<S> a, WideFixed<S> b) { return a.raw <= b.raw; }
+template <class S>
+constexpr bool operator>(WideFixed<S> a, WideFixed<S> b) { return a.raw > b.raw; }
+template <class S>
+constexpr bool operator>=(WideFixed<S> a, WideFixed<S> b) { return a.raw >= b.raw; }
 
 /// Not negative, as a sum of squares is.
-inline Fixed square_root(WideFixed value) {
+template <class S>
+inline FixedPoint<16, S> square_root(WideFixed<S> value) {
     const std::uint32_t root = fixed::square_root(static_cast<std::uint64_t>(value.raw));
-    return Fixed::of_raw(root > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(root));
+    return FixedPoint<16, S>::of_raw(root > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(root));
 }
-inline Fixed operator/(WideFixed a, Fixed b) {
+template <class S>
+inline FixedPoint<16, S> operator/(WideFixed<S> a, FixedPoint<16, S> b) {
     const bool negative = (a.raw < 0) != (b.raw < 0);
     const std::uint64_t size = a.raw < 0 ? 0U - static_cast<std::uint64_t>(a.raw)
                                          : static_cast<std::uint64_t>(a.raw);
     const std::uint32_t ratio = fixed::divide(size, fixed::magnitude(b.raw));
     const std::int32_t limited = ratio > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(ratio);
-    return Fixed::of_raw(negative ? -limited : limited);
+    return FixedPoint<16, S>::of_raw(negative ? -limited : limited);
 }
 
 }  // namespace weir

@@ -53,11 +53,11 @@ struct Kinds {
     using Product = Real;
     using Face = Real;
 };
-template <>
-struct Kinds<Fixed> {
-    using Seconds = FixedSeconds;
-    using Ratio = FixedRatio;
-    using Product = WideFixed;
+template <class S>
+struct Kinds<FixedPoint<16, S>> {
+    using Seconds = FixedSeconds<S>;
+    using Ratio = FixedRatio<S>;
+    using Product = WideFixed<S>;
     using Face = float;
 };
 /// Length of a step, s: at most 1.
@@ -77,8 +77,9 @@ template <class Real>
 constexpr Product<Real> product(Real a, Real b) {
     return a * b;
 }
-inline WideFixed product(Fixed a, Fixed b) {
-    return WideFixed::of_raw(static_cast<std::int64_t>(a.raw) * b.raw);
+template <class S>
+inline WideFixed<S> product(FixedPoint<16, S> a, FixedPoint<16, S> b) {
+    return WideFixed<S>::of_raw(static_cast<std::int64_t>(a.raw) * b.raw);
 }
 template <class Real>
 constexpr Real part_of(Real whole, std::int32_t parts) {

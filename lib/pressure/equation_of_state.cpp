@@ -49,7 +49,7 @@ template void equation_of_state(const Borders<float>&, const Walls<float>&, floa
                                 StaggeredGrid<float>&, PressureFields<float>&);
 template void equation_of_state(const Borders<double>&, const Walls<double>&, double, double,
                                 StaggeredGrid<double>&, PressureFields<double>&);
-template void equation_of_state(const Borders<Fixed>&, const Walls<Fixed>&, FixedSeconds, Fixed,
+template void equation_of_state(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
                                 StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
 
 }  // namespace weir

@@ -197,7 +197,7 @@ template void projection(const Borders<float>&, const Walls<float>&, float, std:
                          StaggeredGrid<float>&, PressureFields<float>&);
 template void projection(const Borders<double>&, const Walls<double>&, double, std::int32_t,
                          StaggeredGrid<double>&, PressureFields<double>&);
-template void projection(const Borders<Fixed>&, const Walls<Fixed>&, FixedSeconds, std::int32_t,
+template void projection(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, std::int32_t,
                          StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
 
 }  // namespace weir

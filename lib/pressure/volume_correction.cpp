@@ -147,7 +147,7 @@ template void volume_correction(const Borders<float>&, const Walls<float>&, floa
                                 PressureFields<float>&, StaggeredGrid<float>&);
 template void volume_correction(const Borders<double>&, const Walls<double>&, double, double,
                                 PressureFields<double>&, StaggeredGrid<double>&);
-template void volume_correction(const Borders<Fixed>&, const Walls<Fixed>&, FixedSeconds, Fixed,
+template void volume_correction(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
                                 PressureFields<Fixed>&, StaggeredGrid<Fixed>&);
 
 }  // namespace weir

@@ -96,9 +96,9 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
 
 template float longest_step(const Settings<float>&);
 template double longest_step(const Settings<double>&);
-template FixedSeconds longest_step(const Settings<Fixed>&);
+template Seconds<Fixed> longest_step(const Settings<Fixed>&);
 template SubstepPlan<float> plan_substeps(const Simulation<float>&, float);
 template SubstepPlan<double> plan_substeps(const Simulation<double>&, double);
-template SubstepPlan<Fixed> plan_substeps(const Simulation<Fixed>&, FixedSeconds);
+template SubstepPlan<Fixed> plan_substeps(const Simulation<Fixed>&, Seconds<Fixed>);
 
 }  // namespace weir

@@ -7,9 +7,14 @@
 
 namespace weir {
 
+/// How a world stores numbers of a kind: `Roomy`, all of them in 32 bits, or `Packed`, as few bits
+/// as each quantity bears (weir/storage.hpp).
+struct RoomyStorage {};
+struct PackedStorage {};
+
 /// raw · 2^−Fraction, Fraction 1 … 31. Conversions round to the nearest, ties away from zero, and
 /// saturate: no input wraps around. NaN becomes 0.
-template <int Fraction>
+template <int Fraction, class Storage = RoomyStorage>
 struct FixedPoint {
     std::int32_t raw = 0;
 
@@ -44,7 +49,7 @@ struct FixedPoint {
 
     /// From another kind of fixed-point number.
     template <int Other, std::enable_if_t<Other != Fraction, int> = 0>
-    constexpr explicit FixedPoint(FixedPoint<Other> value);
+    constexpr explicit FixedPoint(FixedPoint<Other, Storage> value);
 
     constexpr explicit operator double() const {
         return static_cast<double>(raw) /
@@ -74,5 +79,7 @@ private:
 
 /// −32768 … 32767.99998 in steps of 1.5e-5: cells, cells a second, and what is made of them.
 using Fixed = FixedPoint<16>;
+/// The same arithmetic in the smallest world: 8 bytes a particle.
+using SmallFixed = FixedPoint<16, PackedStorage>;
 
 }  // namespace weir
