@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "weir/fixed.hpp"
+#include "weir/storage.hpp"
 
 namespace weir {
 
@@ -33,6 +33,10 @@ public:
     template <int Fraction, class Storage>
     void add(FixedPoint<Fraction, Storage> number) {
         add(number.raw);
+    }
+    template <class Bits, int Fraction>
+    void add(Packed<Bits, Fraction> number) {
+        add(static_cast<std::int32_t>(number.raw));
     }
     std::uint64_t value() const { return value_; }
 

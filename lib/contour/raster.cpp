@@ -218,6 +218,7 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -26,7 +26,7 @@ struct RasterPolygon {
 /// A field of nodes: node (i, j) stands at origin + j · stride + i.
 template <class Real>
 struct NodeField {
-    Real* distance = nullptr;
+    DistanceOf<Real>* distance = nullptr;
     std::uint16_t* nearest = nullptr;
     std::int32_t origin = 0;
     std::int32_t stride = 0;

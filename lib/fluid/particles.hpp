@@ -8,8 +8,8 @@ namespace weir {
 
 template <class Real>
 struct Particles {
-    Vec2<Real>* position = nullptr;
-    Vec2<Real>* velocity = nullptr;
+    Vec2<PositionOf<Real>>* position = nullptr;
+    Vec2<VelocityOf<Real>>* velocity = nullptr;
     std::int32_t count = 0;
     std::int32_t capacity = 0;
     Liquid* kind = nullptr;  ///< null: there is one liquid

@@ -246,5 +246,7 @@ template bool join_holes(const Outline<double>&, CornerLinks, ArrayView<std::uin
                          ArrayView<std::uint16_t>);
 template bool join_holes(const Outline<Fixed>&, CornerLinks, ArrayView<std::uint16_t>,
                          ArrayView<std::uint16_t>);
+template bool join_holes(const Outline<SmallFixed>&, CornerLinks, ArrayView<std::uint16_t>,
+                         ArrayView<std::uint16_t>);
 
 }  // namespace weir

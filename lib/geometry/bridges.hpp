@@ -27,5 +27,7 @@ extern template bool join_holes(const Outline<double>&, CornerLinks, ArrayView<s
                                 ArrayView<std::uint16_t>);
 extern template bool join_holes(const Outline<Fixed>&, CornerLinks, ArrayView<std::uint16_t>,
                                 ArrayView<std::uint16_t>);
+extern template bool join_holes(const Outline<SmallFixed>&, CornerLinks, ArrayView<std::uint16_t>,
+                                ArrayView<std::uint16_t>);
 
 }  // namespace weir

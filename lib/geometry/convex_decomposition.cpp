@@ -289,5 +289,7 @@ template std::int32_t decompose(const Outline<double>&, ArrayView<std::uint16_t>
                                 ArrayView<std::uint16_t>);
 template std::int32_t decompose(const Outline<Fixed>&, ArrayView<std::uint16_t>,
                                 ArrayView<std::uint16_t>);
+template std::int32_t decompose(const Outline<SmallFixed>&, ArrayView<std::uint16_t>,
+                                ArrayView<std::uint16_t>);
 
 }  // namespace weir

@@ -56,5 +56,7 @@ extern template std::int32_t decompose(const Outline<double>&, ArrayView<std::ui
                                        ArrayView<std::uint16_t>);
 extern template std::int32_t decompose(const Outline<Fixed>&, ArrayView<std::uint16_t>,
                                        ArrayView<std::uint16_t>);
+extern template std::int32_t decompose(const Outline<SmallFixed>&, ArrayView<std::uint16_t>,
+                                       ArrayView<std::uint16_t>);
 
 }  // namespace weir

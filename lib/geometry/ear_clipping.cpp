@@ -233,8 +233,11 @@ template EarClipper<double> start_clipping(const CornerRing<double>&, CornerLink
                                            ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
 template EarClipper<Fixed> start_clipping(const CornerRing<Fixed>&, CornerLinks,
                                            ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
+template EarClipper<SmallFixed> start_clipping(const CornerRing<SmallFixed>&, CornerLinks,
+                                           ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
 template Ear clip_ear(EarClipper<float>&);
 template Ear clip_ear(EarClipper<double>&);
 template Ear clip_ear(EarClipper<Fixed>&);
+template Ear clip_ear(EarClipper<SmallFixed>&);
 
 }  // namespace weir

@@ -52,8 +52,12 @@ extern template EarClipper<double> start_clipping(const CornerRing<double>&, Cor
 extern template EarClipper<Fixed> start_clipping(const CornerRing<Fixed>&, CornerLinks,
                                                   ArrayView<std::uint16_t>,
                                                   ArrayView<std::uint16_t>);
+extern template EarClipper<SmallFixed> start_clipping(const CornerRing<SmallFixed>&, CornerLinks,
+                                                  ArrayView<std::uint16_t>,
+                                                  ArrayView<std::uint16_t>);
 extern template Ear clip_ear(EarClipper<float>&);
 extern template Ear clip_ear(EarClipper<double>&);
 extern template Ear clip_ear(EarClipper<Fixed>&);
+extern template Ear clip_ear(EarClipper<SmallFixed>&);
 
 }  // namespace weir

@@ -4,47 +4,10 @@ namespace weir {
 
 namespace {
 
-/// A row or a column of a field: `count` entries from `first`, `step` apart.
-struct Line {
-    std::int32_t first;
-    std::int32_t step;
-    std::int32_t count;
-};
-
-Line column(const GridShape& s, std::int32_t i) { return {s.index(i, -1), s.stride, s.ny + 2}; }
-Line row(const GridShape& s, std::int32_t j) { return {s.index(-1, j), 1, s.nx + 2}; }
-
-template <class Real>
-void copy(Real* field, Line to, Line from) {
-    for (std::int32_t k = 0; k < to.count; ++k) {
-        field[to.first + k * to.step] = field[from.first + k * from.step];
-    }
-}
-
-template <class Real>
-void add(Real* field, Line to, Line from) {
-    for (std::int32_t k = 0; k < to.count; ++k) {
-        field[to.first + k * to.step] += field[from.first + k * from.step];
-    }
-}
-
-template <class Real>
-void set_zero(Real* field, Line line) {
-    for (std::int32_t k = 0; k < line.count; ++k) {
-        field[line.first + k * line.step] = Real(0);
-    }
-}
-
-template <class Real>
-void move(Real* field, Line to, Line from) {
-    add(field, to, from);
-    set_zero(field, from);
-}
-
 /// Ghost mass and momentum along a wall, onto the line before it. Without slip the image moves
 /// against the liquid, seen from the wall. `sense`: the axis along which the conveyor runs.
-template <class Real>
-void fold_along(Real* mass, Real* momentum, Line inside, Line ghost, const SurfaceLaw<Real>& wall,
+template <class Mass, class Real>
+void fold_along(Mass* mass, Real* momentum, Line inside, Line ghost, const SurfaceLaw<Real>& wall,
                 Real sense) {
     const Real slide = sense * wall.conveyor;
     for (std::int32_t k = 0; k < inside.count; ++k) {
@@ -54,7 +17,7 @@ void fold_along(Real* mass, Real* momentum, Line inside, Line ghost, const Surfa
             wall.no_slip ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
         mass[to] += mass[from];
         momentum[to] += image;
-        mass[from] = Real(0);
+        mass[from] = Mass(0);
         momentum[from] = Real(0);
     }
 }
@@ -73,22 +36,23 @@ void fold_across(Real* field, Line low, Line high, bool wrap) {
 
 /// `cell`: from a face on the wall to the cell that it belongs to; `inward`: from there to the
 /// next one away from the wall. The first and last entry of the line are ghosts.
-template <class Real>
-void close(Real* velocity, Line wall, const Real* level, std::int32_t cell, std::int32_t inward) {
+template <class Velocity, class Level>
+void close(Velocity* velocity, Line wall, const Level* level, std::int32_t cell,
+           std::int32_t inward) {
     const auto wet = [&](std::int32_t at) {
-        return level[at] > Real(0) || level[at + inward] > Real(0);
+        return level[at] > Level(0) || level[at + inward] > Level(0);
     };
     for (std::int32_t k = 1; k + 1 < wall.count; ++k) {
         const std::int32_t face = wall.first + k * wall.step;
         const std::int32_t at = face + cell;
         if (wet(at) || wet(at - wall.step) || wet(at + wall.step)) {
-            velocity[face] = Real(0);
+            velocity[face] = Velocity(0);
         }
     }
 }
 
-template <class Real>
-void mirror_along(Real* velocity, Line ghost, Line inside, const SurfaceLaw<Real>& wall,
+template <class Velocity, class Real>
+void mirror_along(Velocity* velocity, Line ghost, Line inside, const SurfaceLaw<Real>& wall,
                   Real sense) {
     const Real slide = sense * wall.conveyor;
     for (std::int32_t k = 0; k < ghost.count; ++k) {
@@ -105,33 +69,33 @@ void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
     const std::int32_t right = s.nx - 1;
     const std::int32_t top = s.ny - 1;
     if (b.wrap_y) {
-        Real* const on_u[] = {grid.mass_u, grid.u};
-        for (Real* field : on_u) {
-            move(field, row(s, top), row(s, -1));
-            move(field, row(s, 0), row(s, s.ny));
-        }
+        move(grid.mass_u, row(s, top), row(s, -1));
+        move(grid.mass_u, row(s, 0), row(s, s.ny));
+        move(grid.momentum_u, row(s, top), row(s, -1));
+        move(grid.momentum_u, row(s, 0), row(s, s.ny));
     } else {
-        fold_along(grid.mass_u, grid.u, row(s, 0), row(s, -1), b.bottom, Real(1));
-        fold_along(grid.mass_u, grid.u, row(s, top), row(s, s.ny), b.top, Real(-1));
+        fold_along(grid.mass_u, grid.momentum_u, row(s, 0), row(s, -1), b.bottom, Real(1));
+        fold_along(grid.mass_u, grid.momentum_u, row(s, top), row(s, s.ny), b.top, Real(-1));
     }
     if (b.wrap_x) {
-        Real* const on_v[] = {grid.mass_v, grid.v};
-        for (Real* field : on_v) {
-            move(field, column(s, right), column(s, -1));
-            move(field, column(s, 0), column(s, s.nx));
-        }
+        move(grid.mass_v, column(s, right), column(s, -1));
+        move(grid.mass_v, column(s, 0), column(s, s.nx));
+        move(grid.momentum_v, column(s, right), column(s, -1));
+        move(grid.momentum_v, column(s, 0), column(s, s.nx));
     } else {
-        fold_along(grid.mass_v, grid.v, column(s, 0), column(s, -1), b.left, Real(-1));
-        fold_along(grid.mass_v, grid.v, column(s, right), column(s, s.nx), b.right, Real(1));
+        fold_along(grid.mass_v, grid.momentum_v, column(s, 0), column(s, -1), b.left, Real(-1));
+        fold_along(grid.mass_v, grid.momentum_v, column(s, right), column(s, s.nx), b.right,
+                   Real(1));
     }
     fold_across(grid.mass_u, column(s, 0), column(s, s.nx), b.wrap_x);
-    fold_across(grid.u, column(s, 0), column(s, s.nx), b.wrap_x);
+    fold_across(grid.momentum_u, column(s, 0), column(s, s.nx), b.wrap_x);
     fold_across(grid.mass_v, row(s, 0), row(s, s.ny), b.wrap_y);
-    fold_across(grid.v, row(s, 0), row(s, s.ny), b.wrap_y);
+    fold_across(grid.momentum_v, row(s, 0), row(s, s.ny), b.wrap_y);
 }
 
 template <class Real>
-void fold_counts(const Borders<Real>& b, const GridShape& s, Real* on_u, Real* on_v) {
+void fold_counts(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* on_u,
+                 VelocityOf<Real>* on_v) {
     const std::int32_t right = s.nx - 1;
     const std::int32_t top = s.ny - 1;
     move(on_u, row(s, b.wrap_y ? top : 0), row(s, -1));
@@ -143,7 +107,8 @@ void fold_counts(const Borders<Real>& b, const GridShape& s, Real* on_u, Real* o
 }
 
 template <class Real>
-void extend_velocity(const Borders<Real>& b, const GridShape& s, Real* u, Real* v) {
+void extend_velocity(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* u,
+                     VelocityOf<Real>* v) {
     if (b.wrap_x) {
         copy(u, column(s, s.nx), column(s, 0));
         copy(v, column(s, s.nx), column(s, 0));
@@ -165,32 +130,7 @@ void extend_velocity(const Borders<Real>& b, const GridShape& s, Real* u, Real* 
 }
 
 template <class Real>
-void extend_cells(const Borders<Real>& b, const GridShape& s, Real* field) {
-    if (b.wrap_x) {
-        copy(field, column(s, -1), column(s, s.nx - 1));
-        copy(field, column(s, s.nx), column(s, 0));
-    }
-    if (b.wrap_y) {
-        copy(field, row(s, -1), row(s, s.ny - 1));
-        copy(field, row(s, s.ny), row(s, 0));
-    }
-}
-
-template <class Real>
-void mirror_cells(const Borders<Real>& b, const GridShape& s, Real* field) {
-    if (!b.wrap_x) {
-        copy(field, column(s, -1), column(s, 0));
-        copy(field, column(s, s.nx), column(s, s.nx - 1));
-    }
-    if (!b.wrap_y) {
-        copy(field, row(s, -1), row(s, 0));
-        copy(field, row(s, s.ny), row(s, s.ny - 1));
-    }
-    extend_cells(b, s, field);
-}
-
-template <class Real>
-void close_walls(const Borders<Real>& b, const Real* level, StaggeredGrid<Real>& grid) {
+void close_walls(const Borders<Real>& b, const LevelOf<Real>* level, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     if (!b.wrap_x) {
         close(grid.u, column(s, 0), level, 0, 1);
@@ -204,14 +144,16 @@ void close_walls(const Borders<Real>& b, const Real* level, StaggeredGrid<Real>&
 
 #define WEIR_INSTANTIATE(Real)                                                              \
     template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);                 \
-    template void fold_counts(const Borders<Real>&, const GridShape&, Real*, Real*);        \
-    template void extend_velocity(const Borders<Real>&, const GridShape&, Real*, Real*);    \
-    template void extend_cells(const Borders<Real>&, const GridShape&, Real*);              \
-    template void mirror_cells(const Borders<Real>&, const GridShape&, Real*);              \
-    template void close_walls(const Borders<Real>&, const Real*, StaggeredGrid<Real>&);
+    template void fold_counts(const Borders<Real>&, const GridShape&, VelocityOf<Real>*,    \
+                              VelocityOf<Real>*);                                           \
+    template void extend_velocity(const Borders<Real>&, const GridShape&,                   \
+                                  VelocityOf<Real>*, VelocityOf<Real>*);                    \
+    template void close_walls(const Borders<Real>&, const LevelOf<Real>*,                   \
+                              StaggeredGrid<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -1,7 +1,7 @@
 // What lies beyond the tank: a wall that mirrors the liquid, or the tank's other side.
 #pragma once
 
-#include "grid/staggered_grid.hpp"
+#include "grid/lines.hpp"
 #include "grid/surface_law.hpp"
 
 namespace weir {
@@ -24,23 +24,45 @@ void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
 
 /// The same for a pair of face fields without momentum.
 template <class Real>
-void fold_counts(const Borders<Real>& borders, const GridShape& shape, Real* on_u, Real* on_v);
+void fold_counts(const Borders<Real>& borders, const GridShape& shape,
+                 VelocityOf<Real>* on_u, VelocityOf<Real>* on_v);
 
 /// Before a gather: ghost rows of a velocity take what they mirror or repeat.
 template <class Real>
-void extend_velocity(const Borders<Real>& borders, const GridShape& shape, Real* u, Real* v);
+void extend_velocity(const Borders<Real>& borders, const GridShape& shape,
+                     VelocityOf<Real>* u, VelocityOf<Real>* v);
 
 /// Ghost cells of a cell field take the tank's other side. Walls: nothing is done.
-template <class Real>
-void extend_cells(const Borders<Real>& borders, const GridShape& shape, Real* field);
+template <class Real, class Field>
+inline void extend_cells(const Borders<Real>& b, const GridShape& s, Field* field) {
+    if (b.wrap_x) {
+        copy(field, column(s, -1), column(s, s.nx - 1));
+        copy(field, column(s, s.nx), column(s, 0));
+    }
+    if (b.wrap_y) {
+        copy(field, row(s, -1), row(s, s.ny - 1));
+        copy(field, row(s, s.ny), row(s, 0));
+    }
+}
 
 /// The same, and beyond a wall ghost cells repeat the cell before it.
-template <class Real>
-void mirror_cells(const Borders<Real>& borders, const GridShape& shape, Real* field);
+template <class Real, class Field>
+inline void mirror_cells(const Borders<Real>& b, const GridShape& s, Field* field) {
+    if (!b.wrap_x) {
+        copy(field, column(s, -1), column(s, 0));
+        copy(field, column(s, s.nx), column(s, s.nx - 1));
+    }
+    if (!b.wrap_y) {
+        copy(field, row(s, -1), row(s, 0));
+        copy(field, row(s, s.ny), row(s, s.ny - 1));
+    }
+    extend_cells(b, s, field);
+}
 
 /// Velocity through the walls is 0 where liquid (level > 0) is at or beside the face's cell. Drops
 /// keep theirs: they meet the wall one by one, and bounce as told.
 template <class Real>
-void close_walls(const Borders<Real>& borders, const Real* level, StaggeredGrid<Real>& grid);
+void close_walls(const Borders<Real>& borders, const LevelOf<Real>* level,
+                 StaggeredGrid<Real>& grid);
 
 }  // namespace weir

@@ -3,8 +3,9 @@
 namespace weir {
 
 template <class Real>
-void diffuse(const GridShape& s, const Real* level, std::int32_t back, std::int32_t first_i,
-             std::int32_t first_j, Real amount, const Real* field, Real* out) {
+void diffuse(const GridShape& s, const LevelOf<Real>* level, std::int32_t back,
+             std::int32_t first_i, std::int32_t first_j, Real amount, const VelocityOf<Real>* field,
+             VelocityOf<Real>* out) {
     const auto wet = [&](std::int32_t face) {
         return level[face] > kEmptyLevel<Real> && level[face - back] > kEmptyLevel<Real>;
     };
@@ -35,5 +36,8 @@ template void diffuse(const GridShape&, const double*, std::int32_t, std::int32_
                       double, const double*, double*);
 template void diffuse(const GridShape&, const Fixed*, std::int32_t, std::int32_t, std::int32_t,
                       Fixed, const Fixed*, Fixed*);
+template void diffuse(const GridShape&, const LevelOf<SmallFixed>*, std::int32_t, std::int32_t,
+                      std::int32_t, SmallFixed, const VelocityOf<SmallFixed>*,
+                      VelocityOf<SmallFixed>*);
 
 }  // namespace weir

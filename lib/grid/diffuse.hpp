@@ -10,7 +10,8 @@ namespace weir {
 /// if both its cells have seen a particle; one that does not exerts nothing. Ghost lines of the
 /// field have been extended, of the level mirrored. `out` keeps its value where no liquid is.
 template <class Real>
-void diffuse(const GridShape& shape, const Real* level, std::int32_t back, std::int32_t first_i,
-             std::int32_t first_j, Real amount, const Real* field, Real* out);
+void diffuse(const GridShape& shape, const LevelOf<Real>* level, std::int32_t back,
+             std::int32_t first_i, std::int32_t first_j, Real amount, const VelocityOf<Real>* field,
+             VelocityOf<Real>* out);
 
 }  // namespace weir

@@ -26,14 +26,16 @@ inline constexpr Real kEmptyLevel = Real(-1.5);
 template <class Real>
 struct StaggeredGrid {
     GridShape shape;
-    Real* u = nullptr;       ///< momentum, then velocity, cells/s
-    Real* v = nullptr;
-    Real* mass_u = nullptr;  ///< in particles; free for reuse once velocity is known
-    Real* mass_v = nullptr;
+    VelocityOf<Real>* u = nullptr;       ///< cells/s
+    VelocityOf<Real>* v = nullptr;
+    VelocityOf<Real>* mass_u = nullptr;  ///< in particles; free for reuse once velocity is known
+    VelocityOf<Real>* mass_v = nullptr;
+    Real* momentum_u = nullptr;  ///< where u will be, and as often twice as large
+    Real* momentum_v = nullptr;
     /// With two liquids, where mass_u and mass_v only count: mass, then, once velocity is known,
     /// volume over mass. A particle of the first liquid has mass and volume 1. Null: one liquid.
-    Real* inverse_density_u = nullptr;
-    Real* inverse_density_v = nullptr;
+    VelocityOf<Real>* inverse_density_u = nullptr;
+    VelocityOf<Real>* inverse_density_v = nullptr;
     /// Room for two fields, free during both transfers, and a promise that mass_u stands behind u
     /// and mass_v behind v: loops in lanes keep two numbers a face side by side. Null: plain loops.
     Real* pairs = nullptr;
@@ -67,9 +69,9 @@ inline Stencil<Real> stencil_v(const GridShape& shape, Vec2<Real> point) {
             point.y - static_cast<Real>(j)};
 }
 
-template <class Real>
-inline Real interpolate(const Real* field, std::int32_t stride, const Stencil<Real>& at) {
-    const Real* p = field + at.base;
+template <class Field, class Real>
+inline Real interpolate(const Field* field, std::int32_t stride, const Stencil<Real>& at) {
+    const Field* p = field + at.base;
     const Real low = p[0] + at.fx * (p[1] - p[0]);
     const Real high = p[stride] + at.fx * (p[stride + 1] - p[stride]);
     return low + at.fy * (high - low);

@@ -183,7 +183,8 @@ constexpr bool operator>=(WideFixed<S> a, WideFixed<S> b) { return a.raw >= b.ra
 template <class S>
 inline FixedPoint<16, S> square_root(WideFixed<S> value) {
     const std::uint32_t root = fixed::square_root(static_cast<std::uint64_t>(value.raw));
-    return FixedPoint<16, S>::of_raw(root > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(root));
+    return FixedPoint<16, S>::of_raw(root > 0x7FFFFFFFU ? kMostRaw
+                                                        : static_cast<std::int32_t>(root));
 }
 template <class S>
 inline FixedPoint<16, S> operator/(WideFixed<S> a, FixedPoint<16, S> b) {

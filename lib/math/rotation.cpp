@@ -14,11 +14,11 @@ struct HalfPi<float> {
     static constexpr float middle = 4.837512969970703125e-4F;
     static constexpr float low = 7.54978995489188216e-8F;
 };
-template <>
-struct HalfPi<Fixed> {
-    static constexpr Fixed high{1.57079632679489662};
-    static constexpr Fixed middle{};
-    static constexpr Fixed low{};
+template <class S>
+struct HalfPi<FixedPoint<16, S>> {
+    static constexpr FixedPoint<16, S> high{1.57079632679489662};
+    static constexpr FixedPoint<16, S> middle{};
+    static constexpr FixedPoint<16, S> low{};
 };
 template <>
 struct HalfPi<double> {
@@ -63,6 +63,7 @@ Rotation<Real> rotation(Real angle_rad) {
 
 template Rotation<float> rotation(float);
 template Rotation<Fixed> rotation(Fixed);
+template Rotation<SmallFixed> rotation(SmallFixed);
 template Rotation<double> rotation(double);
 
 }  // namespace weir

@@ -32,5 +32,6 @@ Rotation<Real> rotation(Real angle_rad);
 extern template Rotation<float> rotation(float);
 extern template Rotation<double> rotation(double);
 extern template Rotation<Fixed> rotation(Fixed);
+extern template Rotation<SmallFixed> rotation(SmallFixed);
 
 }  // namespace weir

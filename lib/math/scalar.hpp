@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "math/fixed.hpp"
+#include "math/packed.hpp"
 
 #if defined(__FAST_MATH__)
 #error "weir needs strict floating point: remove -ffast-math (or -Ofast) for its sources"

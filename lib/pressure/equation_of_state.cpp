@@ -51,5 +51,8 @@ template void equation_of_state(const Borders<double>&, const Walls<double>&, do
                                 StaggeredGrid<double>&, PressureFields<double>&);
 template void equation_of_state(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
                                 StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
+template void equation_of_state(const Borders<SmallFixed>&, const Walls<SmallFixed>&,
+                                Seconds<SmallFixed>, SmallFixed, StaggeredGrid<SmallFixed>&,
+                                PressureFields<SmallFixed>&);
 
 }  // namespace weir

@@ -22,13 +22,13 @@ struct FaceWeights {
     const Borders<Real>& borders;
     const Walls<Real>& walls;
 
-    Real open_u(std::int32_t face) const { return Solids ? walls.open_u[face] : Real(1); }
-    Real open_v(std::int32_t face) const { return Solids ? walls.open_v[face] : Real(1); }
+    Real open_u(std::int32_t face) const { return Solids ? Real(walls.open_u[face]) : Real(1); }
+    Real open_v(std::int32_t face) const { return Solids ? Real(walls.open_v[face]) : Real(1); }
     Real light_u(std::int32_t face) const {
-        return Mixed ? grid.inverse_density_u[face] : Real(1);
+        return Mixed ? Real(grid.inverse_density_u[face]) : Real(1);
     }
     Real light_v(std::int32_t face) const {
-        return Mixed ? grid.inverse_density_v[face] : Real(1);
+        return Mixed ? Real(grid.inverse_density_v[face]) : Real(1);
     }
     Real u(std::int32_t face) const {
         return Solids && Mixed ? open_u(face) * light_u(face)

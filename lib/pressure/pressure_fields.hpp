@@ -26,10 +26,10 @@ struct CoarseGrid {
 template <class Real>
 struct PressureFields {
     Real* pressure = nullptr;          ///< dt · p / ρ (the first liquid's), cells²/s; 0 in air
-    Real* divergence = nullptr;        ///< net flow out of the cell, cells/s
-    Real* inverse_diagonal = nullptr;  ///< 0 where the cell is not liquid
-    Real* density = nullptr;           ///< 1 = full at rest
-    Real* level = nullptr;             ///< height of the surface over the centre, cells; > 0 liquid
+    VelocityOf<Real>* divergence = nullptr;        ///< net flow out of the cell, cells/s
+    VelocityOf<Real>* inverse_diagonal = nullptr;  ///< 0 where the cell is not liquid
+    DensityOf<Real>* density = nullptr;            ///< 1 = full at rest
+    LevelOf<Real>* level = nullptr;    ///< height of the surface over the centre, cells; > 0 liquid
     CoarseGrid<Real> coarse;
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for

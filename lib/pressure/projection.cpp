@@ -2,6 +2,7 @@
 
 #include "pressure/coarse_correction.hpp"
 #include "pressure/relax_lanes.hpp"
+#include "pressure/relax_packed.hpp"
 
 namespace weir {
 
@@ -16,7 +17,7 @@ constexpr Real kRelaxation = Real(1.4);
 
 /// One face of a cell: how much it adds to the diagonal.
 template <class Real>
-inline Real face_coefficient(Real weight, Real level, Real neighbour_level) {
+inline Real face_coefficient(Real weight, Real level, SameAs<Real> neighbour_level) {
     return neighbour_level > Real(0) ? weight : weight / liquid_fraction(level, neighbour_level);
 }
 
@@ -81,12 +82,16 @@ Rows build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
                                surface_share(w.upper, level, up, fields));
             }
             fields.divergence[c] = divergence;
-            // The sign tells which cells a wall touches.
-            fields.inverse_diagonal[c] =
-                Real(Solids && !untouched(walls, c, up) ? -1 : 1) / diagonal;
+            // The sign tells `relax` which cells a wall touches.
+            const Real sign = Real(Solids && !untouched(walls, c, up) ? -1 : 1);
+            if constexpr (Stored<Real>::shares_momentum) {
+                fields.inverse_diagonal[c] = sign * diagonal;  // relax_packed.hpp
+            } else {
+                fields.inverse_diagonal[c] = sign / diagonal;
+            }
             // A number that is none would stay for ever: the solve starts from the last pressure.
             const Real start = fields.pressure[c] * rescale;
-            fields.pressure[c] = is_finite(start) ? start : Real(0);
+            fields.pressure[c] = is_finite(start) ? bounded(start) : Real(0);
             rows = {minimum(rows.low, j), j};
         }
     }
@@ -118,8 +123,8 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
 
 /// u −= 1/density · ∂p/∂x on the face between two neighbouring cells. `open` null: no solids.
 template <class Real>
-inline void accelerate(Real* velocity, std::int32_t face, std::int32_t before, Real light,
-                       const Real* open, const PressureFields<Real>& fields) {
+inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32_t before,
+                       Real light, const ShareOf<Real>* open, const PressureFields<Real>& fields) {
     const Real level_before = fields.level[before];
     const Real level_after = fields.level[face];
     const bool liquid_before = level_before > Real(0);
@@ -139,8 +144,8 @@ template <bool Solids, bool Mixed, class Real>
 void project(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFields<Real>& fields,
              StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
-    const Real* open_u = Solids ? weights.walls.open_u : nullptr;
-    const Real* open_v = Solids ? weights.walls.open_v : nullptr;
+    const ShareOf<Real>* open_u = Solids ? weights.walls.open_u : nullptr;
+    const ShareOf<Real>* open_v = Solids ? weights.walls.open_v : nullptr;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
@@ -160,14 +165,18 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
            PressureFields<Real>& fields) {
     const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
     const Rows rows = build(weights, rescale, fields);
-    set_up_coarse(weights, fields);
     extend_cells(borders, grid.shape, fields.pressure);
-    for (std::int32_t cycle = 0; cycle < cycles; ++cycle) {
-        correct_coarse(weights, fields);
-        extend_cells(borders, grid.shape, fields.pressure);
-        for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
-            relax(weights, rows, half_sweep & 1, fields);
+    if constexpr (Stored<Real>::shares_momentum) {
+        relax_packed(weights, rows.low, rows.high, cycles * (sweeps + kSweepsForCoarse), fields);
+    } else {
+        set_up_coarse(weights, fields);
+        for (std::int32_t cycle = 0; cycle < cycles; ++cycle) {
+            correct_coarse(weights, fields);
             extend_cells(borders, grid.shape, fields.pressure);
+            for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
+                relax(weights, rows, half_sweep & 1, fields);
+                extend_cells(borders, grid.shape, fields.pressure);
+            }
         }
     }
     project(weights, fields, grid);
@@ -199,5 +208,7 @@ template void projection(const Borders<double>&, const Walls<double>&, double, s
                          StaggeredGrid<double>&, PressureFields<double>&);
 template void projection(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, std::int32_t,
                          StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
+template void projection(const Borders<SmallFixed>&, const Walls<SmallFixed>&, Seconds<SmallFixed>,
+                         std::int32_t, StaggeredGrid<SmallFixed>&, PressureFields<SmallFixed>&);
 
 }  // namespace weir

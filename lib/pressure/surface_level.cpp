@@ -44,7 +44,7 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
 
 template <class Real>
 bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
-                const Real* level, std::int32_t i, std::int32_t j) {
+                const LevelOf<Real>* level, std::int32_t i, std::int32_t j) {
     const std::int32_t c = s.index(i, j);
     Real open = Real(0);
     Real covered = Real(0);
@@ -58,10 +58,10 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
         }
     };
     const bool cut = walls.active;
-    face(i > 0 || borders.wrap_x, cut ? walls.open_u[c] : Real(1), c - 1);
-    face(i + 1 < s.nx || borders.wrap_x, cut ? walls.open_u[c + 1] : Real(1), c + 1);
-    face(j > 0 || borders.wrap_y, cut ? walls.open_v[c] : Real(1), c - s.stride);
-    face(j + 1 < s.ny || borders.wrap_y, cut ? walls.open_v[c + s.stride] : Real(1),
+    face(i > 0 || borders.wrap_x, cut ? Real(walls.open_u[c]) : Real(1), c - 1);
+    face(i + 1 < s.nx || borders.wrap_x, cut ? Real(walls.open_u[c + 1]) : Real(1), c + 1);
+    face(j > 0 || borders.wrap_y, cut ? Real(walls.open_v[c]) : Real(1), c - s.stride);
+    face(j + 1 < s.ny || borders.wrap_y, cut ? Real(walls.open_v[c + s.stride]) : Real(1),
          c + s.stride);
     return open > Real(0) && covered >= kFilledShare<Real> * open;
 }
@@ -108,11 +108,14 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
 template float level_of_density(float);
 template double level_of_density(double);
 template Fixed level_of_density(Fixed);
+template SmallFixed level_of_density(SmallFixed);
 template void surface_level(const StaggeredGrid<float>&, const Borders<float>&,
                             const Walls<float>&, float, PressureFields<float>&);
 template void surface_level(const StaggeredGrid<double>&, const Borders<double>&,
                             const Walls<double>&, double, PressureFields<double>&);
 template void surface_level(const StaggeredGrid<Fixed>&, const Borders<Fixed>&,
                             const Walls<Fixed>&, Fixed, PressureFields<Fixed>&);
+template void surface_level(const StaggeredGrid<SmallFixed>&, const Borders<SmallFixed>&,
+                            const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&);
 
 }  // namespace weir

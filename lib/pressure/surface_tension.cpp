@@ -18,17 +18,17 @@ constexpr Real kFlat = Real(1.0e-6);
 
 /// One axis of the smoothing, `step` from cell to cell. Deep in a solid nothing is known: its
 /// neighbour's own value stands there.
-template <class Real>
-void smooth(const GridShape& s, const Walls<Real>& walls, std::int32_t step, const Real* from,
-            Real* to) {
+template <class Field, class Real>
+void smooth(const GridShape& s, const Walls<Real>& walls, std::int32_t step, const Field* from,
+            VelocityOf<Real>* to) {
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            const Real here = minimum(from[c], Real(1));
+            const Real here = minimum(Real(from[c]), Real(1));
             const auto at = [&](std::int32_t n, bool inside) {
                 const bool unknown =
                     walls.active && inside && walls.full_density[n] < kLeastFullDensity<Real>;
-                return unknown ? here : minimum(from[n], Real(1));
+                return unknown ? here : minimum(Real(from[n]), Real(1));
             };
             const bool along_x = step == 1;
             const Real before = at(c - step, along_x ? i > 0 : j > 0);
@@ -40,7 +40,7 @@ void smooth(const GridShape& s, const Walls<Real>& walls, std::int32_t step, con
 
 /// κ = −(fxx fy² − 2 fx fy fxy + fyy fx²) / |∇f|³ at a cell's centre, from its 3 × 3 cells.
 template <class Real>
-Real curvature(const GridShape& s, const Real* f, std::int32_t c) {
+Real curvature(const GridShape& s, const VelocityOf<Real>* f, std::int32_t c) {
     const std::int32_t up = c + s.stride;
     const std::int32_t down = c - s.stride;
     const Real fx = Real(0.5) * (f[c + 1] - f[c - 1]);
@@ -59,7 +59,8 @@ Real curvature(const GridShape& s, const Real* f, std::int32_t c) {
 
 /// Mean curvature of the surface between an air cell and the liquid cells beside it.
 template <class Real>
-Real surface_curvature(const GridShape& s, const Real* f, const Real* level, std::int32_t air) {
+Real surface_curvature(const GridShape& s, const VelocityOf<Real>* f, const LevelOf<Real>* level,
+                       std::int32_t air) {
     const std::int32_t around[] = {air - 1, air + 1, air - s.stride, air + s.stride};
     Real sum = Real(0);
     Real count = Real(0);
@@ -68,8 +69,8 @@ Real surface_curvature(const GridShape& s, const Real* f, const Real* level, std
         if (!(level[liquid] > Real(0))) {
             continue;
         }
-        in_air = count > Real(0) ? in_air : curvature(s, f, air);
-        const Real in_liquid = curvature(s, f, liquid);
+        in_air = count > Real(0) ? in_air : curvature<Real>(s, f, air);
+        const Real in_liquid = curvature<Real>(s, f, liquid);
         const Real way = level[liquid] / (level[liquid] - level[air]);
         sum += in_liquid + way * (in_air - in_liquid);
         count += Real(1);
@@ -82,8 +83,8 @@ Real surface_curvature(const GridShape& s, const Real* f, const Real* level, std
 template <class Real>
 void surface_tension(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
                      Real amount, PressureFields<Real>& fields) {
-    Real* f = fields.divergence;
-    Real* between = fields.inverse_diagonal;
+    VelocityOf<Real>* f = fields.divergence;
+    VelocityOf<Real>* between = fields.inverse_diagonal;
     mirror_cells(borders, s, fields.density);
     smooth(s, walls, 1, fields.density, between);
     mirror_cells(borders, s, between);
@@ -93,7 +94,7 @@ void surface_tension(const GridShape& s, const Borders<Real>& borders, const Wal
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             if (!(fields.level[c] > Real(0))) {
-                fields.pressure[c] = amount * surface_curvature(s, f, fields.level, c);
+                fields.pressure[c] = amount * surface_curvature<Real>(s, f, fields.level, c);
             }
         }
     }
@@ -107,5 +108,7 @@ template void surface_tension(const GridShape&, const Borders<double>&, const Wa
                               double, PressureFields<double>&);
 template void surface_tension(const GridShape&, const Borders<Fixed>&, const Walls<Fixed>&,
                               Fixed, PressureFields<Fixed>&);
+template void surface_tension(const GridShape&, const Borders<SmallFixed>&,
+                              const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&);
 
 }  // namespace weir

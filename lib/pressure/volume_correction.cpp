@@ -42,8 +42,8 @@ inline Real expected_deficit(Real lowest) {
 template <class Real>
 inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32_t c) {
     const Real e = f.density[c] - Real(1);
-    const Real lowest = minimum(minimum(f.level[c - 1], f.level[c + 1]),
-                                minimum(f.level[c - s.stride], f.level[c + s.stride]));
+    const Real lowest = minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
+                                      minimum<Real>(f.level[c - s.stride], f.level[c + s.stride]));
     if (f.level[c] > Real(0) && lowest > Real(0)) {
         const Real expected = f.on_surface ? Real(0) : expected_deficit(lowest);
         return clamp(e + expected, -kWindow<Real>, kWindow<Real>);
@@ -63,7 +63,7 @@ Real patch_excess(const GridShape& s, const Walls<Real>& walls, const PressureFi
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
             open = open || walls.full_density[c] > Real(0);
             if (f.level[c] > Real(0)) {
-                sum += clamp(f.divergence[c], -kCellWindow<Real>, kCellWindow<Real>);
+                sum += clamp<Real>(f.divergence[c], -kCellWindow<Real>, kCellWindow<Real>);
                 count += 1;
             }
         }
@@ -97,7 +97,7 @@ void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
            const PressureFields<Real>& fields, const Patch& patch, StaggeredGrid<Real>& grid) {
     static_assert(kCoarseEdge == 4, "rises() knows four faces");
     const GridShape& s = grid.shape;
-    const Real* e = fields.divergence;
+    const VelocityOf<Real>* e = fields.divergence;
     Real along_x[kCoarseEdge];
     Real along_y[kCoarseEdge];
     rises(fields.coarse.correction, patch.q, 1, along_x);
@@ -149,5 +149,8 @@ template void volume_correction(const Borders<double>&, const Walls<double>&, do
                                 PressureFields<double>&, StaggeredGrid<double>&);
 template void volume_correction(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
                                 PressureFields<Fixed>&, StaggeredGrid<Fixed>&);
+template void volume_correction(const Borders<SmallFixed>&, const Walls<SmallFixed>&,
+                                Seconds<SmallFixed>, SmallFixed, PressureFields<SmallFixed>&,
+                                StaggeredGrid<SmallFixed>&);
 
 }  // namespace weir

@@ -112,6 +112,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -14,7 +14,7 @@ constexpr Real kFastestWayOut = Real(1);
 
 /// Where a particle is put: this far in front of the wall, so that it is not found behind it again.
 template <class Real>
-constexpr Real kClearance = Real(1.0 / 1024.0);
+constexpr Real kClearance = Real(Stored<Real>::coarse ? 1.0 / 64.0 : 1.0 / 1024.0);
 
 /// In a corner a particle that is set back to one wall may be behind the next: so often.
 constexpr std::int32_t kMostWalls = 4;
@@ -227,7 +227,8 @@ bool is_far(Vec2<Real> before, Vec2<Real> x) {
 /// A particle near a wall. False: it has no way out.
 template <class Real>
 bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
-    const Standing<Real> at = standing(scene.shape, scene.walls, scene.particles.position[k]);
+    const Vec2<Real> x = scene.particles.position[k];
+    const Standing<Real> at = standing(scene.shape, scene.walls, x);
     scene.result.tested += at.which != kCellOutside ? 1 : 0;
     if (scene.walls.binary) {
         scene.result.reflected += at.inside ? 1 : 0;
@@ -274,11 +275,12 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
         }
         const std::int32_t k = first + n;
         const Vec2<Real> x = particles.position[k];
-        const bool far = flight.far && is_far(flight.before[n], x);
+        const Vec2<Real> before = flight.before[n];
+        const bool far = flight.far && is_far(before, x);
         if (case_at(shape, walls, x) == kCellOutside && !far) {
             continue;
         }
-        if (!meet(scene, k, flight.before[n], far)) {
+        if (!meet(scene, k, before, far)) {
             ++result.removed;
             particles.remove(k);
         }
@@ -298,6 +300,7 @@ bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> p
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -14,7 +14,8 @@ inline constexpr std::int32_t kBlock = 32;
 /// Where the particles of a block come from.
 template <class Real>
 struct Flight {
-    const Vec2<Real>* before = nullptr;  ///< their places at the beginning of the substep
+    /// Their places at the beginning of the substep.
+    const Vec2<PositionOf<Real>>* before = nullptr;
     bool far = false;                    ///< one of them moved further than a cell along an axis
     Seconds<Real> dt_s{};
 };

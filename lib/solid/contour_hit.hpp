@@ -24,8 +24,8 @@ CellView<Real> cell_of(const GridShape& s, const Walls<Real>& walls, Vec2<Real> 
     CellView<Real> cell;
     cell.node = s.index(i, j);
     cell.local = {x.x - static_cast<Real>(i), x.y - static_cast<Real>(j)};
-    const Real* low = walls.distance + cell.node;
-    const Real* high = low + s.stride;
+    const DistanceOf<Real>* low = walls.distance + cell.node;
+    const DistanceOf<Real>* high = low + s.stride;
     cell.corner[0] = low[0];
     cell.corner[1] = low[1];
     cell.corner[2] = high[1];

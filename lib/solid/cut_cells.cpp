@@ -23,7 +23,7 @@ struct Corners {
 
 template <class Real>
 Corners<Real> corners_of(const GridShape& s, const Walls<Real>& walls, std::int32_t cell) {
-    const Real* low = walls.distance + cell;
+    const DistanceOf<Real>* low = walls.distance + cell;
     return {{low[0], low[1], low[s.stride + 1], low[s.stride]}};
 }
 
@@ -37,7 +37,7 @@ constexpr bool is_cut(std::uint8_t solid_nodes) {
 /// Cases of the cells whose nodes changed, and the faces around them.
 template <class Real>
 void contour_matrix(const GridShape& s, const NodeBox& cells, Walls<Real>& walls) {
-    const Real* d = walls.distance;
+    const DistanceOf<Real>* d = walls.distance;
     // The bits of a node and of the one above it, as they stand on the left side of a case.
     const auto side = [&](std::int32_t node) {
         return (d[node] <= Real(0) ? 1U : 0U) | (d[node + s.stride] <= Real(0) ? 8U : 0U);
@@ -52,20 +52,21 @@ void contour_matrix(const GridShape& s, const NodeBox& cells, Walls<Real>& walls
             walls.cell_case[c] = solid_nodes;
             const bool cut = is_cut(solid_nodes);
             const Real whole = Real(solid_nodes == kOpen ? 1 : 0);
-            walls.open_u[c] = cut ? open_fraction(d[c], d[c + s.stride]) : whole;
-            walls.open_v[c] = cut ? open_fraction(d[c], d[c + 1]) : whole;
+            walls.open_u[c] = cut ? open_fraction<Real>(d[c], d[c + s.stride]) : whole;
+            walls.open_v[c] = cut ? open_fraction<Real>(d[c], d[c + 1]) : whole;
             left = right;
         }
-        walls.open_u[c] = open_fraction(d[c], d[c + s.stride]);
+        walls.open_u[c] = open_fraction<Real>(d[c], d[c + s.stride]);
     }
     const std::int32_t top = s.index(cells.i1, cells.j1 + 1);
     for (std::int32_t c = s.index(cells.i0, cells.j1 + 1); c <= top; ++c) {
-        walls.open_v[c] = open_fraction(d[c], d[c + 1]);
+        walls.open_v[c] = open_fraction<Real>(d[c], d[c + 1]);
     }
 }
 
 template <class Real>
-void open_areas(const GridShape& s, const NodeBox& cells, const Walls<Real>& walls, Real* area) {
+void open_areas(const GridShape& s, const NodeBox& cells, const Walls<Real>& walls,
+                VelocityOf<Real>* area) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         const std::int32_t last = s.index(cells.i1, j);
         for (std::int32_t c = s.index(cells.i0, j); c <= last; ++c) {
@@ -80,7 +81,7 @@ void open_areas(const GridShape& s, const NodeBox& cells, const Walls<Real>& wal
 }
 
 template <class Real>
-void close_slivers(const GridShape& s, const NodeBox& cells, const Real* area,
+void close_slivers(const GridShape& s, const NodeBox& cells, const VelocityOf<Real>* area,
                    Walls<Real>& walls) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         const std::int32_t last = s.index(cells.i1, j);
@@ -98,7 +99,8 @@ void close_slivers(const GridShape& s, const NodeBox& cells, const Real* area,
 /// The kernel with which particles reach a cell's density, over the open areas around it: what
 /// the cell shows when they are full. At the tank's walls the areas are mirrored, as masses are.
 template <class Real>
-Real full_density(const GridShape& s, const Real* area, std::int32_t i, std::int32_t j) {
+Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t i,
+                  std::int32_t j) {
     const std::int32_t left = maximum(0, i - 1);
     const std::int32_t right = minimum(s.nx - 1, i + 1);
     const std::int32_t low = maximum(0, j - 1);
@@ -119,7 +121,8 @@ struct Column {
 
 /// What is around a cell: full densities, and whether a wall is near.
 template <class Real>
-void look_around(const GridShape& s, const NodeBox& cells, const Real* area, Walls<Real>& walls) {
+void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real>* area,
+                 Walls<Real>& walls) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         const std::int32_t below = j > 0 ? -s.stride : 0;
         const std::int32_t above = j + 1 < s.ny ? s.stride : 0;
@@ -137,7 +140,7 @@ void look_around(const GridShape& s, const NodeBox& cells, const Real* area, Wal
             const std::uint32_t any = left.any | middle.any | right.any;
             const bool near = any != kOpen && (left.all & middle.all & right.all) != kSolid;
             walls.full_density[s.index(i, j)] =
-                near ? full_density(s, area, i, j) : Real(any == kOpen ? 1 : 0);
+                near ? full_density<Real>(s, area, i, j) : Real(any == kOpen ? 1 : 0);
             mark_near(walls, s, i, j, near);
             left = middle;
             middle = right;
@@ -148,7 +151,7 @@ void look_around(const GridShape& s, const NodeBox& cells, const Real* area, Wal
 }  // namespace
 
 template <class Real>
-void update_cut_cells(const GridShape& shape, const NodeBox& nodes, Real* scratch,
+void update_cut_cells(const GridShape& shape, const NodeBox& nodes, VelocityOf<Real>* scratch,
                       Walls<Real>& walls) {
     // Changed nodes reach the faces around them, the slivers beside those, and by the density
     // kernel one cell more, for which areas are wanted one further still.
@@ -162,5 +165,7 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, Real* scratc
 template void update_cut_cells(const GridShape&, const NodeBox&, float*, Walls<float>&);
 template void update_cut_cells(const GridShape&, const NodeBox&, double*, Walls<double>&);
 template void update_cut_cells(const GridShape&, const NodeBox&, Fixed*, Walls<Fixed>&);
+template void update_cut_cells(const GridShape&, const NodeBox&, VelocityOf<SmallFixed>*,
+                               Walls<SmallFixed>&);
 
 }  // namespace weir

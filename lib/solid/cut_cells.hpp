@@ -9,7 +9,7 @@ namespace weir {
 /// box. Reads the merged distances. `scratch`: a cell field, overwritten.
 /// Cost: about 60 operations a cell of the box.
 template <class Real>
-void update_cut_cells(const GridShape& shape, const NodeBox& nodes, Real* scratch,
+void update_cut_cells(const GridShape& shape, const NodeBox& nodes, VelocityOf<Real>* scratch,
                       Walls<Real>& walls);
 
 }  // namespace weir

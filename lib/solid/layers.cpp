@@ -30,14 +30,14 @@ NodeBox reach(const GridShape& shape, const BodyTable<Real>& table, const Body<R
 
 template <class Real>
 std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot,
-                  const NodeBox& box, Real* distance, std::uint16_t* nearest) {
+                  const NodeBox& box, DistanceOf<Real>* distance, std::uint16_t* nearest) {
     const Body<Real>& body = table.body[slot];
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
     const RasterPolygon<Real> polygon{table.outline(body), static_cast<std::uint16_t>(slot),
                                       {{}, size}};
     const NodeField<Real> field{distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
     return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>,
-                     layers.scratch, field);
+                     layers.nodes, field);
 }
 
 /// Copies the static layer into the merged one.
@@ -249,6 +249,7 @@ void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

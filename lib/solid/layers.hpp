@@ -13,10 +13,11 @@ template <class Real>
 struct Layers {
     GridShape shape;
     Contour contour = Contour::interpolated;
-    Real* static_distance = nullptr;
+    DistanceOf<Real>* static_distance = nullptr;
     std::uint16_t* static_nearest = nullptr;
     Walls<Real> walls;        ///< the merged layer
-    Real* scratch = nullptr;  ///< a cell field that is free between steps
+    Real* nodes = nullptr;                ///< a node field that is free before a substep
+    VelocityOf<Real>* scratch = nullptr;  ///< a cell field that is free between steps
 };
 
 /// Empties both layers: no solid anywhere.

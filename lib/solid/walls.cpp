@@ -27,5 +27,7 @@ Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
 template float wall_flow(const GridShape&, const Walls<float>&, std::int32_t, std::int32_t);
 template double wall_flow(const GridShape&, const Walls<double>&, std::int32_t, std::int32_t);
 template Fixed wall_flow(const GridShape&, const Walls<Fixed>&, std::int32_t, std::int32_t);
+template SmallFixed wall_flow(const GridShape&, const Walls<SmallFixed>&, std::int32_t,
+                              std::int32_t);
 
 }  // namespace weir

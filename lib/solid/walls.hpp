@@ -19,12 +19,12 @@ struct Walls {
     bool active = false;
     bool moving = false;                ///< a body has a velocity or a spin
     bool binary = false;                ///< Contour::mid_edge
-    Real* distance = nullptr;           ///< signed distance at nodes, cells, negative inside
+    DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
     std::uint16_t* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell
-    Real* open_u = nullptr;             ///< open fraction of the u face, 0 … 1
-    Real* open_v = nullptr;
-    Real* full_density = nullptr;       ///< density that a cell shows when all around it is full
+    ShareOf<Real>* open_u = nullptr;    ///< open fraction of the u face, 0 … 1
+    ShareOf<Real>* open_v = nullptr;
+    ShareOf<Real>* full_density = nullptr;  ///< density of a cell when all around it is full
     std::uint32_t* near = nullptr;      ///< a bit a cell: it or one around it is cut by a wall
     const Body<Real>* body = nullptr;
 };

@@ -75,6 +75,7 @@ bool nearest_free_place(const GridShape& s, const Walls<Real>& walls, Vec2<Real>
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -37,7 +37,7 @@ Mirror<Real> mirror_of(const GridShape& s, Vec2<Real> face, Real distance, Vec2<
 
 /// Whether the point's cell or one around it holds liquid.
 template <class Real>
-bool near_liquid(const GridShape& s, const Real* level, Vec2<Real> point) {
+bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> point) {
     const auto i = static_cast<std::int32_t>(point.x);
     const auto j = static_cast<std::int32_t>(point.y);
     for (std::int32_t row = maximum(j - 1, 0); row <= minimum(j + 1, s.ny - 1); ++row) {
@@ -62,12 +62,12 @@ Vec2<Real> mirrored(const StaggeredGrid<Real>& grid, const Mirror<Real>& mirror,
 }
 
 template <class Real>
-Real mirror_u(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
+Real mirror_u(const Walls<Real>& walls, const LevelOf<Real>* level, std::int32_t i, std::int32_t j,
               const StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const std::int32_t low = s.index(i, j);
     const std::int32_t high = low + s.stride;
-    const Real* d = walls.distance;
+    const DistanceOf<Real>* d = walls.distance;
     const Real distance = Real(0.5) * (d[low] + d[high]);
     if (walls.open_u[low] > Real(0) || distance < kDeepest<Real>) {
         return grid.u[low];
@@ -81,12 +81,12 @@ Real mirror_u(const Walls<Real>& walls, const Real* level, std::int32_t i, std::
 }
 
 template <class Real>
-Real mirror_v(const Walls<Real>& walls, const Real* level, std::int32_t i, std::int32_t j,
+Real mirror_v(const Walls<Real>& walls, const LevelOf<Real>* level, std::int32_t i, std::int32_t j,
               const StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const std::int32_t left = s.index(i, j);
     const std::int32_t right = left + 1;
-    const Real* d = walls.distance;
+    const DistanceOf<Real>* d = walls.distance;
     const Real distance = Real(0.5) * (d[left] + d[right]);
     if (walls.open_v[left] > Real(0) || distance < kDeepest<Real>) {
         return grid.v[left];
@@ -106,7 +106,7 @@ template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
-    const Real* level = fields.level;
+    const LevelOf<Real>* level = fields.level;
     // All are computed before the first is written: they read each other.
     std::int32_t count = 0;
     for_each_near(s, walls, [&](std::int32_t i, std::int32_t j) {
@@ -130,5 +130,7 @@ template void mirror_in_solids(const Walls<double>&, PressureFields<double>&,
                                StaggeredGrid<double>&);
 template void mirror_in_solids(const Walls<Fixed>&, PressureFields<Fixed>&,
                                StaggeredGrid<Fixed>&);
+template void mirror_in_solids(const Walls<SmallFixed>&, PressureFields<SmallFixed>&,
+                               StaggeredGrid<SmallFixed>&);
 
 }  // namespace weir

@@ -22,9 +22,9 @@ struct Sample {
 };
 
 /// Bilinear value and its gradient, per cell.
-template <class Real>
-inline Sample<Real> sample(const Real* field, std::int32_t stride, const Stencil<Real>& at) {
-    const Real* p = field + at.base;
+template <class Field, class Real>
+inline Sample<Real> sample(const Field* field, std::int32_t stride, const Stencil<Real>& at) {
+    const Field* p = field + at.base;
     const Real low_slope = p[1] - p[0];
     const Real high_slope = p[stride + 1] - p[stride];
     const Real low = p[0] + at.fx * low_slope;
@@ -35,8 +35,9 @@ inline Sample<Real> sample(const Real* field, std::int32_t stride, const Stencil
 
 /// One component: out = field − kSmoothing ∇²field where liquid is all around.
 template <class Real>
-void sharpen(const GridShape& s, const Real* level, std::int32_t back, std::int32_t first_i,
-             std::int32_t first_j, const Real* field, Real* out) {
+void sharpen(const GridShape& s, const LevelOf<Real>* level, std::int32_t back,
+             std::int32_t first_i, std::int32_t first_j, const VelocityOf<Real>* field,
+             VelocityOf<Real>* out) {
     const auto deep = [&](std::int32_t face) {
         return level[face] > Real(0) && level[face - back] > Real(0);
     };
@@ -66,13 +67,13 @@ template <class Real>
 void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
                   StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
-    const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof(Real);
-    Real* sharp_u = fields.divergence;
-    Real* sharp_v = fields.inverse_diagonal;
-    std::memcpy(sharp_u, grid.mass_u, bytes);
-    std::memcpy(sharp_v, grid.mass_v, bytes);
-    sharpen(s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, grid.mass_u, sharp_u);
-    sharpen(s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, grid.mass_v, sharp_v);
+    const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof *grid.mass_u;
+    VelocityOf<Real>* sharp_u = fields.divergence;
+    VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
+    std::memcpy(static_cast<void*>(sharp_u), grid.mass_u, bytes);
+    std::memcpy(static_cast<void*>(sharp_v), grid.mass_v, bytes);
+    sharpen<Real>(s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, grid.mass_u, sharp_u);
+    sharpen<Real>(s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, grid.mass_v, sharp_v);
     extend_velocity(borders, s, sharp_u, sharp_v);
     const Real pic_ratio = Real(1) - flip_ratio;
     for (std::int32_t face = 0; face < s.size(); ++face) {
@@ -141,6 +142,7 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -11,7 +11,7 @@ namespace weir {
 /// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
 template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s,
-                 const Real* level, StaggeredGrid<Real>& grid);
+                 const LevelOf<Real>* level, StaggeredGrid<Real>& grid);
 
 /// Faces in air beside the liquid change their velocity by as much as the liquid's faces next to
 /// them do on average: particles at the surface read both. It is the acceleration that goes on
@@ -19,7 +19,7 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
 /// Surface tension, which feeds on every ripple, wants the braking: `velocity_itself`.
 /// Reads levels of the cells and the velocity before, which stands where the mass was.
 template <class Real>
-void extrapolate(const Borders<Real>& borders, const Real* level, bool velocity_itself,
+void extrapolate(const Borders<Real>& borders, const LevelOf<Real>* level, bool velocity_itself,
                  StaggeredGrid<Real>& grid);
 
 }  // namespace weir

@@ -8,19 +8,20 @@ namespace weir {
 
 namespace {
 
-template <class Real>
-void clear(Real* field, const GridShape& shape) {
-    std::memset(field, 0, static_cast<std::size_t>(shape.size()) * sizeof(Real));
+template <class Field>
+void clear(Field* field, const GridShape& shape) {
+    std::memset(static_cast<void*>(field), 0,
+                static_cast<std::size_t>(shape.size()) * sizeof(Field));
 }
 
-template <class Real>
-inline void scatter(Real* mass, Real* momentum, std::int32_t stride, const Stencil<Real>& at,
+template <class Mass, class Real>
+inline void scatter(Mass* mass, Real* momentum, std::int32_t stride, const Stencil<Real>& at,
                     Real velocity) {
     const Real w1 = at.fx * at.fy;
     const Real right = at.fx - w1;                       // fx (1 − fy)
     const Real upper = at.fy - w1;                       // (1 − fx) fy
     const Real w0 = (Real(1) - at.fx) - upper;           // (1 − fx)(1 − fy)
-    Real* m = mass + at.base;
+    Mass* m = mass + at.base;
     Real* p = momentum + at.base;
     m[0] += w0;
     p[0] += w0 * velocity;
@@ -33,8 +34,8 @@ inline void scatter(Real* mass, Real* momentum, std::int32_t stride, const Stenc
 }
 
 /// The same, and the mass of a particle of that density.
-template <class Real>
-inline void scatter_mixed(Real* volume, Real* mass, Real* momentum, std::int32_t stride,
+template <class Mass, class Real>
+inline void scatter_mixed(Mass* volume, Mass* mass, Real* momentum, std::int32_t stride,
                           const Stencil<Real>& at, Real density, Real velocity) {
     const Real w1 = at.fx * at.fy;
     const Real right = at.fx - w1;
@@ -53,8 +54,8 @@ template <class Real>
 void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
                          Real second_density, StaggeredGrid<Real>& grid) {
     const GridShape& shape = grid.shape;
-    clear(grid.u, shape);
-    clear(grid.v, shape);
+    clear(grid.momentum_u, shape);
+    clear(grid.momentum_v, shape);
     clear(grid.mass_u, shape);
     clear(grid.mass_v, shape);
     clear(grid.inverse_density_u, shape);
@@ -63,9 +64,9 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
-        scatter_mixed(grid.mass_u, grid.inverse_density_u, grid.u, shape.stride,
+        scatter_mixed(grid.mass_u, grid.inverse_density_u, grid.momentum_u, shape.stride,
                       stencil_u(shape, x), density, v.x);
-        scatter_mixed(grid.mass_v, grid.inverse_density_v, grid.v, shape.stride,
+        scatter_mixed(grid.mass_v, grid.inverse_density_v, grid.momentum_v, shape.stride,
                       stencil_v(shape, x), density, v.y);
     }
     StaggeredGrid<Real> by_mass = grid;
@@ -78,15 +79,15 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
 template <class Real>
 void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid) {
     const GridShape& shape = grid.shape;
-    clear(grid.u, shape);
-    clear(grid.v, shape);
+    clear(grid.momentum_u, shape);
+    clear(grid.momentum_v, shape);
     clear(grid.mass_u, shape);
     clear(grid.mass_v, shape);
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
-        scatter(grid.mass_u, grid.u, shape.stride, stencil_u(shape, x), v.x);
-        scatter(grid.mass_v, grid.v, shape.stride, stencil_v(shape, x), v.y);
+        scatter(grid.mass_u, grid.momentum_u, shape.stride, stencil_u(shape, x), v.x);
+        scatter(grid.mass_v, grid.momentum_v, shape.stride, stencil_v(shape, x), v.y);
     }
 }
 
@@ -116,5 +117,7 @@ template void particle_to_grid(const Particles<double>&, const Borders<double>&,
                                StaggeredGrid<double>&);
 template void particle_to_grid(const Particles<Fixed>&, const Borders<Fixed>&, Fixed,
                                StaggeredGrid<Fixed>&);
+template void particle_to_grid(const Particles<SmallFixed>&, const Borders<SmallFixed>&, SmallFixed,
+                               StaggeredGrid<SmallFixed>&);
 
 }  // namespace weir

@@ -24,6 +24,10 @@ namespace {
 template <class Real>
 constexpr Real kLongestWay = Real(2);
 
+/// What a particle's velocity can be kept as, cells/s.
+template <class Real>
+constexpr Real kFastest = Real(Stored<Real>::coarse ? 255.0 : 1.0e30);
+
 /// Adds the ticks since the last call to a stage.
 class StageClock {
 public:
@@ -128,8 +132,8 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
             StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
     Particles<Real>& particles = simulation.particles;
-    Transfer<Real> transfer{dt_s, settings.flip_ratio, kLongestWay<Real> / dt_s,
-                            settings.borders};
+    Transfer<Real> transfer{dt_s, settings.flip_ratio,
+                            minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
     simulation.max_speed = Real(0);
     prepare_gather(simulation.grid);
     const Walls<Real>& walls = simulation.layers.walls;
@@ -139,7 +143,7 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
         return;
     }
     transfer.near = Real(1) / dt_s;
-    Vec2<Real> before[kBlock];
+    Vec2<PositionOf<Real>> before[kBlock];
     CollideResult<Real> collisions;
     for (std::int32_t end = particles.count; end > 0;) {
         const std::int32_t count = minimum(kBlock, end);
@@ -199,5 +203,6 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
 template void substep(Simulation<float>&, const SubstepPlan<float>&, StepReport&);
 template void substep(Simulation<double>&, const SubstepPlan<double>&, StepReport&);
 template void substep(Simulation<Fixed>&, const SubstepPlan<Fixed>&, StepReport&);
+template void substep(Simulation<SmallFixed>&, const SubstepPlan<SmallFixed>&, StepReport&);
 
 }  // namespace weir

@@ -52,6 +52,10 @@ const char* init_text(Status status) {
             return "periodic: choose an even number of cells along that axis";
         case Status::unknown_option:
             return "pressure, contour or liquid is no enumerator: pick one from config.hpp";
+        case Status::small_fixed_has_one_liquid:
+            return "two liquids: choose World<Fixed>, or float";
+        case Status::small_fixed_has_no_tension:
+            return "surface tension: choose World<Fixed>, or float";
         case Status::memory_missing:
             return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";

@@ -57,7 +57,7 @@ bool all_finite(const std::byte* from, std::size_t numbers) {
 template <class Real>
 bool all_in_tank(const GridShape& s, const std::byte* from, std::size_t points) {
     for (std::size_t k = 0; k < points; ++k) {
-        const Vec2<Real> x = read<Vec2<Real>>(from, k);
+        const Vec2<Real> x = read<Vec2<PositionOf<Real>>>(from, k);
         const bool inside = x.x >= Real(0) && x.x < static_cast<Real>(s.nx) && x.y >= Real(0) &&
                             x.y < static_cast<Real>(s.ny);
         if (!inside) {
@@ -119,7 +119,7 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
               const Body<Real>& of) {
     switch (block) {
         case Block::particle_position: return all_in_tank<Real>(shape, from, elements);
-        case Block::particle_velocity: return all_finite<Real>(from, 2 * elements);
+        case Block::particle_velocity: return all_finite<VelocityOf<Real>>(from, 2 * elements);
         case Block::particle_kind: return all_kinds(from, elements);
         case Block::vertex_local: return all_vertices<Real>(from, elements);
         case Block::piece_index: return all_indices(from, of);
@@ -326,6 +326,7 @@ Status World<Real>::body_in_slot(std::int32_t slot, BodyId* id) const {
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

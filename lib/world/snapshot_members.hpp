@@ -15,11 +15,11 @@ struct Believed {
     static constexpr Real furthest_vertex = Real(1.0e6);  ///< from its body's origin
 };
 /// Fixed-point numbers saturate: none is absurd.
-template <int F>
-struct Believed<FixedPoint<F>> {
-    static constexpr FixedPoint<F> low = FixedPoint<F>::of_raw(kLeastRaw);
-    static constexpr FixedPoint<F> high = FixedPoint<F>::of_raw(kMostRaw);
-    static constexpr FixedPoint<F> furthest_vertex = high;
+template <int F, class S>
+struct Believed<FixedPoint<F, S>> {
+    static constexpr FixedPoint<F, S> low = FixedPoint<F, S>::of_raw(kLeastRaw);
+    static constexpr FixedPoint<F, S> high = FixedPoint<F, S>::of_raw(kMostRaw);
+    static constexpr FixedPoint<F, S> furthest_vertex = high;
 };
 
 template <class Real>
@@ -57,7 +57,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [position, velocity, count, capacity, kind] = particles;
     auto& [body, body_capacity, used, local, placed, pieces, scratch_list, vertex_capacity,
            vertices_used] = bodies;
-    auto& [shape, contour, static_distance, static_nearest, walls, scratch] = layers;
+    auto& [shape, contour, static_distance, static_nearest, walls, nodes, scratch] = layers;
     [[maybe_unused]] auto& [active, moving, binary, distance, nearest, cell_case, open_u,
                             open_v, full_density, near, wall_body] = walls;
     any_member(stream, settings.gravity);

@@ -13,7 +13,6 @@ bool perfect_square_up_to_16(std::int32_t value) {
 }
 
 constexpr float kLargestAngle = 1.0e4F;
-constexpr float kFurthest = 1.0e5F;  // cells from the tank's origin
 
 Status check_gravity(Vec2f gravity) {
     if (!is_finite(gravity)) {
@@ -93,6 +92,28 @@ Status check_borders(const WorldDef& def) {
     return odd ? Status::periodic_needs_even_cells : Status::ok;
 }
 
+/// What the arithmetic does not bear.
+Status check_reach(const WorldDef& def, const Reach& reach) {
+    if (def.capacity.cells_x > reach.cells || def.capacity.cells_y > reach.cells) {
+        return Status::cells_out_of_range;
+    }
+    const float strongest = reach.gravity * def.cell_m;
+    if (!within(def.gravity_mps2.x, -strongest, strongest) ||
+        !within(def.gravity_mps2.y, -strongest, strongest)) {
+        return Status::gravity_out_of_range;
+    }
+    if (!reach.everything && def.capacity.second_liquid) {
+        return Status::small_fixed_has_one_liquid;
+    }
+    if (!reach.everything && def.surface_tension_m3ps2 > 0.0F) {
+        return Status::small_fixed_has_no_tension;
+    }
+    const float cell_volume = def.cell_m * def.cell_m * def.cell_m;
+    return def.surface_tension_m3ps2 > reach.surface_tension * cell_volume
+               ? Status::surface_tension_out_of_range
+               : Status::ok;
+}
+
 }  // namespace
 
 Status check_capacity(const Capacity& capacity) {
@@ -113,7 +134,7 @@ Status check_capacity(const Capacity& capacity) {
                                                     : Status::contact_capacity_out_of_range;
 }
 
-Status check_world(const WorldDef& def) {
+Status check_world(const WorldDef& def, const Reach& reach) {
     const Status capacity = check_capacity(def.capacity);
     if (capacity != Status::ok) {
         return capacity;
@@ -137,7 +158,11 @@ Status check_world(const WorldDef& def) {
         return liquids;
     }
     const Status borders = check_borders(def);
-    return borders != Status::ok ? borders : check_numerics(def);
+    if (borders != Status::ok) {
+        return borders;
+    }
+    const Status numerics = check_numerics(def);
+    return numerics != Status::ok ? numerics : check_reach(def, reach);
 }
 
 Status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {
@@ -150,17 +175,17 @@ Status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {
     return bytes < needed ? Status::memory_too_small : Status::ok;
 }
 
-Status check_motion(const Motion& motion, float cell_m) {
+Status check_motion(const Motion& motion, float cell_m, const Reach& reach) {
     if (!is_finite(motion.position_m) || !is_finite(motion.velocity_mps) ||
         !is_finite(motion.angle_rad) || !is_finite(motion.spin_radps)) {
         return Status::motion_not_finite;
     }
-    const float furthest = kFurthest * cell_m;
+    const float furthest = reach.furthest * cell_m;
     if (!within(motion.position_m.x, -furthest, furthest) ||
         !within(motion.position_m.y, -furthest, furthest)) {
         return Status::position_out_of_range;
     }
-    const float fastest = kMaxSpeed * cell_m;
+    const float fastest = reach.speed * cell_m;
     const bool in_range = within(motion.velocity_mps.x, -fastest, fastest) &&
                           within(motion.velocity_mps.y, -fastest, fastest) &&
                           within(motion.angle_rad, -kLargestAngle, kLargestAngle) &&
@@ -168,18 +193,18 @@ Status check_motion(const Motion& motion, float cell_m) {
     return in_range ? Status::ok : Status::motion_out_of_range;
 }
 
-Status check_body(const BodyDef& def, float cell_m) {
+Status check_body(const BodyDef& def, float cell_m, const Reach& reach) {
     const Status polygon = check_polygon(def.polygon, def.holes);
     if (polygon != Status::ok) {
         return polygon;
     }
-    const float furthest = kFurthest * cell_m;
+    const float furthest = reach.furthest * cell_m;
     for (const Vec2f& vertex : def.polygon) {
         if (!within(vertex.x, -furthest, furthest) || !within(vertex.y, -furthest, furthest)) {
             return Status::position_out_of_range;
         }
     }
-    const Status motion = check_motion(def.motion, cell_m);
+    const Status motion = check_motion(def.motion, cell_m, reach);
     if (motion != Status::ok) {
         return motion;
     }

@@ -8,11 +8,30 @@
 
 namespace weir {
 
+/// What an arithmetic bears; lengths in cells, times in seconds.
+struct Reach {
+    std::int32_t cells = kMaxCells;
+    float speed = kMaxSpeed;
+    float gravity = 1.0e9F;
+    float furthest = 1.0e5F;
+    float surface_tension = 1.0e12F;
+    bool everything = true;  ///< two liquids and surface tension
+};
+template <class Real>
+inline constexpr Reach kReach{};
+template <>
+inline constexpr Reach kReach<Fixed>{kMaxCellsFixed,   kMaxSpeedFixed, kMaxGravityFixed,
+                                     kFurthestFixed, 30000.0F,       true};
+template <>
+inline constexpr Reach kReach<SmallFixed>{kMaxCellsSmallFixed, kMaxSpeedSmallFixed,
+                                          kMaxGravityFixed,    kFurthestFixed,
+                                          0.0F,                false};
+
 Status check_capacity(const Capacity& capacity);
-Status check_world(const WorldDef& def);
+Status check_world(const WorldDef& def, const Reach& reach);
 Status check_memory(const void* memory, std::size_t bytes, std::size_t needed);
-Status check_motion(const Motion& motion, float cell_m);
-Status check_body(const BodyDef& def, float cell_m);
+Status check_motion(const Motion& motion, float cell_m, const Reach& reach);
+Status check_body(const BodyDef& def, float cell_m, const Reach& reach);
 Status check_box(const Box& box, float width_m, float height_m);
 /// False for NaN.
 template <class T>

@@ -52,7 +52,12 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::open_u, layers.walls.open_u);
     carver.take(Block::open_v, layers.walls.open_v);
     carver.take(Block::full_density, layers.walls.full_density);
-    carver.take(Block::inverse_diagonal, layers.scratch);  // rebuilt by every pressure solve
+    layers.scratch = simulation.pressure.inverse_diagonal;  // rebuilt by every pressure solve
+    if constexpr (Stored<Real>::shares_momentum) {
+        layers.nodes = simulation.grid.momentum_u;
+    } else {
+        layers.nodes = layers.scratch;
+    }
     layers.walls.body = bodies.body;
 }
 
@@ -65,6 +70,10 @@ void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Rea
     Real** const fields[] = {&coarse.correction, &coarse.residual, &coarse.inverse_diagonal,
                              &coarse.weight_u,   &coarse.weight_v, &coarse.centre_x,
                              &coarse.centre_y,   &coarse.reach_u,  &coarse.reach_v};
+    if constexpr (Stored<Real>::shares_momentum) {
+        coarse.correction = next;
+        return;
+    }
     const std::int32_t count =
         capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields;
     for (std::int32_t k = 0; k < count; ++k) {
@@ -96,8 +105,15 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::mass_v, simulation.grid.mass_v);
     carver.take(Block::pressure, simulation.pressure.pressure);
     carver.take(Block::divergence, simulation.pressure.divergence);
-    simulation.grid.pairs = simulation.pressure.divergence;  // and the inverse diagonal behind it
     carver.take(Block::inverse_diagonal, simulation.pressure.inverse_diagonal);
+    simulation.grid.momentum_u = reinterpret_cast<Real*>(simulation.grid.u);
+    simulation.grid.momentum_v = reinterpret_cast<Real*>(simulation.grid.v);
+    if constexpr (Stored<Real>::shares_momentum) {
+        simulation.pressure.divergence = simulation.grid.u + shape.size();
+        simulation.pressure.inverse_diagonal = simulation.grid.v + shape.size();
+    } else {
+        simulation.grid.pairs = simulation.pressure.divergence;  // and the inverse diagonal behind
+    }
     carver.take(Block::density, simulation.pressure.density);
     carver.take(Block::level, simulation.pressure.level);
     carve_coarse(carver, capacity, simulation.pressure.coarse);
@@ -205,7 +221,7 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
 
 template <class Real>
 Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
-    const Status valid = check_world(def);
+    const Status valid = check_world(def, kReach<Real>);
     if (valid != Status::ok) {
         return valid;
     }
@@ -254,7 +270,7 @@ float World<Real>::pressure_scale() const {
 }
 
 template <class Real>
-FieldView<Real> World<Real>::signed_distance() const {
+FieldView<DistanceOf<Real>> World<Real>::signed_distance() const {
     if (state_ == nullptr || state_->def.capacity.bodies == 0) {
         return {};
     }
@@ -317,7 +333,7 @@ std::uint64_t World<Real>::state_hash() const {
     template Status World<Real>::init(const WorldDef&, void*, std::size_t);          \
     template FieldView<Real> World<Real>::pressure() const;                          \
     template float World<Real>::pressure_scale() const;                              \
-    template FieldView<Real> World<Real>::signed_distance() const;                   \
+    template FieldView<DistanceOf<Real>> World<Real>::signed_distance() const;                   \
     template View<Contact> World<Real>::contacts() const;                            \
     template float World<Real>::cell_m() const;                                      \
     template std::int32_t World<Real>::cells_x() const;                              \
@@ -326,6 +342,7 @@ std::uint64_t World<Real>::state_hash() const {
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -23,7 +23,7 @@ Status check_room(const WorldState<Real>& state, const BodyDef& def, const BodyI
     if (id == nullptr) {
         return Status::output_missing;
     }
-    const Status valid = check_body(def, state.def.cell_m);
+    const Status valid = check_body(def, state.def.cell_m, kReach<Real>);
     if (valid != Status::ok) {
         return valid;
     }
@@ -134,7 +134,7 @@ Status World<Real>::set_motion(BodyId id, const Motion& motion) {
     if (body.kind == BodyKind::fixed) {
         return Status::body_is_static;
     }
-    const Status valid = check_motion(motion, state_->def.cell_m);
+    const Status valid = check_motion(motion, state_->def.cell_m, kReach<Real>);
     if (valid != Status::ok) {
         return valid;
     }
@@ -202,6 +202,7 @@ Status World<Real>::remove_body(BodyId id) {
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -90,5 +90,6 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
 template Status World<float>::diagnose(Diagnostics*);
 template Status World<double>::diagnose(Diagnostics*);
 template Status World<Fixed>::diagnose(Diagnostics*);
+template Status World<SmallFixed>::diagnose(Diagnostics*);
 
 }  // namespace weir

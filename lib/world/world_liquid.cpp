@@ -35,7 +35,7 @@ Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f vel
         !within(position_m.y, 0.0F, side_m(capacity.cells_y, cell_m))) {
         return Status::particle_outside_domain;
     }
-    const float fastest = kMaxSpeed * cell_m;
+    const float fastest = kReach<Real>.speed * cell_m;
     if (!within(velocity_mps.x, -fastest, fastest) || !within(velocity_mps.y, -fastest, fastest)) {
         return Status::velocity_out_of_range;
     }
@@ -143,16 +143,16 @@ Status World<Real>::remove_particle(std::int32_t index) {
 }
 
 template <class Real>
-View<Vec2<Real>> World<Real>::particle_positions() const {
-    return state_ == nullptr ? View<Vec2<Real>>{}
-                             : View<Vec2<Real>>{state_->simulation.particles.position,
+View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const {
+    return state_ == nullptr ? View<Vec2<PositionOf<Real>>>{}
+                             : View<Vec2<PositionOf<Real>>>{state_->simulation.particles.position,
                                                 state_->simulation.particles.count};
 }
 
 template <class Real>
-View<Vec2<Real>> World<Real>::particle_velocities() const {
-    return state_ == nullptr ? View<Vec2<Real>>{}
-                             : View<Vec2<Real>>{state_->simulation.particles.velocity,
+View<Vec2<VelocityOf<Real>>> World<Real>::particle_velocities() const {
+    return state_ == nullptr ? View<Vec2<VelocityOf<Real>>>{}
+                             : View<Vec2<VelocityOf<Real>>>{state_->simulation.particles.velocity,
                                                 state_->simulation.particles.count};
 }
 
@@ -168,12 +168,13 @@ View<Liquid> World<Real>::particle_kinds() const {
     template Status World<Real>::fill(const Box&, std::int32_t*, Liquid);            \
     template Status World<Real>::add_particle(Vec2f, Vec2f, Liquid);                 \
     template Status World<Real>::remove_particle(std::int32_t);                      \
-    template View<Vec2<Real>> World<Real>::particle_positions() const;               \
-    template View<Vec2<Real>> World<Real>::particle_velocities() const;              \
+    template View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const;               \
+    template View<Vec2<VelocityOf<Real>>> World<Real>::particle_velocities() const;              \
     template View<Liquid> World<Real>::particle_kinds() const;
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

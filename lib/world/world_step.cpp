@@ -43,8 +43,8 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
         return Status::gravity_not_finite;
     }
-    const Vec2f limited{clamp(gravity_mps2.x, -kMaxGravity, kMaxGravity),
-                        clamp(gravity_mps2.y, -kMaxGravity, kMaxGravity)};
+    const float most = minimum(kMaxGravity, kReach<Real>.gravity * state_->def.cell_m);
+    const Vec2f limited{clamp(gravity_mps2.x, -most, most), clamp(gravity_mps2.y, -most, most)};
     if (limited.x != gravity_mps2.x || limited.y != gravity_mps2.y) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
     }
@@ -109,6 +109,7 @@ StepReport World<Real>::step(float dt_s) {
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

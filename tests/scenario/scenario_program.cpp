@@ -52,6 +52,8 @@ template <class Real>
 constexpr const char* in = "";
 template <>
 constexpr const char* in<weir::Fixed> = "_fixed";
+template <>
+constexpr const char* in<weir::SmallFixed> = "_small_fixed";
 
 template <class Real>
 bool run(const scenes::ScenarioIn<Real>& scenario, std::int32_t steps) {
@@ -108,6 +110,7 @@ int main() {
     port::argument("scene", text, sizeof text);
     bool ok = run_all<float>(text, most);
     ok = run_all<weir::Fixed>(text, most) && ok;
+    ok = run_all<weir::SmallFixed>(text, most) && ok;
     if (g_facts && port::stack_bytes() != 0) {
         port::print("stack ", port::stack_high_water(), " of ", port::stack_bytes(), ", code ",
                     port::code_bytes(), ", ram ", port::ram_bytes(), " bytes\n");

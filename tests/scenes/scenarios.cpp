@@ -251,6 +251,7 @@ bool all_inside(const weir::World<Real>& world) {
     template bool all_inside(const weir::World<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(weir::Fixed)
+WEIR_INSTANTIATE(weir::SmallFixed)
 #undef WEIR_INSTANTIATE
 
 std::size_t largest_world_bytes(std::size_t limit) {

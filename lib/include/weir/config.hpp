@@ -20,6 +20,15 @@ inline constexpr float kMaxGravity = 1000.0F;
 /// Faster liquid or bodies than this are refused, cells/s.
 inline constexpr float kMaxSpeed = 1.0e6F;
 
+/// What fixed point bears: cells along an axis, speeds in cells/s, gravity in cells/s², places of
+/// bodies in cells from the tank's origin. Beyond it set-up calls refuse, and gravity is limited.
+inline constexpr std::int32_t kMaxCellsFixed = 256;
+inline constexpr std::int32_t kMaxCellsSmallFixed = 255;
+inline constexpr float kMaxSpeedFixed = 16000.0F;
+inline constexpr float kMaxSpeedSmallFixed = 255.0F;
+inline constexpr float kMaxGravityFixed = 30000.0F;
+inline constexpr float kFurthestFixed = 16000.0F;
+
 /// How much of everything a world can ever hold. Memory is a function of this alone.
 struct Capacity {
     std::int32_t particles = 1000;  ///< 1 … kMaxParticles

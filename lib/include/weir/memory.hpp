@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "weir/config.hpp"
+#include "weir/storage.hpp"
 #include "weir/contact.hpp"
 
 namespace weir {
@@ -88,6 +89,7 @@ inline constexpr std::size_t kBodyBytes = 144;
 inline constexpr std::int32_t kCoarseEdge = 4;
 inline constexpr std::int32_t kCoarseFields = 7;
 inline constexpr std::int32_t kCoarseFieldsOfTwoLiquids = 9;
+inline constexpr std::int32_t kCoarseFieldsPacked = 1;  ///< SmallFixed: for the volume only
 
 /// Coarse cells along an axis of so many cells.
 constexpr std::int32_t coarse_cells(std::int32_t cells) {
@@ -129,48 +131,56 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t coarse = (count(coarse_cells(capacity.cells_x)) + 2) *
                                (count(coarse_cells(capacity.cells_y)) + 2);
     const std::size_t coarse_fields =
-        count(capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields);
+        count(Stored<Real>::shares_momentum
+                  ? kCoarseFieldsPacked
+                  : (capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields));
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
     const std::size_t near_words =
         capacity.bodies > 0 ? (count(capacity.cells_x) + 31) / 32 * count(capacity.cells_y) : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t index = sizeof(std::uint16_t);
+    const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
     const Row rows[] = {
         {Block::world_state, Owner::world, Kept::members, kWorldStateBytes, 1},
-        {Block::particle_position, Owner::particles, Kept::particles, point, particles},
-        {Block::particle_velocity, Owner::particles, Kept::particles, point, particles},
+        {Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
+         particles},
+        {Block::particle_velocity, Owner::particles, Kept::particles, 2 * sizeof(VelocityOf<Real>),
+         particles},
         {Block::particle_kind, Owner::particles, Kept::particles, 1,
          capacity.second_liquid ? particles : 0},
         {Block::body_table, Owner::bodies, Kept::members, kBodyBytes, count(capacity.bodies)},
-        {Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact),
-         count(capacity.contacts)},
+        {Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts)},
         {Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices},
         {Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices},
-        {Block::piece_index, Owner::vertices, Kept::vertices,
-         kPieceIndicesPerVertex * index, vertices},
-        {Block::decomposition_scratch, Owner::vertices, Kept::nothing,
-         index, kScratchPerVertex * vertices},
-        {Block::static_distance, Owner::contour, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::piece_index, Owner::vertices, Kept::vertices, kPieceIndicesPerVertex * index,
+         vertices},
+        {Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
+         kScratchPerVertex * vertices},
+        {Block::static_distance, Owner::contour, Kept::redrawn, sizeof(DistanceOf<Real>),
+         solid_cells},
         {Block::static_body, Owner::contour, Kept::redrawn, index, solid_cells},
-        {Block::merged_distance, Owner::contour, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::merged_distance, Owner::contour, Kept::redrawn, sizeof(DistanceOf<Real>),
+         solid_cells},
         {Block::merged_body, Owner::contour, Kept::redrawn, index, solid_cells},
         {Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells},
         {Block::near_wall, Owner::contour, Kept::redrawn, sizeof(std::uint32_t), near_words},
-        {Block::open_u, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
-        {Block::open_v, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
-        {Block::full_density, Owner::cut_cells, Kept::redrawn, sizeof(Real), solid_cells},
+        {Block::open_u, Owner::cut_cells, Kept::redrawn, sizeof(ShareOf<Real>), solid_cells},
+        {Block::open_v, Owner::cut_cells, Kept::redrawn, sizeof(ShareOf<Real>), solid_cells},
+        {Block::full_density, Owner::cut_cells, Kept::redrawn, sizeof(ShareOf<Real>), solid_cells},
         {Block::velocity_u, Owner::grid, Kept::nothing, sizeof(Real), cells},
-        {Block::mass_u, Owner::grid, Kept::nothing, sizeof(Real), cells},
+        {Block::mass_u, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>), cells},
         {Block::velocity_v, Owner::grid, Kept::nothing, sizeof(Real), cells},
-        {Block::mass_v, Owner::grid, Kept::nothing, sizeof(Real), cells},
-        {Block::inverse_density_u, Owner::grid, Kept::nothing, sizeof(Real), mixed_cells},
-        {Block::inverse_density_v, Owner::grid, Kept::nothing, sizeof(Real), mixed_cells},
+        {Block::mass_v, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>), cells},
+        {Block::inverse_density_u, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>),
+         mixed_cells},
+        {Block::inverse_density_v, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>),
+         mixed_cells},
         {Block::pressure, Owner::pressure, Kept::whole, sizeof(Real), cells},
-        {Block::divergence, Owner::pressure, Kept::nothing, sizeof(Real), cells},
-        {Block::inverse_diagonal, Owner::pressure, Kept::nothing, sizeof(Real), cells},
-        {Block::density, Owner::pressure, Kept::nothing, sizeof(Real), cells},
-        {Block::level, Owner::pressure, Kept::nothing, sizeof(Real), cells},
+        {Block::divergence, Owner::pressure, Kept::nothing, scratch, cells},
+        {Block::inverse_diagonal, Owner::pressure, Kept::nothing, scratch, cells},
+        {Block::density, Owner::pressure, Kept::nothing, sizeof(DensityOf<Real>), cells},
+        {Block::level, Owner::pressure, Kept::nothing, sizeof(LevelOf<Real>), cells},
         {Block::coarse_cells, Owner::pressure, Kept::nothing, sizeof(Real),
          coarse_fields * coarse},
     };

@@ -35,6 +35,8 @@ enum class [[nodiscard]] Status : std::uint8_t {
     periodic_with_bodies,
     periodic_needs_even_cells,
     unknown_option,
+    small_fixed_has_one_liquid,
+    small_fixed_has_no_tension,
     memory_missing,
     memory_misaligned,
     memory_too_small,

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace weir {
 
@@ -12,6 +13,15 @@ template <class Real>
 struct Vec2 {
     Real x{};
     Real y{};
+
+    /// Packed numbers and what they stand for (weir/storage.hpp); floats want a `convert`.
+    template <class To, std::enable_if_t<std::is_class<Real>::value &&
+                                             !std::is_same<Real, To>::value &&
+                                             (std::is_convertible<Real, To>::value ||
+                                              std::is_convertible<To, Real>::value), int> = 0>
+    constexpr operator Vec2<To>() const {  // NOLINT
+        return {To(x), To(y)};
+    }
 };
 using Vec2f = Vec2<float>;
 

@@ -7,10 +7,10 @@
 #include "weir/config.hpp"
 #include "weir/contact.hpp"
 #include "weir/diagnostics.hpp"
-#include "weir/fixed.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"
 #include "weir/status.hpp"
+#include "weir/storage.hpp"
 #include "weir/types.hpp"
 
 namespace weir {
@@ -64,9 +64,9 @@ public:
 
     /// Where the particles are, in cells: multiply by `cell_m`. Valid until the next call that
     /// adds, removes or steps. Empty before init.
-    View<Vec2<Real>> particle_positions() const;
+    View<Vec2<PositionOf<Real>>> particle_positions() const;
     /// Their velocities, cells per second.
-    View<Vec2<Real>> particle_velocities() const;
+    View<Vec2<VelocityOf<Real>>> particle_velocities() const;
     /// Which liquid they belong to. Empty if the world has no room for a second one.
     View<Liquid> particle_kinds() const;
     /// What particles did to the bodies in the last step, one entry for each body that was hit, in
@@ -80,7 +80,7 @@ public:
     /// Signed distance to the nearest solid at the grid's nodes, cells; negative inside, outside
     /// at most `kFarFromSolids`. Contour::mid_edge: −½ and ½, the binary matrix. Empty if the
     /// world has no room for bodies.
-    FieldView<Real> signed_distance() const;
+    FieldView<DistanceOf<Real>> signed_distance() const;
 
     /// Mass, momentum, energies, volume and what is left of the divergence. Costs about as much
     /// as a scatter; changes no state, but the views of the grid are stale afterwards.
@@ -118,5 +118,6 @@ inline constexpr float kFarFromSolids = 1.5F;
 extern template class World<float>;
 extern template class World<double>;
 extern template class World<Fixed>;
+extern template class World<SmallFixed>;
 
 }  // namespace weir

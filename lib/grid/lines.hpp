@@ -1,0 +1,47 @@
+// Rows and columns of a field: how ghosts are filled and folded back.
+#pragma once
+
+#include "grid/staggered_grid.hpp"
+
+namespace weir {
+
+/// A row or a column of a field: `count` entries from `first`, `step` apart.
+struct Line {
+    std::int32_t first;
+    std::int32_t step;
+    std::int32_t count;
+};
+
+inline Line column(const GridShape& s, std::int32_t i) {
+    return {s.index(i, -1), s.stride, s.ny + 2};
+}
+inline Line row(const GridShape& s, std::int32_t j) { return {s.index(-1, j), 1, s.nx + 2}; }
+
+template <class Field>
+void copy(Field* field, Line to, Line from) {
+    for (std::int32_t k = 0; k < to.count; ++k) {
+        field[to.first + k * to.step] = field[from.first + k * from.step];
+    }
+}
+
+template <class Field>
+void add(Field* field, Line to, Line from) {
+    for (std::int32_t k = 0; k < to.count; ++k) {
+        field[to.first + k * to.step] += field[from.first + k * from.step];
+    }
+}
+
+template <class Field>
+void set_zero(Field* field, Line line) {
+    for (std::int32_t k = 0; k < line.count; ++k) {
+        field[line.first + k * line.step] = Field(0);
+    }
+}
+
+template <class Field>
+void move(Field* field, Line to, Line from) {
+    add(field, to, from);
+    set_zero(field, from);
+}
+
+}  // namespace weir
