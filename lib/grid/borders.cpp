@@ -71,26 +71,26 @@ void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
     if (b.wrap_y) {
         move(grid.mass_u, row(s, top), row(s, -1));
         move(grid.mass_u, row(s, 0), row(s, s.ny));
-        move(grid.momentum_u, row(s, top), row(s, -1));
-        move(grid.momentum_u, row(s, 0), row(s, s.ny));
+        move(grid.momentum_u(), row(s, top), row(s, -1));
+        move(grid.momentum_u(), row(s, 0), row(s, s.ny));
     } else {
-        fold_along(grid.mass_u, grid.momentum_u, row(s, 0), row(s, -1), b.bottom, Real(1));
-        fold_along(grid.mass_u, grid.momentum_u, row(s, top), row(s, s.ny), b.top, Real(-1));
+        fold_along(grid.mass_u, grid.momentum_u(), row(s, 0), row(s, -1), b.bottom, Real(1));
+        fold_along(grid.mass_u, grid.momentum_u(), row(s, top), row(s, s.ny), b.top, Real(-1));
     }
     if (b.wrap_x) {
         move(grid.mass_v, column(s, right), column(s, -1));
         move(grid.mass_v, column(s, 0), column(s, s.nx));
-        move(grid.momentum_v, column(s, right), column(s, -1));
-        move(grid.momentum_v, column(s, 0), column(s, s.nx));
+        move(grid.momentum_v(), column(s, right), column(s, -1));
+        move(grid.momentum_v(), column(s, 0), column(s, s.nx));
     } else {
-        fold_along(grid.mass_v, grid.momentum_v, column(s, 0), column(s, -1), b.left, Real(-1));
-        fold_along(grid.mass_v, grid.momentum_v, column(s, right), column(s, s.nx), b.right,
+        fold_along(grid.mass_v, grid.momentum_v(), column(s, 0), column(s, -1), b.left, Real(-1));
+        fold_along(grid.mass_v, grid.momentum_v(), column(s, right), column(s, s.nx), b.right,
                    Real(1));
     }
     fold_across(grid.mass_u, column(s, 0), column(s, s.nx), b.wrap_x);
-    fold_across(grid.momentum_u, column(s, 0), column(s, s.nx), b.wrap_x);
+    fold_across(grid.momentum_u(), column(s, 0), column(s, s.nx), b.wrap_x);
     fold_across(grid.mass_v, row(s, 0), row(s, s.ny), b.wrap_y);
-    fold_across(grid.momentum_v, row(s, 0), row(s, s.ny), b.wrap_y);
+    fold_across(grid.momentum_v(), row(s, 0), row(s, s.ny), b.wrap_y);
 }
 
 template <class Real>

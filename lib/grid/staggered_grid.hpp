@@ -30,8 +30,9 @@ struct StaggeredGrid {
     VelocityOf<Real>* v = nullptr;
     VelocityOf<Real>* mass_u = nullptr;  ///< in particles; free for reuse once velocity is known
     VelocityOf<Real>* mass_v = nullptr;
-    Real* momentum_u = nullptr;  ///< where u will be, and as often twice as large
-    Real* momentum_v = nullptr;
+    /// Where u and v will be.
+    Real* momentum_u() const { return reinterpret_cast<Real*>(u); }
+    Real* momentum_v() const { return reinterpret_cast<Real*>(v); }
     /// With two liquids, where mass_u and mass_v only count: mass, then, once velocity is known,
     /// volume over mass. A particle of the first liquid has mass and volume 1. Null: one liquid.
     VelocityOf<Real>* inverse_density_u = nullptr;

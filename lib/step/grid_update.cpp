@@ -1,8 +1,18 @@
 #include "step/grid_update.hpp"
 
+#include <cstring>
+
 namespace weir {
 
 namespace {
+
+/// The face's momentum, read as bytes: packed velocities are written over momenta already read.
+template <class Real>
+Real momentum_at(const Real* momentum, std::int32_t face) {
+    Real value;
+    std::memcpy(&value, momentum + face, sizeof value);
+    return value;
+}
 
 /// Ascending, so that a velocity may stand where the momenta of faces before it stood.
 template <class Real>
@@ -11,7 +21,7 @@ void update(const Real* momentum, VelocityOf<Real>* mass, const GridShape& s, Re
     const std::int32_t end = s.index(s.nx, s.ny);
     for (std::int32_t face = s.index(0, 0); face <= end; ++face) {
         const Real m = mass[face];
-        const Real before = m > Real(0) ? momentum[face] / m : Real(0);
+        const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
         mass[face] = before;
         velocity[face] = m > Real(0) ? before + gained : Real(0);
     }
@@ -25,7 +35,7 @@ void update_mixed(const Real* momentum, VelocityOf<Real>* volume, VelocityOf<Rea
     const std::int32_t end = s.index(s.nx, s.ny);
     for (std::int32_t face = s.index(0, 0); face <= end; ++face) {
         const Real m = mass[face];
-        const Real before = m > Real(0) ? momentum[face] / m : Real(0);
+        const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
         mass[face] = m > Real(0) ? volume[face] / m : Real(1);
         volume[face] = before;
         velocity[face] = m > Real(0) ? before + gained : Real(0);
@@ -78,13 +88,13 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
                  const LevelOf<Real>* level, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     if (grid.inverse_density_u != nullptr) {
-        update_mixed(grid.momentum_u, grid.mass_u, grid.inverse_density_u, s, gravity.x * dt_s,
+        update_mixed(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, s, gravity.x * dt_s,
                      grid.u);
-        update_mixed(grid.momentum_v, grid.mass_v, grid.inverse_density_v, s, gravity.y * dt_s,
+        update_mixed(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, s, gravity.y * dt_s,
                      grid.v);
     } else {
-        update(grid.momentum_u, grid.mass_u, s, gravity.x * dt_s, grid.u);
-        update(grid.momentum_v, grid.mass_v, s, gravity.y * dt_s, grid.v);
+        update(grid.momentum_u(), grid.mass_u, s, gravity.x * dt_s, grid.u);
+        update(grid.momentum_v(), grid.mass_v, s, gravity.y * dt_s, grid.v);
     }
     close_walls(borders, level, grid);
 }

@@ -54,8 +54,8 @@ template <class Real>
 void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
                          Real second_density, StaggeredGrid<Real>& grid) {
     const GridShape& shape = grid.shape;
-    clear(grid.momentum_u, shape);
-    clear(grid.momentum_v, shape);
+    clear(grid.momentum_u(), shape);
+    clear(grid.momentum_v(), shape);
     clear(grid.mass_u, shape);
     clear(grid.mass_v, shape);
     clear(grid.inverse_density_u, shape);
@@ -64,9 +64,9 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
-        scatter_mixed(grid.mass_u, grid.inverse_density_u, grid.momentum_u, shape.stride,
+        scatter_mixed(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), shape.stride,
                       stencil_u(shape, x), density, v.x);
-        scatter_mixed(grid.mass_v, grid.inverse_density_v, grid.momentum_v, shape.stride,
+        scatter_mixed(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), shape.stride,
                       stencil_v(shape, x), density, v.y);
     }
     StaggeredGrid<Real> by_mass = grid;
@@ -79,15 +79,15 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
 template <class Real>
 void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid) {
     const GridShape& shape = grid.shape;
-    clear(grid.momentum_u, shape);
-    clear(grid.momentum_v, shape);
+    clear(grid.momentum_u(), shape);
+    clear(grid.momentum_v(), shape);
     clear(grid.mass_u, shape);
     clear(grid.mass_v, shape);
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
-        scatter(grid.mass_u, grid.momentum_u, shape.stride, stencil_u(shape, x), v.x);
-        scatter(grid.mass_v, grid.momentum_v, shape.stride, stencil_v(shape, x), v.y);
+        scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
+        scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
     }
 }
 

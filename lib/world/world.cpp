@@ -54,7 +54,7 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::full_density, layers.walls.full_density);
     layers.scratch = simulation.pressure.inverse_diagonal;  // rebuilt by every pressure solve
     if constexpr (Stored<Real>::shares_momentum) {
-        layers.nodes = simulation.grid.momentum_u;
+        layers.nodes = simulation.grid.momentum_u();
     } else {
         layers.nodes = layers.scratch;
     }
@@ -106,8 +106,6 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::pressure, simulation.pressure.pressure);
     carver.take(Block::divergence, simulation.pressure.divergence);
     carver.take(Block::inverse_diagonal, simulation.pressure.inverse_diagonal);
-    simulation.grid.momentum_u = reinterpret_cast<Real*>(simulation.grid.u);
-    simulation.grid.momentum_v = reinterpret_cast<Real*>(simulation.grid.v);
     if constexpr (Stored<Real>::shares_momentum) {
         simulation.pressure.divergence = simulation.grid.u + shape.size();
         simulation.pressure.inverse_diagonal = simulation.grid.v + shape.size();

@@ -56,6 +56,8 @@ const std::vector<Row>& init_rows();
 const std::vector<Row>& uninitialised_rows();
 /// Table of snapshot_test.cpp.
 const std::vector<Row>& snapshot_rows();
+/// Table of fixed_limits_test.cpp.
+const std::vector<Row>& fixed_rows();
 
 /// Makes the call, and three steps beside a twin that never got it.
 inline void check(const Row& row) {

@@ -297,7 +297,7 @@ TEST(BadInput, EveryStatusHasARow) {
     seen[static_cast<std::size_t>(Status::ok)] = true;
     std::size_t rows = 0;
     for (const auto* table : {&init_rows(), &polygon_rows(), &body_rows(), &liquid_rows(),
-                              &uninitialised_rows(), &snapshot_rows()}) {
+                              &uninitialised_rows(), &snapshot_rows(), &fixed_rows()}) {
         for (const Row& row : *table) {
             seen[static_cast<std::size_t>(row.expected)] = true;
             ++rows;

@@ -78,15 +78,15 @@ inline WorldDef small_def() {
 /// Whether every particle has finite numbers and lies in the tank.
 template <class Real>
 bool all_inside(const World<Real>& world) {
-    const View<Vec2<Real>> x = world.particle_positions();
-    const View<Vec2<Real>> v = world.particle_velocities();
-    for (std::int32_t k = 0; k < x.size; ++k) {
-        const Vec2<double> at{static_cast<double>(x[k].x), static_cast<double>(x[k].y)};
-        const double sum = static_cast<double>(v[k].x) + static_cast<double>(v[k].y);
-        const bool inside = at.x >= 0 && at.x < world.cells_x() && at.y >= 0 &&
-                            at.y < world.cells_y();
-        const bool finite = sum - sum == 0;
-        if (!inside || !finite) {
+    const auto positions = world.particle_positions();
+    const auto velocities = world.particle_velocities();
+    for (std::int32_t k = 0; k < positions.size; ++k) {
+        const auto x = static_cast<double>(positions[k].x);
+        const auto y = static_cast<double>(positions[k].y);
+        const auto u = static_cast<double>(velocities[k].x);
+        const auto v = static_cast<double>(velocities[k].y);
+        const bool inside = x > 0 && x < world.cells_x() && y > 0 && y < world.cells_y();
+        if (!inside || u - u != 0 || v - v != 0) {
             return false;
         }
     }

@@ -1,0 +1,117 @@
+// What fixed point refuses beyond what floats do, and what it saturates at.
+#include "bad_input.hpp"
+
+namespace weir {
+
+namespace {
+
+template <class Real>
+Status init(const WorldDef& def) {
+    std::vector<std::byte> memory(world_bytes<Real>(def.capacity) + world_alignment);
+    void* start = memory.data();
+    std::size_t room = memory.size();
+    std::align(world_alignment, world_bytes<Real>(def.capacity), start, room);
+    World<Real> world;
+    return world.init(def, start, room);
+}
+
+template <class Real, class Change>
+std::function<Status(Fixture&)> init_of(Change change) {
+    return [change](Fixture&) {
+        WorldDef def = small_def();
+        change(def);
+        return init<Real>(def);
+    };
+}
+
+}  // namespace
+
+const std::vector<Row>& fixed_rows() {
+    static const std::vector<Row> rows = {
+        {"wider than Fixed", init_of<Fixed>([](WorldDef& d) { d.capacity.cells_x = 257; }),
+         Status::cells_out_of_range},
+        {"taller than SmallFixed",
+         init_of<SmallFixed>([](WorldDef& d) { d.capacity.cells_y = 256; }),
+         Status::cells_out_of_range},
+        {"gravity beyond Fixed", init_of<Fixed>([](WorldDef& d) { d.gravity_mps2.x = 601.0F; }),
+         Status::gravity_out_of_range},
+        {"tension beyond Fixed",
+         init_of<Fixed>([](WorldDef& d) { d.surface_tension_m3ps2 = 0.25F; }),
+         Status::surface_tension_out_of_range},
+        {"two liquids in SmallFixed",
+         init_of<SmallFixed>([](WorldDef& d) { d.capacity.second_liquid = true; }),
+         Status::small_fixed_has_one_liquid},
+        {"tension in SmallFixed",
+         init_of<SmallFixed>([](WorldDef& d) { d.surface_tension_m3ps2 = 1.0e-5F; }),
+         Status::small_fixed_has_no_tension},
+    };
+    return rows;
+}
+
+namespace {
+
+TEST(FixedLimits, Init) { check_all(fixed_rows()); }
+
+template <class Real>
+class FixedWorld : public ::testing::Test {};
+using Both = ::testing::Types<Fixed, SmallFixed>;
+TYPED_TEST_SUITE(FixedWorld, Both);
+
+TYPED_TEST(FixedWorld, TheLargestIsAccepted) {
+    WorldDef def = small_def();
+    def.capacity.cells_x = def.capacity.cells_y = 255;
+    EXPECT_EQ(init<TypeParam>(def), Status::ok);
+}
+
+TYPED_TEST(FixedWorld, TooFastAndTooFarAreRefused) {
+    TestWorld<TypeParam> world(small_def());
+    const float fastest = std::is_same<TypeParam, Fixed>::value ? kMaxSpeedFixed
+                                                                : kMaxSpeedSmallFixed;
+    EXPECT_EQ(world->add_particle({0.1F, 0.1F}, {fastest * 0.02F * 1.01F, 0.0F}),
+              Status::velocity_out_of_range);
+    EXPECT_EQ(world->add_particle({0.1F, 0.1F}, {fastest * 0.02F * 0.99F, 0.0F}), Status::ok);
+    BodyId id;
+    EXPECT_EQ(world->add_moving_body(body_of(kSquare4cm, {400.0F, 0.0F}), &id),
+              Status::position_out_of_range);
+    BodyDef fast = body_of(kSquare4cm, {0.1F, 0.1F});
+    fast.motion.velocity_mps.x = 400.0F;
+    EXPECT_EQ(world->add_moving_body(fast, &id), Status::motion_out_of_range);
+}
+
+TYPED_TEST(FixedWorld, GravityIsLimitedAndReported) {
+    TestWorld<TypeParam> world(small_def());
+    EXPECT_EQ(world->fill({{0, 0}, {0.1F, 0.1F}}), Status::ok);
+    EXPECT_EQ(world->set_gravity({0.0F, -900.0F}), Status::ok);
+    EXPECT_TRUE(world->step(1.0F / 60.0F).has(Clamped::gravity));
+    EXPECT_TRUE(all_inside(*world));
+}
+
+/// A thousand particles in one cell, as fast as they may be, under the strongest gravity.
+TYPED_TEST(FixedWorld, AThousandParticlesInACellSaturate) {
+    WorldDef def = small_def();
+    def.capacity.particles = 1000;
+    TestWorld<TypeParam> world(def);
+    for (int k = 0; k < 1000; ++k) {
+        const float x = 0.02F * (8.1F + 0.8F * static_cast<float>(k % 32) / 32.0F);
+        const float y = 0.02F * (8.1F + 0.8F * static_cast<float>(k / 32) / 32.0F);
+        ASSERT_EQ(world->add_particle({x, y}, {k % 2 == 0 ? 5.0F : 4.0F, -5.0F}), Status::ok);
+    }
+    ASSERT_EQ(world->set_gravity({0.0F, -500.0F}), Status::ok);
+    for (int step = 0; step < 60; ++step) {
+        const StepReport report = world->step(1.0F / 60.0F);
+        ASSERT_EQ(report.particles, 1000);
+        ASSERT_TRUE(all_inside(*world)) << step;
+        // Thrown to the right and down: a sum that wrapped around would send them back at once.
+        if (step == 0) {
+            double right = 0.0;
+            for (const auto& v : world->particle_velocities()) {
+                right += static_cast<double>(v.x);
+            }
+            EXPECT_GT(right, 0.0);
+        }
+    }
+}
+
+}  // namespace
+
+}  // namespace weir
