@@ -141,12 +141,14 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t index = sizeof(std::uint16_t);
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
+    const std::size_t place = 2 * sizeof(PositionOf<Real>);
+    const std::size_t speed = sizeof(VelocityOf<Real>);
+    const std::size_t distance = sizeof(DistanceOf<Real>);
+    const std::size_t share = sizeof(ShareOf<Real>);
     const Row rows[] = {
         {Block::world_state, Owner::world, Kept::members, kWorldStateBytes, 1},
-        {Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
-         particles},
-        {Block::particle_velocity, Owner::particles, Kept::particles, 2 * sizeof(VelocityOf<Real>),
-         particles},
+        {Block::particle_position, Owner::particles, Kept::particles, place, particles},
+        {Block::particle_velocity, Owner::particles, Kept::particles, 2 * speed, particles},
         {Block::particle_kind, Owner::particles, Kept::particles, 1,
          capacity.second_liquid ? particles : 0},
         {Block::body_table, Owner::bodies, Kept::members, kBodyBytes, count(capacity.bodies)},
@@ -157,32 +159,27 @@ constexpr Layout layout(const Capacity& capacity) {
          vertices},
         {Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
          kScratchPerVertex * vertices},
-        {Block::static_distance, Owner::contour, Kept::redrawn, sizeof(DistanceOf<Real>),
-         solid_cells},
+        {Block::static_distance, Owner::contour, Kept::redrawn, distance, solid_cells},
         {Block::static_body, Owner::contour, Kept::redrawn, index, solid_cells},
-        {Block::merged_distance, Owner::contour, Kept::redrawn, sizeof(DistanceOf<Real>),
-         solid_cells},
+        {Block::merged_distance, Owner::contour, Kept::redrawn, distance, solid_cells},
         {Block::merged_body, Owner::contour, Kept::redrawn, index, solid_cells},
         {Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells},
         {Block::near_wall, Owner::contour, Kept::redrawn, sizeof(std::uint32_t), near_words},
-        {Block::open_u, Owner::cut_cells, Kept::redrawn, sizeof(ShareOf<Real>), solid_cells},
-        {Block::open_v, Owner::cut_cells, Kept::redrawn, sizeof(ShareOf<Real>), solid_cells},
-        {Block::full_density, Owner::cut_cells, Kept::redrawn, sizeof(ShareOf<Real>), solid_cells},
+        {Block::open_u, Owner::cut_cells, Kept::redrawn, share, solid_cells},
+        {Block::open_v, Owner::cut_cells, Kept::redrawn, share, solid_cells},
+        {Block::full_density, Owner::cut_cells, Kept::redrawn, share, solid_cells},
         {Block::velocity_u, Owner::grid, Kept::nothing, sizeof(Real), cells},
-        {Block::mass_u, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>), cells},
+        {Block::mass_u, Owner::grid, Kept::nothing, speed, cells},
         {Block::velocity_v, Owner::grid, Kept::nothing, sizeof(Real), cells},
-        {Block::mass_v, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>), cells},
-        {Block::inverse_density_u, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>),
-         mixed_cells},
-        {Block::inverse_density_v, Owner::grid, Kept::nothing, sizeof(VelocityOf<Real>),
-         mixed_cells},
+        {Block::mass_v, Owner::grid, Kept::nothing, speed, cells},
+        {Block::inverse_density_u, Owner::grid, Kept::nothing, speed, mixed_cells},
+        {Block::inverse_density_v, Owner::grid, Kept::nothing, speed, mixed_cells},
         {Block::pressure, Owner::pressure, Kept::whole, sizeof(Real), cells},
         {Block::divergence, Owner::pressure, Kept::nothing, scratch, cells},
         {Block::inverse_diagonal, Owner::pressure, Kept::nothing, scratch, cells},
         {Block::density, Owner::pressure, Kept::nothing, sizeof(DensityOf<Real>), cells},
         {Block::level, Owner::pressure, Kept::nothing, sizeof(LevelOf<Real>), cells},
-        {Block::coarse_cells, Owner::pressure, Kept::nothing, sizeof(Real),
-         coarse_fields * coarse},
+        {Block::coarse_cells, Owner::pressure, Kept::nothing, sizeof(Real), coarse_fields * coarse},
     };
     Layout result;
     for (const Row& row : rows) {

@@ -64,7 +64,7 @@ struct Stored {
     static constexpr bool coarse = false;  ///< places are known to 1/256 of a cell
 };
 
-/// 8 bytes a particle and 17 a cell (25 to 29 with solids): positions to 1/256 of a cell,
+/// 8 bytes a particle and 18 a cell (27 to 31 with solids): positions to 1/256 of a cell,
 /// velocities to 1/128 cell/s below 256 cells/s, so a world of at most 255 × 255 cells.
 template <>
 struct Stored<SmallFixed> {
