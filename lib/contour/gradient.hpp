@@ -15,12 +15,12 @@ struct Neighbours {
 
 /// One component: differences stand in the middle of the edges between nodes, and are interpolated
 /// between them. `along` is the step between nodes of a difference, `across` the other one.
-template <class Real>
-Real gradient_component(const Real* node, std::int32_t along, std::int32_t across, Real at,
+template <class Real, class Field>
+Real gradient_component(const Field* node, std::int32_t along, std::int32_t across, Real at,
                         Real at_across, bool has_before, bool has_after, Real far) {
     Real row[2];
     for (std::int32_t k = 0; k < 2; ++k) {
-        const Real* p = node + k * across;
+        const Field* p = node + k * across;
         const Real here = p[along] - p[0];
         row[k] = here;
         // A node that knows no wall says nothing of the slope.
@@ -36,8 +36,8 @@ Real gradient_component(const Real* node, std::int32_t along, std::int32_t acros
 /// @param node lower left node of the cell.
 /// @param at place in the cell, 0 … 1.
 /// @param far value of nodes that know no wall.
-template <class Real>
-Vec2<Real> distance_gradient(const Real* node, std::int32_t stride, Vec2<Real> at,
+template <class Real, class Field>
+Vec2<Real> distance_gradient(const Field* node, std::int32_t stride, Vec2<Real> at,
                              const Neighbours& has, Real far) {
     return {gradient_component(node, 1, stride, at.x, at.y, has.left, has.right, far),
             gradient_component(node, stride, 1, at.y, at.x, has.below, has.above, far)};
@@ -46,8 +46,8 @@ Vec2<Real> distance_gradient(const Real* node, std::int32_t stride, Vec2<Real> a
 /// Normal of a wall at a point of its contour line: the gradient's direction, or the line's own
 /// where the two disagree by more than 20 degrees, as at corners and in thin solids. A line's own
 /// normal is off by half the angle that a round wall turns within a cell.
-template <class Real>
-Vec2<Real> wall_normal(const Real* node, std::int32_t stride, Vec2<Real> at,
+template <class Real, class Field>
+Vec2<Real> wall_normal(const Field* node, std::int32_t stride, Vec2<Real> at,
                        const Neighbours& has, Real far, Vec2<Real> line_normal) {
     const Vec2<Real> gradient = distance_gradient(node, stride, at, has, far);
     const Real steepness = length(gradient);
