@@ -11,6 +11,20 @@ double twice_area_in_double(View<Vec2f> ring) {
     return sum;
 }
 
+bool within_ring(View<Vec2f> ring, Vec2f point) {
+    bool inside = false;
+    for (std::int32_t i = 0; i < ring.size; ++i) {
+        const Vec2f from = ring[i];
+        const Vec2f to = ring[i + 1 < ring.size ? i + 1 : 0];
+        if ((from.y > point.y) != (to.y > point.y)) {
+            const double side = turn(convert<double>(from), convert<double>(to),
+                                     convert<double>(point));
+            inside = (to.y > from.y ? side > 0.0 : side < 0.0) != inside;
+        }
+    }
+    return inside;
+}
+
 template <class Real>
 Real twice_signed_area(const Vec2<Real>* ring, std::int32_t count) {
     // Seen from a vertex, not from the origin: a small body far out keeps its digits.

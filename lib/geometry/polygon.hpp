@@ -33,6 +33,10 @@ Real twice_signed_area(const Vec2<Real>* ring, std::int32_t count);
 /// The same in double, where products of floats are exact and squares cannot overflow.
 double twice_area_in_double(View<Vec2f> ring);
 
+/// Whether a point is within a ring, either way round: how often a ray from it meets the ring. On
+/// an edge the answer may be either.
+bool within_ring(View<Vec2f> ring, Vec2f point);
+
 /// Whether a point is in a convex piece of a polygon, its edge included: it lies to the left of
 /// every edge (the paper's test). A piece without area holds no point.
 /// @param piece vertex numbers, counter-clockwise.

@@ -103,20 +103,6 @@ bool find_clash(const PolygonRings& rings, std::int32_t first_ring, std::int32_t
     }
 }
 
-/// Whether a point that is on no edge of a ring is within it: how often a ray meets the ring.
-bool within_ring(View<Vec2f> ring, Vec2f point) {
-    bool inside = false;
-    Vec2f from = ring[ring.size - 1];
-    for (const Vec2f to : ring) {
-        if ((from.y > point.y) != (to.y > point.y)) {
-            const int side = sign_of_turn(from, to, point);
-            inside = (to.y > from.y ? side > 0 : side < 0) != inside;
-        }
-        from = to;
-    }
-    return inside;
-}
-
 double squared_diagonal(View<Vec2f> ring) {
     EdgeBox box{ring[0], ring[0]};
     for (const Vec2f v : ring) {

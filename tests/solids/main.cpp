@@ -20,6 +20,8 @@ constexpr Problem kProblems[] = {
     // Contours.
     {"R3", "contour normals and positions", solids::contour_normals},
     // Polygons.
+    {"real", "coastline, letters, drawings: pieces, and liquid poured over them",
+     solids::real_geometry},
     // Tightness.
     // Moving bodies.
     // Still water.

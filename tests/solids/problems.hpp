@@ -14,6 +14,7 @@ struct Effort {
 void contour_normals(Report& report, const Effort& effort);  // R3
 
 // Polygons.
+void real_geometry(Report& report, const Effort& effort);
 
 // Tightness.
 

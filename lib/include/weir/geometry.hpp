@@ -32,4 +32,39 @@ struct PolygonFault {
 Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes = {},
                      PolygonFault* fault = nullptr);
 
+/// Pieces that a curve is cut into at most.
+inline constexpr std::int32_t kMaxCurvePieces = 4096;
+
+/// A Bézier curve of degree 2 or 3 as a polyline whose distance from the curve is at most
+/// `tolerance_m`: equal steps of its parameter, as many as Wang's formula asks for (Wang 1984).
+/// Writes their ends, so not p0 but the curve's last point, up to `capacity` of them.
+/// @return how many there are, also if that is more than `capacity`; 0 if a number is not finite,
+///         the tolerance not positive, or so small that kMaxCurvePieces would not do.
+std::int32_t flatten_quadratic(Vec2f p0, Vec2f p1, Vec2f p2, float tolerance_m, Vec2f* out,
+                               std::int32_t capacity);
+std::int32_t flatten_cubic(Vec2f p0, Vec2f p1, Vec2f p2, Vec2f p3, float tolerance_m, Vec2f* out,
+                           std::int32_t capacity);
+/// The same for an arc of a circle from `start_rad` over `sweep_rad`, −2π … 2π, counter-clockwise
+/// if positive. Vertices lie on the arc; its first point is not written.
+std::int32_t flatten_arc(Vec2f centre_m, float radius_m, float start_rad, float sweep_rad,
+                         float tolerance_m, Vec2f* out, std::int32_t capacity);
+
+/// A ring with fewer vertices, all of them its own, so that each one left out is at most
+/// `tolerance_m` from the edge that replaces it (Douglas & Peucker 1973), and the new ring does not
+/// cross or touch itself: where it would, vertices stay. No recursion. Cost: vertices × passes,
+/// of which there are about log n, at worst n; a `check_polygon` for each crossing.
+/// @param tolerance_m ≥ 0. @param keep scratch, one a vertex. @param out room for all vertices.
+/// @param count how many were written.
+/// @return what `check_polygon` says of the ring; nothing is written unless it is ok.
+Status simplify_ring(View<Vec2f> ring, float tolerance_m, std::uint8_t* keep, Vec2f* out,
+                     std::int32_t* count);
+
+/// Area between the rings, m²; 0 for less than 3 vertices.
+float polygon_area(View<Vec2f> polygon, View<View<Vec2f>> holes = {});
+/// Centre of that area; the first vertex if there is no area, the origin if there is no vertex.
+Vec2f polygon_centroid(View<Vec2f> polygon, View<View<Vec2f>> holes = {});
+/// Whether a point is between the rings: a ray from it meets them an odd number of times. On an
+/// edge the answer may be either.
+bool polygon_contains(View<Vec2f> polygon, View<View<Vec2f>> holes, Vec2f point);
+
 }  // namespace weir

@@ -1,0 +1,105 @@
+#include "pour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <stdexcept>
+
+#include "math/vec2.hpp"
+
+namespace solids {
+
+namespace {
+
+constexpr std::int32_t kTank = 64;
+constexpr float kLargest = 40.0F;
+constexpr int kSteps = 400;
+constexpr float kStep_s = 0.05F;  // cells of 1 m: the block falls for 3 s
+
+/// Scaled by a power of two, so that not a bit of its shape changes, and set on the ground.
+ListedPolygon fitted(ListedPolygon polygon) {
+    weir::Vec2f low = polygon.rings[0][0];
+    weir::Vec2f high = low;
+    for (const weir::Vec2f v : polygon.rings[0]) {
+        low = {std::min(low.x, v.x), std::min(low.y, v.y)};
+        high = {std::max(high.x, v.x), std::max(high.y, v.y)};
+    }
+    const float size = std::max(high.x - low.x, high.y - low.y);
+    const float scale = std::exp2(std::floor(std::log2(kLargest / size)));
+    for (auto& ring : polygon.rings) {
+        for (weir::Vec2f& v : ring) {
+            v = {scale * (v.x - low.x), scale * (v.y - low.y)};
+        }
+    }
+    return polygon;
+}
+
+/// How deep a point is inside, cells; 0 outside. By the parity of a ray's crossings.
+double depth_in(const ListedPolygon& polygon, weir::Vec2<double> p) {
+    bool inside = false;
+    double nearest = 1e9;
+    for (const auto& ring : polygon.rings) {
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const auto a = weir::convert<double>(ring[k]);
+            const auto b = weir::convert<double>(ring[(k + 1) % ring.size()]);
+            if ((a.y > p.y) != (b.y > p.y) &&
+                p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+                inside = !inside;
+            }
+            const double along = weir::dot(p - a, b - a) / weir::dot(b - a, b - a);
+            const double share = std::min(1.0, std::max(0.0, along));
+            nearest = std::min(nearest, weir::length(p - (a + share * (b - a))));
+        }
+    }
+    return inside ? nearest : 0.0;
+}
+
+}  // namespace
+
+PourResult pour(const ListedPolygon& drawn) {
+    const ListedPolygon polygon = fitted(drawn);
+    weir::WorldDef def;
+    def.cell_m = 1.0F;
+    def.capacity.cells_x = kTank;
+    def.capacity.cells_y = kTank;
+    def.capacity.particles = 4000;
+    def.capacity.bodies = 1;
+    def.capacity.vertices = weir::kMaxBodyVertices;
+    const std::size_t bytes = weir::world_bytes<float>(def.capacity);
+    const auto release = [](std::byte* memory) {
+        ::operator delete(memory, std::align_val_t{weir::world_alignment});
+    };
+    const std::unique_ptr<std::byte, decltype(release)> memory(
+        static_cast<std::byte*>(::operator new(bytes, std::align_val_t{weir::world_alignment})),
+        release);
+    weir::World<float> world;
+    const auto require = [&](weir::Status status) {
+        if (status != weir::Status::ok) {
+            throw std::runtime_error(polygon.name + ": " + weir::status_text(status));
+        }
+    };
+    require(world.init(def, memory.get(), bytes));
+    std::vector<weir::View<weir::Vec2f>> views;
+    weir::BodyDef body = body_of(polygon, views);
+    const weir::Vec2f at{12.3F, 2.7F};  // off the grid's lines
+    body.motion.position_m = at;
+    weir::BodyId id;
+    require(world.add_static_body(body, &id));
+    PourResult result;
+    require(world.fill({{2, 46}, {62, 62}}, &result.particles));
+    int removed = 0;
+    for (int step = 0; step < kSteps; ++step) {
+        removed += world.step(kStep_s).particles_removed_stuck;
+    }
+    for (const weir::Vec2<float>& x : world.particle_positions()) {
+        const double depth = depth_in(polygon, weir::convert<double>(x - at));
+        result.deepest = std::max(result.deepest, depth);
+        result.inside += depth > kTrappedDepth ? 1 : 0;
+    }
+    result.lost = result.particles - removed - world.particle_positions().size;
+    return result;
+}
+
+}  // namespace solids
