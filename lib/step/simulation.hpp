@@ -15,7 +15,8 @@ template <class Real>
 struct Simulation {
     Settings<Real> settings;
     Particles<Real> particles;
-    StaggeredGrid<Real> grid;
+    StaggeredGrid<Real> grid;  ///< between substeps of the whole tank
+    GridShape occupied;        ///< what the last substep worked on
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;

@@ -12,6 +12,7 @@
 #include "step/boundary_condition.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/grid_update.hpp"
+#include "step/occupied.hpp"
 #include "step/particle_to_grid.hpp"
 #include "step/viscosity.hpp"
 
@@ -125,6 +126,17 @@ void note(const CollideResult<Real>& result, Simulation<Real>& simulation, StepR
     simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
 }
 
+/// The grid's stages see the part of the tank that the liquid is in.
+template <class Real>
+void skip_empty(Simulation<Real>& simulation) {
+    const GridShape& tank = simulation.layers.shape;
+    const GridShape part =
+        occupied_part(tank, simulation.settings.borders, simulation.particles);
+    empty_beyond(tank, simulation.occupied, part, simulation.pressure);
+    simulation.occupied = part;
+    simulation.grid.shape = part;
+}
+
 /// Moves the particles and lets them meet the solids: a block at a time, because a particle's path
 /// is known only while the place that it comes from is.
 template <class Real>
@@ -136,6 +148,7 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
                             minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
     simulation.max_speed = Real(0);
     prepare_gather(simulation.grid);
+    simulation.grid.shape = simulation.layers.shape;
     const Walls<Real>& walls = simulation.layers.walls;
     if (!walls.active) {
         note(grid_to_particle(simulation.grid, transfer, particles), simulation, report);
@@ -176,6 +189,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
         report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
         clock.charge(Stage::contour);
     }
+    skip_empty(simulation);
     particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid);
     clock.charge(Stage::particle_to_grid);
 

@@ -90,6 +90,7 @@ template <class Real>
 void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& simulation) {
     const GridShape shape{capacity.cells_x, capacity.cells_y, capacity.cells_x + 2};
     simulation.grid.shape = shape;
+    simulation.occupied = shape;
     simulation.layers.shape = shape;
     carver.take(Block::particle_position, simulation.particles.position);
     carver.take(Block::particle_velocity, simulation.particles.velocity);

@@ -1,0 +1,91 @@
+#include "step/occupied.hpp"
+
+#include "math/lanes.hpp"
+
+namespace weir {
+
+namespace {
+
+/// Rows above the row of the highest particle: one that its mass reaches, one that velocity is
+/// extrapolated to, and what stencils of smoothing and mirroring look at beyond.
+constexpr std::int32_t kMargin = 5;
+
+template <class Real>
+Vec2<Real> furthest(const Vec2<Real>* position, std::int32_t first, std::int32_t count,
+                    Vec2<Real> so_far) {
+    for (std::int32_t k = first; k < count; ++k) {
+        so_far.x = maximum(so_far.x, position[k].x);
+        so_far.y = maximum(so_far.y, position[k].y);
+    }
+    return so_far;
+}
+
+template <class Real>
+Vec2<Real> furthest(const Vec2<Real>* position, std::int32_t count) {
+    return furthest(position, 0, count, {});
+}
+
+#if WEIR_HAS_LANES
+/// Two particles a load, and two loads under way.
+template <>
+Vec2<float> furthest(const Vec2<float>* position, std::int32_t count) {
+    Lanes one = all_lanes(0.0F);
+    Lanes other = one;
+    std::int32_t k = 0;
+    for (; k + 4 <= count; k += 4) {
+        one = maximum(one, load_lanes(&position[k].x));
+        other = maximum(other, load_lanes(&position[k + 2].x));
+    }
+    one = maximum(one, other);
+    return furthest(position, k, count, {maximum(one[0], one[2]), maximum(one[1], one[3])});
+}
+#endif
+
+template <class Real>
+void empty_cells(const GridShape& tank, std::int32_t i0, std::int32_t i1, std::int32_t j0,
+                 std::int32_t j1, PressureFields<Real>& fields) {
+    for (std::int32_t j = j0; j < minimum(j1, tank.ny); ++j) {
+        for (std::int32_t i = i0; i < minimum(i1, tank.nx); ++i) {
+            const std::int32_t c = tank.index(i, j);
+            fields.pressure[c] = Real(0);
+            fields.density[c] = Real(0);
+            fields.level[c] = kEmptyLevel<Real>;
+        }
+    }
+}
+
+}  // namespace
+
+template <class Real>
+GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
+                        const Particles<Real>& particles) {
+    const Vec2<Real> last = furthest(particles.position, particles.count);
+    GridShape part = tank;
+    if (!borders.wrap_x) {
+        part.nx = minimum(tank.nx, static_cast<std::int32_t>(last.x) + kMargin);
+    }
+    if (!borders.wrap_y) {
+        part.ny = minimum(tank.ny, static_cast<std::int32_t>(last.y) + kMargin);
+    }
+    return part;
+}
+
+template <class Real>
+void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape& now,
+                  PressureFields<Real>& fields) {
+    // The last part's ghost cells lie within the tank, unless it was all of it.
+    empty_cells(tank, 0, last.nx + 1, now.ny, last.ny + 1, fields);
+    empty_cells(tank, now.nx, last.nx + 1, 0, minimum(now.ny, last.ny + 1), fields);
+}
+
+#define WEIR_INSTANTIATE(Real)                                                                \
+    template GridShape occupied_part(const GridShape&, const Borders<Real>&,                  \
+                                     const Particles<Real>&);                                 \
+    template void empty_beyond(const GridShape&, const GridShape&, const GridShape&,          \
+                               PressureFields<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

@@ -1,0 +1,24 @@
+// Skip: the grid's stages work on the part of the tank that particles can reach, from its lower left
+// corner on. A grid of fewer columns and rows is numbered as the whole one is: only loops end
+// earlier, and what they would have found beyond is empty.
+#pragma once
+
+#include "fluid/particles.hpp"
+#include "grid/borders.hpp"
+#include "pressure/pressure_fields.hpp"
+
+namespace weir {
+
+/// The part of the tank that this substep needs. Along a seam it is always the whole tank.
+/// Cost: 2 comparisons a particle.
+template <class Real>
+GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
+                        const Particles<Real>& particles);
+
+/// Empties the cells that the last substep's part had and this one's has not: pressure, density
+/// and level are what a cell without liquid has.
+template <class Real>
+void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape& now,
+                  PressureFields<Real>& fields);
+
+}  // namespace weir

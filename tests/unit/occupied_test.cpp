@@ -1,0 +1,88 @@
+// Skip: the part of a tank that holds no liquid changes nothing and costs nothing.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "step/occupied.hpp"
+#include "test_world.hpp"
+
+namespace weir {
+namespace {
+
+/// Water in the lower left corner of a tank, closed off by a solid wall on its right, so that the
+/// tank may be any larger.
+template <class Real>
+struct CornerPool {
+    std::vector<std::byte> memory;
+    World<Real> world;
+
+    CornerPool(std::int32_t cells_x, std::int32_t cells_y) {
+        WorldDef def;
+        def.capacity = {1200, cells_x, cells_y, 1, 4, false};
+        def.cell_m = 0.02F;
+        memory.resize(world_bytes<Real>(def.capacity) + world_alignment);
+        void* start = memory.data();
+        std::size_t room = memory.size();
+        start = std::align(world_alignment, room - world_alignment, start, room);
+        EXPECT_EQ(world.init(def, start, room), Status::ok);
+        const Vec2f wall[] = {{0.50F, -0.02F}, {0.60F, -0.02F}, {0.60F, 0.70F}, {0.50F, 0.70F}};
+        BodyDef body;
+        body.polygon = {wall, 4};
+        BodyId id;
+        EXPECT_EQ(world.add_static_body(body, &id), Status::ok);
+        EXPECT_EQ(world.fill({{0.0F, 0.0F}, {0.16F, 0.40F}}), Status::ok);
+    }
+};
+
+template <class Real>
+class Occupied : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed>;
+TYPED_TEST_SUITE(Occupied, Scalars);
+
+TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
+    CornerPool<TypeParam> small(40, 40), large(90, 70);
+    for (int k = 0; k < 120; ++k) {
+        // A shake upwards on the way: the part grows and shrinks again.
+        const Vec2f gravity{0.0F, k >= 40 && k < 52 ? 6.0F : -9.81F};
+        ASSERT_EQ(small.world.set_gravity(gravity), Status::ok);
+        ASSERT_EQ(large.world.set_gravity(gravity), Status::ok);
+        small.world.step(1.0F / 60.0F);
+        large.world.step(1.0F / 60.0F);
+        const auto a = small.world.particle_positions();
+        const auto b = large.world.particle_positions();
+        ASSERT_EQ(a.size, b.size);
+        ASSERT_EQ(std::memcmp(a.data, b.data, static_cast<std::size_t>(a.size) * sizeof a[0]), 0)
+            << "step " << k;
+    }
+    const auto p = small.world.pressure();
+    const auto q = large.world.pressure();
+    for (std::int32_t j = 0; j < q.rows; ++j) {
+        for (std::int32_t i = 0; i < q.columns; ++i) {
+            const bool both = i < p.columns && j < p.rows;
+            ASSERT_EQ(q.at(i, j), both ? p.at(i, j) : TypeParam(0)) << i << ", " << j;
+        }
+    }
+}
+
+TEST(OccupiedPart, EndsBeyondTheFurthestParticleAndNeverCutsASeam) {
+    Vec2f position[] = {{1.5F, 2.5F}, {7.5F, 0.5F}, {3.5F, 4.5F}, {0.5F, 0.5F}, {0.5F, 9.25F}};
+    Vec2f velocity[5] = {};
+    const GridShape tank{40, 30, 42};
+    const Particles<float> all{position, velocity, 5, 5};
+    Borders<float> borders;
+    GridShape part = occupied_part(tank, borders, all);
+    EXPECT_GE(part.nx, 7 + 3);
+    EXPECT_LT(part.nx, 7 + 8);
+    EXPECT_GE(part.ny, 9 + 3);
+    EXPECT_LT(part.ny, 9 + 8);
+    EXPECT_EQ(part.stride, tank.stride);
+    borders.wrap_x = borders.wrap_y = true;
+    part = occupied_part(tank, borders, all);
+    EXPECT_EQ(part.nx, 40);
+    EXPECT_EQ(part.ny, 30);
+}
+
+}  // namespace
+}  // namespace weir
