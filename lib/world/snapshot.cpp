@@ -243,6 +243,7 @@ void redraw(Simulation<Real>& simulation) {
         }
     }
     simulation.layers.walls.active = table.used > 0;
+    simulation.occupied = simulation.grid.shape;  // what is not kept may stand anywhere
     clear(simulation.contacts);
     if (table.capacity > 0) {
         redraw_all(simulation.layers, table);

@@ -50,8 +50,8 @@ void any_member(Stream& stream, Vec2<Real>& vector) {
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, tag, pending] = state;
-    auto& [settings, particles, grid, pressure_fields, bodies, layers, contacts, max_speed,
-           ticks] = simulation;
+    auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers, contacts,
+           max_speed, ticks] = simulation;
     auto& [pressure, divergence, inverse_diagonal, density, level, coarse, on_surface, last_dt,
            gravity_change] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
