@@ -1,6 +1,6 @@
-// Skip: the grid's stages work on the part of the tank that particles can reach, from its lower left
-// corner on. A grid of fewer columns and rows is numbered as the whole one is: only loops end
-// earlier, and what they would have found beyond is empty.
+// Skip: the stages of the grid work on the part of the tank that particles can reach, from its
+// lower left corner on. A grid of fewer columns and rows is numbered as the whole one is: loops
+// end earlier, and what they would have found beyond is empty.
 #pragma once
 
 #include "fluid/particles.hpp"
