@@ -29,9 +29,9 @@ struct Walls {
     const Body<Real>* body = nullptr;
 };
 
-/// Words of `near` for one row of cells.
+/// Words of `near` for one row of the tank's cells, of which a shape may be a part.
 inline std::int32_t near_words(const GridShape& shape) {
-    return (shape.nx + 31) / 32;
+    return (shape.stride - 2 + 31) / 32;
 }
 
 template <class Real>
@@ -48,7 +48,7 @@ template <class Real, class Visit>
 inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, Visit visit) {
     const std::int32_t words = near_words(shape);
     for (std::int32_t j = 0; j < shape.ny; ++j) {
-        for (std::int32_t k = 0; k < words; ++k) {
+        for (std::int32_t k = 0; 32 * k < shape.nx; ++k) {
             std::int32_t i = 32 * k;
             for (std::uint32_t left = walls.near[j * words + k]; left != 0; left >>= 1U, ++i) {
                 if ((left & 1U) != 0) {
