@@ -10,9 +10,9 @@ namespace {
 /// extrapolated to, and what stencils of smoothing and mirroring look at beyond.
 constexpr std::int32_t kMargin = 5;
 
-template <class Real>
-Vec2<Real> furthest(const Vec2<Real>* position, std::int32_t first, std::int32_t count,
-                    Vec2<Real> so_far) {
+template <class Position>
+Vec2<Position> furthest(const Vec2<Position>* position, std::int32_t first, std::int32_t count,
+                        Vec2<Position> so_far) {
     for (std::int32_t k = first; k < count; ++k) {
         so_far.x = maximum(so_far.x, position[k].x);
         so_far.y = maximum(so_far.y, position[k].y);
@@ -20,8 +20,8 @@ Vec2<Real> furthest(const Vec2<Real>* position, std::int32_t first, std::int32_t
     return so_far;
 }
 
-template <class Real>
-Vec2<Real> furthest(const Vec2<Real>* position, std::int32_t count) {
+template <class Position>
+Vec2<Position> furthest(const Vec2<Position>* position, std::int32_t count) {
     return furthest(position, 0, count, {});
 }
 
@@ -59,7 +59,8 @@ void empty_cells(const GridShape& tank, std::int32_t i0, std::int32_t i1, std::i
 template <class Real>
 GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
                         const Particles<Real>& particles) {
-    const Vec2<Real> last = furthest(particles.position, particles.count);
+    const auto end = furthest(particles.position, particles.count);
+    const Vec2<Real> last{Real(end.x), Real(end.y)};
     GridShape part = tank;
     if (!borders.wrap_x) {
         part.nx = minimum(tank.nx, static_cast<std::int32_t>(last.x) + kMargin);
@@ -86,6 +87,7 @@ void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape&
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -38,7 +38,7 @@ struct CornerPool {
 
 template <class Real>
 class Occupied : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
+using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
 TYPED_TEST_SUITE(Occupied, Scalars);
 
 TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
