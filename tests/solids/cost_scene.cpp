@@ -1,6 +1,8 @@
 // weir_solids_scene SCENE with|without FRAMES: one scene of the paper's tables, for counting the
 // instructions of its steps. SCENE: box, standard, complex, or a number of hexagons: 250 or
-// 250turning. Prints the number of substeps and of particles.
+// 250turning. Prints the number of substeps and of particles, and the
+// seconds that the frames after the first took.
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -33,9 +35,13 @@ int main(int argc, char** argv) {
         return 1;
     }
     int substeps = 0;
+    double seconds = 0.0;
     for (int frame = 0; frame < std::atoi(argv[3]); ++frame) {
+        const auto begin = std::chrono::steady_clock::now();
         substeps += runner->step().steps;
+        const auto end = std::chrono::steady_clock::now();
+        seconds += frame > 0 ? std::chrono::duration<double>(end - begin).count() : 0.0;
     }
-    std::printf("%d %d\n", substeps, runner->particles());
+    std::printf("%d %d %.6f\n", substeps, runner->particles(), seconds);
     return 0;
 }

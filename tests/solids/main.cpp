@@ -18,6 +18,8 @@ struct Problem {
 
 constexpr Problem kProblems[] = {
     // Contours.
+    {"R1", "one particle against walls at 76 angles", solids::one_particle},
+    {"R2", "area and centroid of polygons on the grid", solids::coverage},
     {"R3", "contour normals and positions", solids::contour_normals},
     // Polygons.
     {"real", "coastline, letters, drawings: pieces, and liquid poured over them",
@@ -27,7 +29,10 @@ constexpr Problem kProblems[] = {
     // Still water.
     {"R4c", "still water between inclined walls", solids::still_water},
     {"R6b", "sloshing between inclined walls", solids::sloshing},
+    {"R4d", "force of still water on submerged polygons", solids::buoyancy},
+    {"R14", "soak: vessels with thin, turned and pointed walls", solids::vessels_soak},
     // Cost.
+    {"cost", "scenes with against without solids", solids::cost_of_solids},
 };
 
 bool known(const std::string& name) {

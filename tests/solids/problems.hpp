@@ -11,6 +11,8 @@ struct Effort {
 };
 
 // Contours.
+void one_particle(Report& report, const Effort& effort);     // R1
+void coverage(Report& report, const Effort& effort);         // R2
 void contour_normals(Report& report, const Effort& effort);  // R3
 
 // Polygons.
@@ -23,7 +25,10 @@ void real_geometry(Report& report, const Effort& effort);
 // Still water.
 void still_water(Report& report, const Effort& effort);  // R4c
 void sloshing(Report& report, const Effort& effort);     // R6b
+void buoyancy(Report& report, const Effort& effort);     // R4d
+void vessels_soak(Report& report, const Effort& effort);  // R14 ii-iv
 
 // Cost.
+void cost_of_solids(Report& report, const Effort& effort);
 
 }  // namespace solids

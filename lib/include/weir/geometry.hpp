@@ -67,4 +67,13 @@ Vec2f polygon_centroid(View<Vec2f> polygon, View<View<Vec2f>> holes = {});
 /// edge the answer may be either.
 bool polygon_contains(View<Vec2f> polygon, View<View<Vec2f>> holes, Vec2f point);
 
+/// Exact share of every cell that a polygon covers, 0 … 1, up to rounding: for drawing solids
+/// without steps, and for measuring them. What is off the grid is cut off. `check_polygon` names
+/// what is refused; output_missing.
+/// Cost: rows × edges, and the cells that the edges cross.
+/// @param polygon in cells: metres over cell_m.
+/// @param share columns · rows numbers, row after row, overwritten.
+Status cover_cells(View<Vec2f> polygon, View<View<Vec2f>> holes, std::int32_t columns,
+                   std::int32_t rows, float* share);
+
 }  // namespace weir

@@ -1,0 +1,110 @@
+// What solids cost: the paper's scenes with against without them, in instructions (Callgrind) and in
+// time, and many still polygons against few. A step of the one is compared with a step of the other,
+// per particle and substep: the liquid falls differently where there are no solids.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+#include "problems.hpp"
+
+namespace solids {
+
+namespace {
+
+struct Run {
+    double substeps = 0.0;
+    double particles = 0.0;
+    double seconds = 0.0;
+    double instructions = 0.0;
+};
+
+/// Standard output of a command. Throws if it fails.
+std::string output_of(const std::string& command) {
+    std::FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) {
+        throw std::runtime_error("cannot run " + command);
+    }
+    std::string text;
+    char buffer[256];
+    while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) {
+        text += buffer;
+    }
+    if (pclose(pipe) != 0) {
+        throw std::runtime_error("failed: " + command);
+    }
+    return text;
+}
+
+std::string scene_command(const std::string& scene, bool solids, int frames) {
+    return std::string(WEIR_SOLIDS_SCENE) + " " + scene + (solids ? " with " : " without ") +
+           std::to_string(frames);
+}
+
+Run timed(const std::string& scene, bool solids, int frames) {
+    Run run;
+    const std::string text = output_of(scene_command(scene, solids, frames));
+    if (std::sscanf(text.c_str(), "%lf %lf %lf", &run.substeps, &run.particles, &run.seconds) != 3) {
+        throw std::runtime_error("what does this mean: " + text);
+    }
+    return run;
+}
+
+Run counted(const std::string& scene, bool solids, int frames) {
+    const std::string command =
+        "valgrind --tool=callgrind --callgrind-out-file=/dev/null "
+        "--toggle-collect='weir::World<float>::step(float)' " +
+        scene_command(scene, solids, frames) + " 2>&1";
+    const std::string text = output_of(command);
+    Run run = timed(scene, solids, frames);
+    const std::size_t at = text.find("Collected : ");
+    if (at == std::string::npos) {
+        throw std::runtime_error("no count: " + text);
+    }
+    run.instructions = std::atof(text.c_str() + at + 12);
+    return run;
+}
+
+/// Instructions per particle and substep, without the first step's long solve.
+double instructions(const std::string& scene, bool solids) {
+    const Run first = counted(scene, solids, 1);
+    const Run all = counted(scene, solids, 13);
+    return (all.instructions - first.instructions) /
+           ((all.substeps - first.substeps) * all.particles);
+}
+
+/// Median of the ratios of seconds per particle and substep, turn by turn.
+double time_ratio(const std::string& scene) {
+    std::vector<double> ratios;
+    for (int turn = 0; turn < 9; ++turn) {
+        const Run with = timed(scene, true, 25);
+        const Run without = timed(scene, false, 25);
+        ratios.push_back((with.seconds / (with.substeps * with.particles)) /
+                         (without.seconds / (without.substeps * without.particles)));
+    }
+    std::sort(ratios.begin(), ratios.end());
+    return ratios[ratios.size() / 2];
+}
+
+}  // namespace
+
+void cost_of_solids(Report& report, const Effort&) {
+    for (const char* scene : {"box", "standard", "complex"}) {
+        const double with = instructions(scene, true);
+        const double without = instructions(scene, false);
+        const std::string name = std::string("cost.") + scene;
+        report.figure(name + ".instructions_with", with, "a particle and substep");
+        report.at_most(name + ".instructions_with_over_without", with / without, "1", 1.03);
+        report.at_most(name + ".time_with_over_without", time_ratio(scene), "1", 1.03);
+    }
+    const double few = instructions("250", true);
+    report.at_most("cost.still_polygons_1000_over_250", instructions("1000", true) / few, "1",
+                   1.02);
+    const double turning = instructions("250turning", true);
+    report.figure("cost.250_turning_over_still", turning / few, "1");
+    report.figure("cost.1000_turning_over_250_turning", instructions("1000turning", true) / turning,
+                  "1");
+}
+
+}  // namespace solids

@@ -1,0 +1,155 @@
+// R1: one particle meets a half plane at any angle. Exact: a straight line, and the mirrored
+// velocity.
+#include <cmath>
+#include <vector>
+
+#include "problems.hpp"
+#include "vessel.hpp"
+
+namespace solids {
+
+namespace {
+
+constexpr int kCells = 64;
+constexpr double kSpeed = 16.0;  // cells/s: a quarter of a cell a step
+
+struct Contact {
+    double angle_error = 0.0;  ///< deg
+    double loss = 0.0;         ///< of the speed along the wall
+    double penetration = 0.0;  ///< cells
+    double stand_off = 0.0;    ///< distance at which the velocity first changes, cells
+    bool happened = false;
+};
+
+/// A wall whose face goes through the middle of the tank and whose normal is n.
+Points half_plane(Vec n) {
+    const Vec middle{0.5 * kCells + 0.13, 0.5 * kCells - 0.29};
+    const Vec along{-n.y, n.x};
+    const double far = 2.0 * kCells;
+    return {middle + far * along, middle + far * along - far * n, middle - far * along - far * n,
+            middle - far * along};
+}
+
+class Flight {
+public:
+    Flight(Vec n, weir::Contour contour) : n_(n) {
+        weir::WorldDef def;
+        def.cell_m = kCell_m;
+        def.capacity.cells_x = kCells;
+        def.capacity.cells_y = kCells;
+        def.capacity.particles = 1;
+        def.capacity.bodies = 1;
+        def.capacity.vertices = 4;
+        def.contour = contour;
+        def.gravity_mps2 = {};
+        memory_.resize(weir::world_bytes<float>(def.capacity) / sizeof(Line) + 1);
+        std::vector<weir::Vec2f> ring;
+        for (const Vec p : half_plane(n)) {
+            ring.push_back({static_cast<float>(p.x) * kCell_m, static_cast<float>(p.y) * kCell_m});
+        }
+        weir::BodyDef body;
+        body.polygon = {ring.data(), 4};
+        body.surface.restitution = 1.0F;
+        weir::BodyId id;
+        ok_ = world_.init(def, memory_.data(), memory_.size() * sizeof(Line)) ==
+                  weir::Status::ok &&
+              world_.add_static_body(body, &id) == weir::Status::ok;
+    }
+
+    /// A particle from ten cells off, at that angle to the normal.
+    Contact fly(double incidence) {
+        Contact contact;
+        const Vec along{-n_.y, n_.x};
+        const Vec v = kSpeed * (std::sin(incidence) * along - std::cos(incidence) * n_);
+        const Vec on{0.5 * kCells + 0.13, 0.5 * kCells - 0.29};
+        const double back = 10.0 / std::cos(incidence);
+        const double start = back < 24.0 ? back : 24.0;
+        const Vec from = on - (start / kSpeed) * v;
+        const auto metre = static_cast<double>(kCell_m);
+        ok_ = ok_ && world_.add_particle(weir::convert<float>(metre * from),
+                                         weir::convert<float>(metre * v)) == weir::Status::ok;
+        for (int step = 0; step < 600 && ok_; ++step) {
+            world_.step(kFrame_s);
+            const Vec x = weir::convert<double>(world_.particle_positions()[0]);
+            const Vec now = weir::convert<double>(world_.particle_velocities()[0]);
+            const double off = weir::dot(x - on, n_);
+            contact.penetration = std::max(contact.penetration, -off);
+            if (!contact.happened && weir::length(now - v) > 1e-3 * kSpeed) {
+                contact.happened = true;
+                contact.stand_off = off;
+            }
+            if (contact.happened && off > 3.0) {
+                const Vec mirrored = v - 2.0 * weir::dot(v, n_) * n_;
+                contact.angle_error = std::abs(std::atan2(weir::cross(now, mirrored),
+                                                          weir::dot(now, mirrored))) *
+                                      180.0 / M_PI;
+                const double tangential = std::abs(weir::dot(v, along));
+                contact.loss = tangential > 1.0
+                                   ? std::abs(weir::dot(now, along) / weir::dot(v, along) - 1.0)
+                                   : 0.0;
+                break;
+            }
+        }
+        ok_ = ok_ && world_.remove_particle(0) == weir::Status::ok;
+        return contact;
+    }
+
+    bool ok() const { return ok_; }
+
+private:
+    struct alignas(weir::world_alignment) Line {
+        std::byte bytes[weir::world_alignment];
+    };
+    Vec n_;
+    std::vector<Line> memory_;
+    weir::World<float> world_{};
+    bool ok_ = false;
+};
+
+std::vector<double> wall_angles() {
+    std::vector<double> degrees;
+    for (int k = 0; k < 72; ++k) {
+        degrees.push_back(5.0 * k);
+    }
+    degrees.insert(degrees.end(), {17.3, 31.7, 58.2, 73.1});
+    return degrees;
+}
+
+void all_walls(Report& report, const std::string& name, weir::Contour contour, bool targets) {
+    Contact worst;
+    double nearest = 1e9;
+    double furthest = -1e9;
+    int missed = 0;
+    for (const double degrees : wall_angles()) {
+        const double a = degrees * M_PI / 180.0;
+        Flight flight({std::cos(a), std::sin(a)}, contour);
+        for (const double incidence : {0.0, 30.0, 60.0, 80.0}) {
+            const Contact one = flight.fly(incidence * M_PI / 180.0);
+            missed += one.happened && flight.ok() ? 0 : 1;
+            worst.angle_error = std::max(worst.angle_error, one.angle_error);
+            worst.loss = std::max(worst.loss, one.loss);
+            worst.penetration = std::max(worst.penetration, one.penetration);
+            nearest = std::min(nearest, one.stand_off);
+            furthest = std::max(furthest, one.stand_off);
+        }
+    }
+    if (!targets) {
+        report.figure(name + ".angle_error", worst.angle_error, "deg");
+        report.figure(name + ".penetration", worst.penetration, "cells");
+        return;
+    }
+    report.equals(name + ".flights_without_contact", missed, "1", 0.0);
+    report.at_most(name + ".angle_error", worst.angle_error, "deg", 0.1);
+    report.at_most(name + ".loss_along_the_wall", 100.0 * worst.loss, "%", 0.5);
+    report.at_most(name + ".penetration", worst.penetration, "cells", 0.05);
+    report.at_most(name + ".stand_off_anisotropy", furthest - nearest, "cells", 0.1);
+}
+
+}  // namespace
+
+void one_particle(Report& report, const Effort&) {
+    all_walls(report, "R1", weir::Contour::interpolated, true);
+    all_walls(report, "R1.binary", weir::Contour::mid_edge, false);
+}
+
+}  // namespace solids

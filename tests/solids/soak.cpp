@@ -1,0 +1,149 @@
+// R14, variants ii to iv: a column collapses in a vessel and stays in it, with its volume.
+#include <cmath>
+
+#include "problems.hpp"
+#include "vessel.hpp"
+
+namespace solids {
+
+namespace {
+
+Points slab(Vec a, Vec b) {
+    return {{a.x, a.y}, {b.x, a.y}, {b.x, b.y}, {a.x, b.y}};
+}
+
+struct Soak {
+    Vessel vessel;
+    std::function<bool(Vec)> room;  ///< where liquid may be, in the vessel's frame
+    Vec low;                        ///< of the room
+    Vec high;
+};
+
+/// Closed box turned by 17.3 degrees, walls 3, 2, 1.5 and 1 cells thick.
+Soak turned_box(int n) {
+    Soak soak;
+    soak.vessel.cells_x = soak.vessel.cells_y = static_cast<int>(1.6 * n) + 8;
+    soak.vessel.tilt = 17.3 * M_PI / 180.0;
+    soak.vessel.gravity_tilts = false;
+    const Vec low = soak.vessel.middle() - Vec{0.5 * n + 0.3, 0.5 * n - 0.2};
+    const Vec high = low + Vec{1.0 * n, 1.0 * n};
+    soak.vessel.walls = {slab({low.x - 2.0, low.y - 3.0}, {high.x + 1.5, low.y}),
+                         slab({low.x - 2.0, low.y - 3.0}, {low.x, high.y + 1.0}),
+                         slab({high.x, low.y - 3.0}, {high.x + 1.5, high.y + 1.0}),
+                         slab({low.x - 2.0, high.y}, {high.x + 1.5, high.y + 1.0})};
+    soak.vessel.liquid = [low, n](Vec p) {
+        return p.x > low.x && p.x < low.x + 0.5 * n && p.y > low.y && p.y < low.y + 0.8 * n;
+    };
+    soak.room = [low, high](Vec p) {
+        return p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y;
+    };
+    soak.low = low;
+    soak.high = high;
+    return soak;
+}
+
+/// A cup with walls one cell thick, water inside only.
+Soak cup(int n) {
+    Soak soak;
+    soak.vessel.cells_x = soak.vessel.cells_y = 2 * n;
+    const Vec low{0.5 * n + 0.3, 0.4 * n + 0.7};
+    const Vec high = low + Vec{1.0 * n, 1.0 * n};
+    soak.vessel.walls = {{{low.x - 1.0, low.y - 1.0},
+                          {high.x + 1.0, low.y - 1.0},
+                          {high.x + 1.0, high.y},
+                          {high.x, high.y},
+                          {high.x, low.y},
+                          {low.x, low.y},
+                          {low.x, high.y},
+                          {low.x - 1.0, high.y}}};
+    soak.vessel.liquid = [low, n](Vec p) {
+        return p.x > low.x && p.x < low.x + n && p.y > low.y && p.y < low.y + 0.6 * n;
+    };
+    soak.room = [low, high](Vec p) { return p.x > low.x && p.x < high.x && p.y > low.y; };
+    soak.low = low;
+    soak.high = high;
+    return soak;
+}
+
+/// A column over a floor with a 60 degree notch, and a needle one cell wide in its way.
+Soak notch_and_needle(int n) {
+    Soak soak;
+    soak.vessel.cells_x = soak.vessel.cells_y = n;
+    const double floor = 0.25 * n + 0.3;
+    const double half = (floor - 0.6) * std::tan(M_PI / 6.0);
+    const Vec tip{0.35 * n + 0.2, 0.6};
+    const double foot = 0.7 * n + 0.4;
+    const double top = 0.6 * n;
+    soak.vessel.walls = {
+        {{-2.0, -2.0}, {tip.x, -2.0}, tip, {tip.x - half, floor}, {-2.0, floor}},
+        {{tip.x, -2.0}, {n + 2.0, -2.0}, {n + 2.0, floor}, {tip.x + half, floor}, tip},
+        {{foot, floor - 1.0}, {foot + 1.0, floor - 1.0}, {foot + 0.5, top}}};
+    soak.room = [=](Vec p) {
+        const bool in_notch = std::abs(p.x - tip.x) < (p.y - tip.y) * std::tan(M_PI / 6.0);
+        const bool in_needle = p.y < top && std::abs(p.x - foot - 0.5) <
+                                                0.5 * (top - p.y) / (top - floor + 1.0);
+        return p.x > 0.0 && p.x < n && (p.y > floor || (in_notch && p.y > tip.y)) && !in_needle;
+    };
+    soak.vessel.liquid = [room = soak.room, n, tip, half](Vec p) {
+        return room(p) && p.x < 0.5 * n && p.y < 0.9 * n;
+    };
+    soak.low = {0.0, 0.0};
+    soak.high = {1.0 * n, 1.0 * n};
+    return soak;
+}
+
+/// Particles that are off the room by more than half a cell, along the axes: through half of the
+/// thinnest wall. (The contour of a wall thinner than two cells is up to a quarter of a cell off.)
+int outside(const Soak& soak, const Pool& pool) {
+    int count = 0;
+    for (int k = 0; k < pool.particles(); ++k) {
+        const Vec p = pool.position(k);
+        constexpr double kNear = 0.5;
+        const bool near = soak.room(p) || soak.room({p.x + kNear, p.y}) ||
+                          soak.room({p.x - kNear, p.y}) || soak.room({p.x, p.y + kNear}) ||
+                          soak.room({p.x, p.y - kNear});
+        count += near ? 0 : 1;
+    }
+    return count;
+}
+
+void run(Report& report, const std::string& name, const Soak& soak, int steps) {
+    Pool pool(soak.vessel);
+    const int particles = pool.particles();
+    int most_outside = 0;
+    for (int step = 0; step < steps; ++step) {
+        pool.step();
+        if (step % 50 == 0 || step + 1 == steps) {
+            most_outside = std::max(most_outside, outside(soak, pool));
+        }
+    }
+    const Vec up = soak.vessel.gravity_tilts ? Vec{0.0, 1.0} : soak.vessel.turned_back({0.0, 1.0});
+    const AtRest rest = at_rest(soak.room, 0.25 * particles, soak.low, soak.high, up);
+    const AtRest drop = at_rest(soak.room, 0.01, soak.low, soak.high, up);
+    double height = 0.0;
+    for (int k = 0; k < pool.particles(); ++k) {
+        height += weir::dot(pool.position(k), up) / pool.particles();
+    }
+    report.equals(name + ".outside", most_outside, "1", 0.0);
+    report.equals(name + ".lost", particles - pool.particles(), "1", 0.0);
+    report.at_most(name + ".volume",
+                   100.0 * std::abs((height - rest.mean_height) /
+                                    (rest.mean_height - drop.mean_height)),
+                   "%", 1.0);
+    report.figure(name + ".speed", pool.rms_speed() / std::sqrt(kGravity * 0.4 * (soak.high.x - soak.low.x)),
+                  "sqrt(gh)");
+}
+
+}  // namespace
+
+void vessels_soak(Report& report, const Effort& effort) {
+    const int steps = effort.full ? 1000000 : 3000;
+    for (const int n : {16, 32}) {
+        const std::string cells = "." + std::to_string(n);
+        run(report, "R14.ii_turned_box" + cells, turned_box(n), steps);
+        run(report, "R14.iii_cup" + cells, cup(n), steps);
+        run(report, "R14.iv_notch_and_needle" + cells, notch_and_needle(n), steps);
+    }
+}
+
+}  // namespace solids
