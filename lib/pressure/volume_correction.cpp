@@ -1,5 +1,7 @@
 #include "pressure/volume_correction.hpp"
 
+#include <cstring>
+
 #include "pressure/patches.hpp"
 
 namespace weir {
@@ -20,41 +22,52 @@ constexpr Real kCellWindow = Real(0.2);
 template <class Real>
 constexpr Real kPatchWindow = Real(0.03);
 
-/// Drift between patches over that between cells, at equal difference. Stable up to 4; from 2 on
-/// small waves gain energy from it.
+/// Drift between patches over that between cells, at equal difference; the second one where both
+/// patches are full and the surface is some way off. With more waves of one cell gain energy.
 template <class Real>
-constexpr Real kPatchGain = Real(1.6);
+constexpr Real kPatchGain = Real(2);
+template <class Real>
+constexpr Real kDeepPatchGain = Real(4);
+
+/// Just below the surface density is known to this: lattices are no continuum.
+template <class Real>
+constexpr Real kSubsurfaceSlack = Real(0.03);
 
 /// Excess of a patch that a solid fills: no drift towards it, nor from it.
 template <class Real>
 constexpr Real kSolidPatch = Real(2);
 
 /// A cell below the surface sees less than 1: its kernel reaches 1½ cells up. `lowest`: level of
-/// the neighbour that is nearest to the surface, one cell less than its own. Counted as a deficit
-/// it would make a pool's surface creep; under surface tension that pull is what stills ripples.
+/// the neighbour that is nearest to the surface, one cell less than its own, at most ½. Counted as
+/// a deficit it would make a pool's surface creep; under surface tension that pull is what stills
+/// ripples.
 template <class Real>
 inline Real expected_deficit(Real lowest) {
-    const Real missing = maximum(Real(0.5) - lowest, Real(0));
+    const Real missing = Real(0.5) - lowest;
     return Real(0.125) * missing * missing;
 }
 
 /// How much too dense a cell is, or too thin where liquid is all around.
 template <class Real>
 inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32_t c) {
-    const Real e = f.density[c] - Real(1);
+    Real e = f.density[c] - Real(1);
     const Real lowest = minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
                                       minimum<Real>(f.level[c - s.stride], f.level[c + s.stride]));
-    if (f.level[c] > Real(0) && lowest > Real(0)) {
-        const Real expected = f.on_surface ? Real(0) : expected_deficit(lowest);
-        return clamp(e + expected, -kWindow<Real>, kWindow<Real>);
+    if (!(f.level[c] > Real(0) && lowest > Real(0))) {
+        return clamp<Real>(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
     }
-    return clamp(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
+    if (lowest < Real(0.5) && !f.on_surface) {
+        e += expected_deficit(lowest);
+        e -= clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
+    }
+    return clamp(e, -kWindow<Real>, kWindow<Real>);
 }
 
-/// Mean excess of a patch's liquid cells; 0 in air.
+/// Mean excess of a patch's liquid cells, 0 in air, into `correction`, and into `residual` whether
+/// all its cells are liquid.
 template <class Real>
-Real patch_excess(const GridShape& s, const Walls<Real>& walls, const PressureFields<Real>& f,
-                  const Patch& patch) {
+void average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
+             PressureFields<Real>& f) {
     Real sum = Real(0);
     std::int32_t count = 0;
     bool open = !walls.active;
@@ -68,24 +81,31 @@ Real patch_excess(const GridShape& s, const Walls<Real>& walls, const PressureFi
             }
         }
     }
-    if (count == 0) {
-        return open ? Real(0) : kSolidPatch<Real>;
+    const Real mean = part_of(sum, maximum(count, 1));
+    const bool full = count == patch.width * patch.height;
+    f.coarse.correction[patch.q] =
+        open ? clamp(mean, -kPatchWindow<Real>, kPatchWindow<Real>) : kSolidPatch<Real>;
+    f.coarse.residual[patch.q] = Real(full ? 1 : 0);
+}
+
+/// By how much the mean excess rises from one patch to the next, times the gain between them.
+template <class Real>
+inline Real rise(const CoarseGrid<Real>& coarse, std::int32_t from, std::int32_t to) {
+    const Real low = coarse.correction[from];
+    const Real high = coarse.correction[to];
+    if (low == kSolidPatch<Real> || high == kSolidPatch<Real>) {
+        return Real(0);
     }
-    return clamp(part_of(sum, count), -kPatchWindow<Real>, kPatchWindow<Real>);
+    const bool deep = coarse.residual[from] == Real(1) && coarse.residual[to] == Real(1);
+    return (deep ? kDeepPatchGain<Real> : kPatchGain<Real>) * (high - low);
 }
 
+/// The same on each of a patch's faces along an axis: between the patches' centres the mean excess
+/// is linear, so that the third face, on the centre, has half of both.
 template <class Real>
-inline Real rise(const Real* excess, std::int32_t from, std::int32_t to) {
-    const bool both = excess[from] != kSolidPatch<Real> && excess[to] != kSolidPatch<Real>;
-    return both ? excess[to] - excess[from] : Real(0);
-}
-
-/// Between the patches' centres the mean excess is linear: its rise on each of a patch's faces
-/// along an axis. The third one, on the centre, has half of both.
-template <class Real>
-void rises(const Real* excess, std::int32_t q, std::int32_t step, Real* on_face) {
-    const Real before = kPatchGain<Real> * rise(excess, q - step, q);
-    const Real after = kPatchGain<Real> * rise(excess, q, q + step);
+void rises(const CoarseGrid<Real>& coarse, std::int32_t q, std::int32_t step, Real* on_face) {
+    const Real before = rise(coarse, q - step, q);
+    const Real after = rise(coarse, q, q + step);
     on_face[0] = before;
     on_face[1] = before;
     on_face[2] = Real(0.5) * (before + after);
@@ -100,8 +120,8 @@ void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     const VelocityOf<Real>* e = fields.divergence;
     Real along_x[kCoarseEdge];
     Real along_y[kCoarseEdge];
-    rises(fields.coarse.correction, patch.q, 1, along_x);
-    rises(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
+    rises(fields.coarse, patch.q, 1, along_x);
+    rises(fields.coarse, patch.q, fields.coarse.shape.stride, along_y);
     for (std::int32_t y = 0; y < patch.height; ++y) {
         for (std::int32_t x = 0; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
@@ -132,12 +152,14 @@ void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, S
         }
     }
     extend_cells(borders, s, fields.divergence);
-    // Drops under surface tension are small and keep together without.
-    for_each_patch(s, big, [&](const Patch& patch) {
-        fields.coarse.correction[patch.q] =
-            fields.on_surface ? Real(0) : patch_excess(s, walls, fields, patch);
-    });
+    for_each_patch(s, big, [&](const Patch& patch) { average(s, walls, patch, fields); });
+    if (fields.on_surface) {
+        // Drops under surface tension are small and keep together without.
+        std::memset(fields.coarse.correction, 0,
+                    static_cast<std::size_t>(big.size()) * sizeof(Real));
+    }
     mirror_cells(borders, big, fields.coarse.correction);
+    mirror_cells(borders, big, fields.coarse.residual);
     for_each_patch(s, big, [&](const Patch& patch) {
         drift(borders, walls, speed, fields, patch, grid);
     });
