@@ -27,7 +27,7 @@ struct RasterPolygon {
 template <class Real>
 struct NodeField {
     DistanceOf<Real>* distance = nullptr;
-    std::uint16_t* nearest = nullptr;
+    SlotOf<Real>* nearest = nullptr;
     std::int32_t origin = 0;
     std::int32_t stride = 0;
 };

@@ -64,6 +64,34 @@ inline Digit next_digit(std::uint32_t high, std::uint32_t next, std::uint32_t di
 
 }  // namespace
 
+#if defined(__ARM_ARCH_6M__)
+std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
+    const std::uint32_t x = magnitude(a);
+    const std::uint32_t y = magnitude(b);
+    const std::uint32_t low = (x & 0xFFFFU) * (y & 0xFFFFU);
+    const std::uint32_t middle = (x >> 16U) * (y & 0xFFFFU) + (x & 0xFFFFU) * (y >> 16U);
+    const std::uint32_t high = (x >> 16U) * (y >> 16U);
+    const bool negative = (a ^ b) < 0;
+    std::uint32_t size = 0;
+    if (shift == 16) {
+        const std::uint32_t rounded = (low >> 16U) + ((low >> 15U) & 1U);
+        const bool over = high > 0x7FFFU || __builtin_add_overflow(middle, rounded, &size) ||
+                          __builtin_add_overflow(size, high << 16U, &size);
+        size = over ? 0xFFFFFFFFU : size;
+    } else {
+        const std::uint64_t whole = (static_cast<std::uint64_t>(high) << 32U) +
+                                    (static_cast<std::uint64_t>(middle) << 16U) + low;
+        const auto places = static_cast<unsigned>(shift);
+        const std::uint64_t result = (whole + (std::uint64_t{1} << (places - 1U))) >> places;
+        size = result > 0xFFFFFFFFU ? 0xFFFFFFFFU : static_cast<std::uint32_t>(result);
+    }
+    if (negative) {
+        return size >= 0x80000000U ? kLeastRaw : -static_cast<std::int32_t>(size);
+    }
+    return size > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(size);
+}
+#endif
+
 std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor) {
     const auto high = static_cast<std::uint32_t>(numerator >> 32U);
     if (high >= divisor) {

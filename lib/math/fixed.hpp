@@ -39,9 +39,14 @@ constexpr std::int64_t shifted(std::int64_t value, int shift) {
     const std::int64_t half = std::int64_t{1} << (shift - 1);
     return (value + half + (value >> 63)) >> shift;
 }
+#if defined(__ARM_ARCH_6M__)
+/// No product of 64 bits on this processor: out of four of 32, and not inlined.
+std::int32_t multiply(std::int32_t a, std::int32_t b, int shift);
+#else
 inline std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
     return saturate(shifted(static_cast<std::int64_t>(a) * b, shift));
 }
+#endif
 inline std::uint32_t magnitude(std::int32_t a) {
     return a < 0 ? 0U - static_cast<std::uint32_t>(a) : static_cast<std::uint32_t>(a);
 }

@@ -33,8 +33,8 @@ struct Body {
     BodyKind kind = BodyKind::free;
     bool moved = false;             ///< since it was last rasterized
 };
-static_assert(sizeof(Body<float>) <= kBodyBytes, "raise kBodyBytes");
-static_assert(sizeof(Body<double>) <= kBodyBytes, "raise kBodyBytes");
+static_assert(sizeof(Body<float>) <= kBodyBytes<float>, "raise kBodyBytes");
+static_assert(sizeof(Body<double>) <= kBodyBytes<double>, "raise kBodyBytes");
 
 template <class Real>
 struct BodyTable {

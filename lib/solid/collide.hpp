@@ -9,7 +9,8 @@ namespace weir {
 
 /// Particles are gathered and collided by so many at a time, so that where each came from is known
 /// at no memory but this.
-inline constexpr std::int32_t kBlock = 32;
+template <class Real>
+inline constexpr std::int32_t kBlock = Stored<Real>::coarse ? 8 : 32;
 
 /// Where the particles of a block come from.
 template <class Real>

@@ -30,7 +30,7 @@ NodeBox reach(const GridShape& shape, const BodyTable<Real>& table, const Body<R
 
 template <class Real>
 std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot,
-                  const NodeBox& box, DistanceOf<Real>* distance, std::uint16_t* nearest) {
+                  const NodeBox& box, DistanceOf<Real>* distance, SlotOf<Real>* nearest) {
     const Body<Real>& body = table.body[slot];
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
     const RasterPolygon<Real> polygon{table.outline(body), static_cast<std::uint16_t>(slot),
@@ -50,9 +50,9 @@ void restore(Layers<Real>& layers, const NodeBox& box) {
     for (std::int32_t j = box.j0; j <= box.j1; ++j) {
         const std::int32_t node = layers.shape.index(box.i0, j);
         std::memcpy(layers.walls.distance + node, layers.static_distance + node,
-                    nodes * sizeof(Real));
+                    nodes * sizeof(DistanceOf<Real>));
         std::memcpy(layers.walls.nearest + node, layers.static_nearest + node,
-                    nodes * sizeof(std::uint16_t));
+                    nodes * sizeof(SlotOf<Real>));
     }
 }
 

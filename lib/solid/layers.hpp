@@ -14,7 +14,7 @@ struct Layers {
     GridShape shape;
     Contour contour = Contour::interpolated;
     DistanceOf<Real>* static_distance = nullptr;
-    std::uint16_t* static_nearest = nullptr;
+    SlotOf<Real>* static_nearest = nullptr;
     Walls<Real> walls;        ///< the merged layer
     Real* nodes = nullptr;                ///< a node field that is free before a substep
     VelocityOf<Real>* scratch = nullptr;  ///< a cell field that is free between steps

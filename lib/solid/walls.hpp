@@ -20,7 +20,7 @@ struct Walls {
     bool moving = false;                ///< a body has a velocity or a spin
     bool binary = false;                ///< Contour::mid_edge
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
-    std::uint16_t* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody
+    SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell
     ShareOf<Real>* open_u = nullptr;    ///< open fraction of the u face, 0 … 1
     ShareOf<Real>* open_v = nullptr;

@@ -156,10 +156,10 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
         return;
     }
     transfer.near = Real(1) / dt_s;
-    Vec2<PositionOf<Real>> before[kBlock];
+    Vec2<PositionOf<Real>> before[kBlock<Real>];
     CollideResult<Real> collisions;
     for (std::int32_t end = particles.count; end > 0;) {
-        const std::int32_t count = minimum(kBlock, end);
+        const std::int32_t count = minimum(kBlock<Real>, end);
         end -= count;
         std::memcpy(before, particles.position + end,
                     static_cast<std::size_t>(count) * sizeof before[0]);

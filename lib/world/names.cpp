@@ -76,6 +76,8 @@ const char* content_text(Status status) {
             return "no such body here: it was removed, or belongs to another world";
         case Status::body_is_static:
             return "a static body does not move: add it with add_moving_body";
+        case Status::no_moving_bodies:
+            return "this world holds static bodies only: set capacity.moving_bodies = true";
         case Status::polygon_missing: return "polygon is null: point it at the vertices";
         case Status::polygon_too_few_vertices: return "polygon: at least 3 vertices";
         case Status::polygon_too_many_vertices:

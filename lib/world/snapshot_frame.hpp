@@ -66,7 +66,8 @@ struct Head {
 inline constexpr std::size_t kHeadBytes = 2 * kWordBytes + sizeof(Head);
 
 inline std::uint64_t capacity_code(const Capacity& of) {
-    const auto& [particles, cells_x, cells_y, bodies, vertices, contacts, second_liquid] = of;
+    const auto& [particles, cells_x, cells_y, bodies, moving, vertices, contacts, second_liquid] =
+        of;
     Hash hash;
     const std::int32_t numbers[] = {particles, cells_x, cells_y,
                                     bodies,    vertices, contacts};
@@ -74,6 +75,7 @@ inline std::uint64_t capacity_code(const Capacity& of) {
         hash.add(number);
     }
     hash.add(static_cast<std::uint32_t>(second_liquid));
+    hash.add(static_cast<std::uint32_t>(moving));
     return hash.value();
 }
 

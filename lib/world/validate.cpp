@@ -97,6 +97,9 @@ Status check_reach(const WorldDef& def, const Reach& reach) {
     if (def.capacity.cells_x > reach.cells || def.capacity.cells_y > reach.cells) {
         return Status::cells_out_of_range;
     }
+    if (!reach.everything && def.capacity.bodies > kMaxBodiesSmallFixed) {
+        return Status::body_capacity_out_of_range;
+    }
     const float strongest = reach.gravity * def.cell_m;
     if (!within(def.gravity_mps2.x, -strongest, strongest) ||
         !within(def.gravity_mps2.y, -strongest, strongest)) {

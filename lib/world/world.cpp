@@ -47,6 +47,10 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::static_body, layers.static_nearest);
     carver.take(Block::merged_distance, layers.walls.distance);
     carver.take(Block::merged_body, layers.walls.nearest);
+    if (!capacity.moving_bodies) {  // nothing is ever drawn onto the static layer: it is the merged
+        layers.static_distance = layers.walls.distance;
+        layers.static_nearest = layers.walls.nearest;
+    }
     carver.take(Block::contour_case, layers.walls.cell_case);
     carver.take(Block::near_wall, layers.walls.near);
     carver.take(Block::open_u, layers.walls.open_u);
@@ -260,6 +264,15 @@ FieldView<Real> World<Real>::pressure() const {
 }
 
 template <class Real>
+FieldView<DensityOf<Real>> World<Real>::density() const {
+    if (state_ == nullptr) {
+        return {};
+    }
+    const GridShape& s = state_->simulation.grid.shape;
+    return {state_->simulation.pressure.density + s.index(0, 0), s.nx, s.ny, s.stride};
+}
+
+template <class Real>
 float World<Real>::pressure_scale() const {
     if (state_ == nullptr || !(state_->simulation.pressure.last_dt > Seconds<Real>{})) {
         return 0.0F;
@@ -331,6 +344,7 @@ std::uint64_t World<Real>::state_hash() const {
 #define WEIR_INSTANTIATE(Real)                                                       \
     template Status World<Real>::init(const WorldDef&, void*, std::size_t);          \
     template FieldView<Real> World<Real>::pressure() const;                          \
+    template FieldView<DensityOf<Real>> World<Real>::density() const;                \
     template float World<Real>::pressure_scale() const;                              \
     template FieldView<DistanceOf<Real>> World<Real>::signed_distance() const;                   \
     template View<Contact> World<Real>::contacts() const;                            \

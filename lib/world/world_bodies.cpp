@@ -19,9 +19,13 @@ std::int32_t places_needed(const BodyDef& def) {
 }
 
 template <class Real>
-Status check_room(const WorldState<Real>& state, const BodyDef& def, const BodyId* id) {
+Status check_room(const WorldState<Real>& state, const BodyDef& def, BodyKind kind,
+                  const BodyId* id) {
     if (id == nullptr) {
         return Status::output_missing;
+    }
+    if (kind == BodyKind::moving && !state.def.capacity.moving_bodies) {
+        return Status::no_moving_bodies;
     }
     const Status valid = check_body(def, state.def.cell_m, kReach<Real>);
     if (valid != Status::ok) {
@@ -66,7 +70,7 @@ Real radius_of(const BodyTable<Real>& table, const Body<Real>& body) {
 
 template <class Real>
 Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id) {
-    const Status room = check_room(state, def, id);
+    const Status room = check_room(state, def, kind, id);
     if (room != Status::ok) {
         return room;
     }

@@ -14,8 +14,8 @@ struct WorldState {
     std::uint16_t tag = 0;         ///< this world's own, in the names of its bodies
     std::uint32_t pending = 0;     ///< Clamped bits that the next report shall carry
 };
-static_assert(sizeof(WorldState<float>) <= kWorldStateBytes, "raise kWorldStateBytes");
-static_assert(sizeof(WorldState<Fixed>) <= kWorldStateBytes, "raise kWorldStateBytes");
-static_assert(sizeof(WorldState<double>) <= kWorldStateBytes, "raise kWorldStateBytes");
+static_assert(sizeof(WorldState<float>) <= kWorldStateBytes<float>, "raise kWorldStateBytes");
+static_assert(sizeof(WorldState<Fixed>) <= kWorldStateBytes<Fixed>, "raise kWorldStateBytes");
+static_assert(sizeof(WorldState<double>) <= kWorldStateBytes<double>, "raise kWorldStateBytes");
 
 }  // namespace weir::detail

@@ -38,9 +38,21 @@ const std::vector<Row>& fixed_rows() {
         {"tension beyond Fixed",
          init_of<Fixed>([](WorldDef& d) { d.surface_tension_m3ps2 = 0.25F; }),
          Status::surface_tension_out_of_range},
+        {"more bodies than SmallFixed",
+         init_of<SmallFixed>([](WorldDef& d) { d.capacity.bodies = 256; }),
+         Status::body_capacity_out_of_range},
         {"two liquids in SmallFixed",
          init_of<SmallFixed>([](WorldDef& d) { d.capacity.second_liquid = true; }),
          Status::small_fixed_has_one_liquid},
+        {"moving where only static ones are",
+         [](Fixture&) {
+             WorldDef def = small_def();
+             def.capacity.moving_bodies = false;
+             TestWorld<SmallFixed> world(def);
+             BodyId id;
+             return world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id);
+         },
+         Status::no_moving_bodies},
         {"tension in SmallFixed",
          init_of<SmallFixed>([](WorldDef& d) { d.surface_tension_m3ps2 = 1.0e-5F; }),
          Status::small_fixed_has_no_tension},

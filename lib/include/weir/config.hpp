@@ -24,6 +24,7 @@ inline constexpr float kMaxSpeed = 1.0e6F;
 /// bodies in cells from the tank's origin. Beyond it set-up calls refuse, and gravity is limited.
 inline constexpr std::int32_t kMaxCellsFixed = 256;
 inline constexpr std::int32_t kMaxCellsSmallFixed = 255;
+inline constexpr std::int32_t kMaxBodiesSmallFixed = 255;
 inline constexpr float kMaxSpeedFixed = 16000.0F;
 inline constexpr float kMaxSpeedSmallFixed = 255.0F;
 inline constexpr float kMaxGravityFixed = 30000.0F;
@@ -35,6 +36,7 @@ struct Capacity {
     std::int32_t cells_x = 32;      ///< kMinCells … kMaxCells; the tank is cells_x × cells_y cells
     std::int32_t cells_y = 32;      ///< kMinCells … kMaxCells
     std::int32_t bodies = 0;        ///< 0 … kMaxBodies, static and moving together
+    bool moving_bodies = true;      ///< false: static ones only, and 4 to 6 bytes less a cell
     std::int32_t vertices = 0;      ///< 0 … kMaxVertices, of all bodies; and 3 a hole
     std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell

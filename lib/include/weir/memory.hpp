@@ -82,8 +82,11 @@ enum class Kept : std::uint8_t {
 inline constexpr std::size_t world_alignment = 16;
 
 /// Room for records whose types are private; checked by static_assert where they are defined.
-inline constexpr std::size_t kWorldStateBytes = 1024;
-inline constexpr std::size_t kBodyBytes = 144;
+template <class Real>
+inline constexpr std::size_t kWorldStateBytes =
+    sizeof(Real) == 4 && sizeof(void*) == 4 ? 608 : 1024;
+template <class Real>
+inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 112 : 144;
 
 /// The pressure's coarse grid: cells along an edge of its cells, and numbers for each of them.
 inline constexpr std::int32_t kCoarseEdge = 4;
@@ -124,8 +127,7 @@ constexpr Layout layout(const Capacity& capacity) {
         std::size_t elements;
     };
     const auto count = [](std::int32_t value) { return static_cast<std::size_t>(value); };
-    const std::size_t particles = count(capacity.particles);
-    const std::size_t vertices = count(capacity.vertices);
+    const std::size_t particles = count(capacity.particles), vertices = count(capacity.vertices);
     // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
     const std::size_t cells = (count(capacity.cells_x) + 2) * (count(capacity.cells_y) + 2);
     const std::size_t coarse = (count(coarse_cells(capacity.cells_x)) + 2) *
@@ -135,23 +137,24 @@ constexpr Layout layout(const Capacity& capacity) {
                   ? kCoarseFieldsPacked
                   : (capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields));
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
+    const std::size_t moving_cells = capacity.moving_bodies ? solid_cells : 0;
     const std::size_t near_words =
         capacity.bodies > 0 ? (count(capacity.cells_x) + 31) / 32 * count(capacity.cells_y) : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t index = sizeof(std::uint16_t);
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
-    const std::size_t place = 2 * sizeof(PositionOf<Real>);
     const std::size_t speed = sizeof(VelocityOf<Real>);
     const std::size_t distance = sizeof(DistanceOf<Real>);
     const std::size_t share = sizeof(ShareOf<Real>);
     const Row rows[] = {
-        {Block::world_state, Owner::world, Kept::members, kWorldStateBytes, 1},
-        {Block::particle_position, Owner::particles, Kept::particles, place, particles},
+        {Block::world_state, Owner::world, Kept::members, kWorldStateBytes<Real>, 1},
+        {Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
+         particles},
         {Block::particle_velocity, Owner::particles, Kept::particles, 2 * speed, particles},
         {Block::particle_kind, Owner::particles, Kept::particles, 1,
          capacity.second_liquid ? particles : 0},
-        {Block::body_table, Owner::bodies, Kept::members, kBodyBytes, count(capacity.bodies)},
+        {Block::body_table, Owner::bodies, Kept::members, kBodyBytes<Real>, count(capacity.bodies)},
         {Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts)},
         {Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices},
         {Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices},
@@ -159,10 +162,10 @@ constexpr Layout layout(const Capacity& capacity) {
          vertices},
         {Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
          kScratchPerVertex * vertices},
-        {Block::static_distance, Owner::contour, Kept::redrawn, distance, solid_cells},
-        {Block::static_body, Owner::contour, Kept::redrawn, index, solid_cells},
+        {Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells},
+        {Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), moving_cells},
         {Block::merged_distance, Owner::contour, Kept::redrawn, distance, solid_cells},
-        {Block::merged_body, Owner::contour, Kept::redrawn, index, solid_cells},
+        {Block::merged_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), solid_cells},
         {Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells},
         {Block::near_wall, Owner::contour, Kept::redrawn, sizeof(std::uint32_t), near_words},
         {Block::open_u, Owner::cut_cells, Kept::redrawn, share, solid_cells},

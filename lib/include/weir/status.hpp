@@ -46,6 +46,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     no_free_vertex,
     stale_body,
     body_is_static,
+    no_moving_bodies,
     polygon_missing,
     polygon_too_few_vertices,
     polygon_too_many_vertices,

@@ -49,6 +49,19 @@ private:
     }
 };
 
+/// The number of a body, 0 … 254, or 0xFFFF for none, in a byte.
+struct ShortSlot {
+    std::uint8_t raw = 0xFF;
+
+    constexpr ShortSlot& operator=(std::uint16_t slot) {
+        raw = static_cast<std::uint8_t>(slot < 0xFF ? slot : 0xFF);
+        return *this;
+    }
+    constexpr operator std::uint16_t() const {  // NOLINT
+        return raw == 0xFF ? std::uint16_t{0xFFFF} : raw;
+    }
+};
+
 /// What a world of that arithmetic keeps its fields in.
 template <class Real>
 struct Stored {
@@ -58,14 +71,16 @@ struct Stored {
     using Level = Real;     ///< of the surface over a cell's centre, cells
     using Distance = Real;  ///< to the nearest solid at a node, cells
     using Share = Real;     ///< what solids leave open, 0 … 1
+    using Slot = std::uint16_t;  ///< of the nearest body
     /// Velocities of faces take the lower halves of what their momentum stood in, and the pressure
     /// stage's scratch the upper ones.
     static constexpr bool shares_momentum = false;
     static constexpr bool coarse = false;  ///< places are known to 1/256 of a cell
 };
 
-/// 8 bytes a particle and 18 a cell (27 to 31 with solids): positions to 1/256 of a cell,
-/// velocities to 1/128 cell/s below 256 cells/s, so a world of at most 255 × 255 cells.
+/// 8 bytes a particle and 18 a cell (25 with static solids, 28 with moving ones): positions to
+/// 1/256 of a cell, velocities to 1/128 cell/s below 256 cells/s, so a world of at most 255 × 255
+/// cells.
 template <>
 struct Stored<SmallFixed> {
     using Position = Packed<std::uint16_t, 8>;
@@ -74,6 +89,7 @@ struct Stored<SmallFixed> {
     using Level = Packed<std::int8_t, 6>;
     using Distance = Packed<std::int16_t, 8>;
     using Share = Packed<std::uint8_t, 7>;
+    using Slot = ShortSlot;
     static constexpr bool shares_momentum = true;
     static constexpr bool coarse = true;
 };
@@ -88,6 +104,8 @@ template <class Real>
 using LevelOf = typename Stored<Real>::Level;
 template <class Real>
 using DistanceOf = typename Stored<Real>::Distance;
+template <class Real>
+using SlotOf = typename Stored<Real>::Slot;
 template <class Real>
 using ShareOf = typename Stored<Real>::Share;
 

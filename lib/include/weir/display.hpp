@@ -1,0 +1,40 @@
+// Liquid and solids as shades of a small display, row by row: what changed is told, so that only
+// that is sent, and a surface at rest does not flicker.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "weir/world.hpp"
+
+namespace weir {
+
+/// A picture of 16 shades, two pixels a byte, the left one in the upper half; rows from the top.
+/// The caller owns the bytes; start with zeros.
+struct Display {
+    std::int32_t width = 0;         ///< pixels, even, at most 1024
+    std::int32_t height = 0;        ///< pixels, at most 1024
+    std::uint8_t* pixels = nullptr;  ///< width · height / 2 bytes
+    std::uint8_t liquid = 11;       ///< shade of full liquid, 1 … 15
+    std::uint8_t solid = 4;         ///< shade of solids
+    std::uint8_t hysteresis = 96;   ///< a shade changes if it is off by ½ and this / 256 of one
+};
+
+/// First and last row that changed; none: first > last.
+struct ChangedRows {
+    std::int32_t first = 0;
+    std::int32_t last = -1;
+};
+
+/// Draws the world over the whole display: the density of cells, bilinear between their centres,
+/// as after the last step; solids where the contour is. Integers only.
+/// Cost: about 60 instructions a pixel.
+template <class Real>
+ChangedRows draw(const World<Real>& world, const Display& display);
+
+extern template ChangedRows draw(const World<float>&, const Display&);
+extern template ChangedRows draw(const World<double>&, const Display&);
+extern template ChangedRows draw(const World<Fixed>&, const Display&);
+extern template ChangedRows draw(const World<SmallFixed>&, const Display&);
+
+}  // namespace weir
