@@ -5,13 +5,33 @@
 
 namespace weir {
 
-/// out = field + amount ∇²field on one component's faces. `back`: from a face to the cell before
-/// it (1 for u, stride for v); `first_i`, `first_j`: the first face that is no wall. A face counts
-/// if both its cells have seen a particle; one that does not exerts nothing. Ghost lines of the
-/// field have been extended, of the level mirrored. `out` keeps its value where no liquid is.
+/// How much liquid a component's faces carry, as far as it matters to what rubs on them.
 template <class Real>
-void diffuse(const GridShape& shape, const LevelOf<Real>* level, std::int32_t back,
-             std::int32_t first_i, std::int32_t first_j, Real amount, const VelocityOf<Real>* field,
+struct FaceShare {
+    const DensityOf<Real>* density;  ///< of the cells, ghosts mirrored
+    const ShareOf<Real>* open;       ///< open fraction of the faces; null: no solids
+    std::int32_t back;               ///< from a face to the cell before it: 1 for u, stride for v
+
+    /// 0 … 1. From half full on faces count as full, so that the noise between particles does not.
+    Real at(std::int32_t face) const {
+        const Real before = density[face - back];
+        const Real after = density[face];
+        if (!(before > Real(0)) || !(after > Real(0))) {
+            return Real(0);
+        }
+        const Real full = minimum(before + after, Real(1));
+        return open == nullptr ? full : full * Real(open[face]);
+    }
+};
+
+/// out = field + amount ∇²field on one component's faces; `first_i`, `first_j`: the first face
+/// that is no wall. Each face and its neighbour pull one another by the share of the lesser of
+/// both: what one gains the other loses, and a drop that rushes by does not drag a pool along. A
+/// face counts if both its cells have seen a particle; one that does not exerts nothing. Ghost
+/// lines of the field have been extended. `out` keeps its value where no liquid is.
+template <class Real>
+void diffuse(const GridShape& shape, const FaceShare<Real>& share, std::int32_t first_i,
+             std::int32_t first_j, Real amount, const VelocityOf<Real>* field,
              VelocityOf<Real>* out);
 
 }  // namespace weir

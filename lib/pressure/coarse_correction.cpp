@@ -84,7 +84,7 @@ void hold(const Axis<Real>& axis, Face<Real> face, std::int32_t cell, std::int32
           Real outward, std::int32_t q, bool forward) {
     const Real level = axis.fields.level[cell];
     const Real distance =
-        liquid_fraction(level, axis.fields.level[air]) + maximum(Real(0), outward);
+        liquid_fraction(level, axis.fields.level[air], face.open) + maximum(Real(0), outward);
     const std::int32_t beyond = forward ? q + axis.coarse_back : q - axis.coarse_back;
     if (axis.coarse.residual[beyond] > Real(0)) {
         axis.coarse.inverse_diagonal[q] += face.open * face.light / distance;

@@ -17,19 +17,20 @@ constexpr Real kRelaxation = Real(1.4);
 
 /// One face of a cell: how much it adds to the diagonal.
 template <class Real>
-inline Real face_coefficient(Real weight, Real level, SameAs<Real> neighbour_level) {
-    return neighbour_level > Real(0) ? weight : weight / liquid_fraction(level, neighbour_level);
+inline Real face_coefficient(Real weight, Real open, Real level, SameAs<Real> neighbour_level) {
+    return neighbour_level > Real(0) ? weight
+                                     : weight / liquid_fraction(level, neighbour_level, open);
 }
 
 /// What the pressure on the surface adds to a liquid cell's equation beyond what the sweeps read
 /// from the air cell itself.
 template <class Real>
-inline Real surface_share(Real weight, Real level, std::int32_t neighbour,
+inline Real surface_share(Real weight, Real open, Real level, std::int32_t neighbour,
                           const PressureFields<Real>& fields) {
     const Real air = fields.level[neighbour];
     return air > Real(0) ? Real(0)
                          : weight * fields.pressure[neighbour] *
-                               (Real(1) / liquid_fraction(level, air) - Real(1));
+                               (Real(1) / liquid_fraction(level, air, open) - Real(1));
 }
 
 /// Whether all faces of a cell are wide open. Such cells are relaxed without reading a weight.
@@ -45,12 +46,20 @@ struct Rows {
     std::int32_t high = -1;
 };
 
+/// The equations Ap = b, and the old pressure p in them.
+template <class Real>
+struct System {
+    Rows rows;
+    Product<Real> wanted{};  ///< pᵀb
+    Product<Real> own{};     ///< pᵀ(diagonal of A)p
+};
+
 template <bool Solids, bool Mixed, class Real>
-Rows build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
-           PressureFields<Real>& fields) {
+System<Real> build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
+                   PressureFields<Real>& fields) {
     const Walls<Real>& walls = weights.walls;
     const GridShape& s = weights.grid.shape;
-    Rows rows{s.ny, -1};
+    System<Real> system{{s.ny, -1}};
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
@@ -61,12 +70,15 @@ Rows build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
                 continue;
             }
             const std::int32_t up = c + s.stride;
+            const std::int32_t down = c - s.stride;
             const Faces<Real> w = weights.around(i, j);
+            const Faces<Real> open{weights.open_u(c), weights.open_u(c + 1), weights.open_v(c),
+                                   weights.open_v(up)};
             const Real diagonal =
-                (face_coefficient(w.left, level, fields.level[c - 1]) +
-                 face_coefficient(w.right, level, fields.level[c + 1])) +
-                (face_coefficient(w.lower, level, fields.level[c - s.stride]) +
-                 face_coefficient(w.upper, level, fields.level[up]));
+                (face_coefficient(w.left, open.left, level, fields.level[c - 1]) +
+                 face_coefficient(w.right, open.right, level, fields.level[c + 1])) +
+                (face_coefficient(w.lower, open.lower, level, fields.level[down]) +
+                 face_coefficient(w.upper, open.upper, level, fields.level[up]));
             if (!(diagonal > Real(0))) {
                 fields.pressure[c] = Real(0);
                 continue;
@@ -76,10 +88,10 @@ Rows build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
                 divergence += wall_flow(s, walls, i, j);
             }
             if (fields.on_surface) {
-                divergence -= (surface_share(w.left, level, c - 1, fields) +
-                               surface_share(w.right, level, c + 1, fields)) +
-                              (surface_share(w.lower, level, c - s.stride, fields) +
-                               surface_share(w.upper, level, up, fields));
+                divergence -= (surface_share(w.left, open.left, level, c - 1, fields) +
+                               surface_share(w.right, open.right, level, c + 1, fields)) +
+                              (surface_share(w.lower, open.lower, level, down, fields) +
+                               surface_share(w.upper, open.upper, level, up, fields));
             }
             fields.divergence[c] = divergence;
             // The sign tells `relax` which cells a wall touches.
@@ -90,12 +102,51 @@ Rows build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
                 fields.inverse_diagonal[c] = sign / diagonal;
             }
             // A number that is none would stay for ever: the solve starts from the last pressure.
-            const Real start = fields.pressure[c] * rescale;
-            fields.pressure[c] = is_finite(start) ? bounded(start) : Real(0);
-            rows = {minimum(rows.low, j), j};
+            const Real scaled = fields.pressure[c] * rescale;
+            const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);
+            fields.pressure[c] = start;
+            system.rows = {minimum(system.rows.low, j), j};
+            system.wanted = system.wanted - product(start, divergence);
+            system.own = system.own + product(start * diagonal, start);
         }
     }
-    return rows;
+    return system;
+}
+
+/// The old pressure is where the solve starts, but not if it is further from the solution than no
+/// pressure at all, as after an impact: few sweeps would leave most of it, and it would push. The
+/// distance is that in kinetic energy, √(eᵀAe), which is shortest at pᵀb/pᵀAp times the old
+/// pressure; eighths are near enough. From such a start sweeps leave the velocity with no more
+/// energy than it came with.
+template <bool Solids, bool Mixed, class Real>
+void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, const System<Real>& system,
+                 PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
+    Real* p = fields.pressure;
+    Product<Real> there = system.own;
+    for (std::int32_t j = system.rows.low; j <= system.rows.high; ++j) {
+        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
+            const Real inverse = fields.inverse_diagonal[c];
+            if (inverse != Real(0)) {
+                there = there - product(p[c], weights.weighted(p, c, inverse));
+            }
+        }
+    }
+    const Product<Real> twice = system.wanted + system.wanted;
+    if (twice >= there) {
+        return;  // nearer than none
+    }
+    const Product<Real> eight_times = (twice + twice) + (twice + twice);
+    Real share = eight_times >= (there + there) + there
+                     ? Real(0.375)
+                     : (eight_times >= there + there ? Real(0.25) : Real(0.125));
+    share = eight_times >= there ? share : Real(0);
+    for (std::int32_t j = system.rows.low; j <= system.rows.high; ++j) {
+        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
+            p[c] = share * p[c];
+        }
+    }
+    extend_cells(weights.borders, s, p);
 }
 
 template <bool Solids, bool Mixed, class Real>
@@ -125,19 +176,11 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
 template <class Real>
 inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32_t before,
                        Real light, const ShareOf<Real>* open, const PressureFields<Real>& fields) {
-    const Real level_before = fields.level[before];
-    const Real level_after = fields.level[face];
-    const bool liquid_before = level_before > Real(0);
-    const bool liquid_after = level_after > Real(0);
-    if ((!liquid_before && !liquid_after) || (open != nullptr && !(open[face] > Real(0)))) {
-        return;
+    const Real through = open != nullptr ? Real(open[face]) : Real(1);
+    const bool liquid = fields.level[before] > Real(0) || fields.level[face] > Real(0);
+    if (liquid && through > Real(0)) {
+        velocity[face] -= light * pressure_rise(fields, before, face, through);
     }
-    Real difference = fields.pressure[face] - fields.pressure[before];
-    if (liquid_before != liquid_after) {
-        difference = difference / (liquid_before ? liquid_fraction(level_before, level_after)
-                                                 : liquid_fraction(level_after, level_before));
-    }
-    velocity[face] -= light * difference;
 }
 
 template <bool Solids, bool Mixed, class Real>
@@ -164,8 +207,12 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
            std::int32_t cycles, std::int32_t sweeps, StaggeredGrid<Real>& grid,
            PressureFields<Real>& fields) {
     const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
-    const Rows rows = build(weights, rescale, fields);
+    const System<Real> system = build(weights, rescale, fields);
+    const Rows rows = system.rows;
     extend_cells(borders, grid.shape, fields.pressure);
+    if (!fields.on_surface) {
+        weigh_start(weights, system, fields);
+    }
     if constexpr (Stored<Real>::shares_momentum) {
         relax_packed(weights, rows.low, rows.high, cycles * (sweeps + kSweepsForCoarse), fields);
     } else {

@@ -18,11 +18,31 @@ template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields);
 
-/// Share of the way from a liquid cell's centre to its air neighbour's that is liquid.
+/// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face
+/// between them answers to the pressure by its inverse.
 template <class Real>
-inline Real liquid_fraction(Real level_liquid, Real level_air) {
-    // Below 1/20 the equation would be stiffer than the surface is known.
-    return maximum(Real(0.05), level_liquid / (level_liquid - level_air));
+inline Real liquid_fraction(Real level_liquid, Real level_air, Real open) {
+    // Below 1/20 the equation would be stiffer than the surface is known. A narrow gap hardly moves
+    // the liquid that drives it: with a lever like that it would shoot particles through, each of
+    // them with its whole mass.
+    const Real least = maximum(Real(0.05), Real(1) - Real(4) * open);
+    return maximum(least, level_liquid / (level_liquid - level_air));
+}
+
+/// From one cell to the next, of which at least one is liquid: what the face between them loses in
+/// velocity, times its density. `open`: open fraction of the face.
+template <class Real>
+inline Real pressure_rise(const PressureFields<Real>& fields, std::int32_t before,
+                          std::int32_t after, Real open) {
+    const Real level_before = fields.level[before];
+    const Real level_after = fields.level[after];
+    const Real difference = fields.pressure[after] - fields.pressure[before];
+    if (level_before > Real(0)) {
+        return level_after > Real(0)
+                   ? difference
+                   : difference / liquid_fraction(level_before, level_after, open);
+    }
+    return difference / liquid_fraction(level_after, level_before, open);
 }
 
 }  // namespace weir

@@ -33,7 +33,26 @@ inline Sample<Real> sample(const Field* field, std::int32_t stride, const Stenci
     return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
 }
 
-/// One component: out = field − kSmoothing ∇²field where liquid is all around.
+/// Lowest and highest of a face and the four around it.
+template <class Real>
+struct Range {
+    Real low;
+    Real high;
+};
+
+template <class Real, class Field>
+inline Range<Real> range_around(const Field* field, std::int32_t face, std::int32_t stride) {
+    const Real left = field[face - 1];
+    const Real right = field[face + 1];
+    const Real lower = field[face - stride];
+    const Real upper = field[face + stride];
+    const Real here = field[face];
+    return {minimum(here, minimum(minimum(left, right), minimum(lower, upper))),
+            maximum(here, maximum(maximum(left, right), maximum(lower, upper)))};
+}
+
+/// One component: out = field − kSmoothing ∇²field where liquid is all around, within what is
+/// there: beyond it, a jump such as a wall without slip makes would grow from step to step.
 template <class Real>
 void sharpen(const GridShape& s, const LevelOf<Real>* level, std::int32_t back,
              std::int32_t first_i, std::int32_t first_j, const VelocityOf<Real>* field,
@@ -56,7 +75,9 @@ void sharpen(const GridShape& s, const LevelOf<Real>* level, std::int32_t back,
             }
             const Real around = (field[face - 1] + field[face + 1]) +
                                 (field[face - s.stride] + field[face + s.stride]);
-            out[face] = field[face] - kSmoothing<Real> * (around - Real(4) * field[face]);
+            const Range<Real> range = range_around<Real>(field, face, s.stride);
+            out[face] = clamp(field[face] - kSmoothing<Real> * (around - Real(4) * field[face]),
+                              range.low, range.high);
         }
     }
 }

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "pressure/projection.hpp"
+
 namespace weir {
 
 namespace {
@@ -42,12 +44,22 @@ void update_mixed(const Real* momentum, VelocityOf<Real>* volume, VelocityOf<Rea
     }
 }
 
-/// One component: `back` is the step from a face to the face before it across its own cells.
+/// One component's faces, for extrapolation.
 template <class Real>
-void extrapolate_component(VelocityOf<Real>* velocity, const VelocityOf<Real>* before,
-                           const LevelOf<Real>* level,
-                           const GridShape& s, std::int32_t back, std::int32_t first_i,
-                           std::int32_t first_j) {
+struct Component {
+    VelocityOf<Real>* velocity;
+    const VelocityOf<Real>* light;  ///< 1/density; null: 1 everywhere
+    const ShareOf<Real>* open;      ///< open fraction; null: no solids
+    std::int32_t back;              ///< from a face to the face before it across its own cells
+    std::int32_t first_i;
+    std::int32_t first_j;
+};
+
+template <class Real>
+void extrapolate_component(const Component<Real>& component, const PressureFields<Real>& fields,
+                           bool velocity_itself, const GridShape& s) {
+    const LevelOf<Real>* level = fields.level;
+    const std::int32_t back = component.back;
     const auto wet = [&](std::int32_t face) {
         return level[face] > Real(0) || level[face - back] > Real(0);
     };
@@ -55,8 +67,13 @@ void extrapolate_component(VelocityOf<Real>* velocity, const VelocityOf<Real>* b
     const auto empty = [&](std::int32_t face) {
         return level[face] <= kEmptyLevel<Real> || level[face - back] <= kEmptyLevel<Real>;
     };
-    for (std::int32_t j = first_j; j < s.ny; ++j) {
-        for (std::int32_t i = first_i; i < s.nx; ++i) {
+    const auto gained = [&](std::int32_t face) {
+        const Real open = component.open != nullptr ? Real(component.open[face]) : Real(1);
+        const Real rise = pressure_rise(fields, face - back, face, open);
+        return component.light != nullptr ? Real(component.light[face]) * rise : rise;
+    };
+    for (std::int32_t j = component.first_j; j < s.ny; ++j) {
+        for (std::int32_t i = component.first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
             if (wet(face) || empty(face)) {
                 continue;
@@ -64,18 +81,22 @@ void extrapolate_component(VelocityOf<Real>* velocity, const VelocityOf<Real>* b
             Real sum = Real(0);
             Real count = Real(0);
             const auto look = [&](bool exists, std::int32_t neighbour) {
-                if (exists && wet(neighbour)) {
-                    sum += Real(velocity[neighbour]);
-                    sum -= before != nullptr ? Real(before[neighbour]) : Real(0);
+                const bool open =
+                    component.open == nullptr || component.open[neighbour] > Real(0);
+                if (exists && open && wet(neighbour)) {
+                    sum += velocity_itself ? Real(component.velocity[neighbour])
+                                           : -gained(neighbour);
                     count += Real(1);
                 }
             };
-            look(i > first_i, face - 1);
+            look(i > component.first_i, face - 1);
             look(i + 1 < s.nx, face + 1);
-            look(j > first_j, face - s.stride);
+            look(j > component.first_j, face - s.stride);
             look(j + 1 < s.ny, face + s.stride);
             if (count > Real(0)) {
-                velocity[face] = (before != nullptr ? Real(before[face]) : Real(0)) + sum / count;
+                const Real mean = sum / count;
+                component.velocity[face] =
+                    velocity_itself ? mean : Real(component.velocity[face]) + mean;
             }
         }
     }
@@ -100,19 +121,24 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
 }
 
 template <class Real>
-void extrapolate(const Borders<Real>& borders, const LevelOf<Real>* level, bool velocity_itself,
+void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
+                 const PressureFields<Real>& fields, bool velocity_itself,
                  StaggeredGrid<Real>& grid) {
-    const VelocityOf<Real>* before_u = velocity_itself ? nullptr : grid.mass_u;
-    const VelocityOf<Real>* before_v = velocity_itself ? nullptr : grid.mass_v;
-    extrapolate_component<Real>(grid.u, before_u, level, grid.shape, 1, borders.wrap_x ? 0 : 1, 0);
-    extrapolate_component<Real>(grid.v, before_v, level, grid.shape, grid.shape.stride, 0,
-                          borders.wrap_y ? 0 : 1);
+    const GridShape& s = grid.shape;
+    const ShareOf<Real>* open_u = walls.active ? walls.open_u : nullptr;
+    const ShareOf<Real>* open_v = walls.active ? walls.open_v : nullptr;
+    const Component<Real> u{grid.u, grid.inverse_density_u, open_u, 1, borders.wrap_x ? 0 : 1, 0};
+    const Component<Real> v{grid.v,   grid.inverse_density_v,    open_v,
+                            s.stride, 0, borders.wrap_y ? 0 : 1};
+    extrapolate_component(u, fields, velocity_itself, s);
+    extrapolate_component(v, fields, velocity_itself, s);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                  \
     template void grid_update(const Borders<Real>&, Vec2<Real>, Seconds<Real>,  \
                               const LevelOf<Real>*, StaggeredGrid<Real>&);      \
-    template void extrapolate(const Borders<Real>&, const LevelOf<Real>*, bool, \
+    template void extrapolate(const Borders<Real>&, const Walls<Real>&,         \
+                              const PressureFields<Real>&, bool,                \
                               StaggeredGrid<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)

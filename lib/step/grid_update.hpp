@@ -2,6 +2,8 @@
 #pragma once
 
 #include "grid/borders.hpp"
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
 
 namespace weir {
 
@@ -13,13 +15,14 @@ template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s,
                  const LevelOf<Real>* level, StaggeredGrid<Real>& grid);
 
-/// Faces in air beside the liquid change their velocity by as much as the liquid's faces next to
-/// them do on average: particles at the surface read both. It is the acceleration that goes on
-/// smoothly into the air; to continue the velocity itself would brake whatever turns or shears.
-/// Surface tension, which feeds on every ripple, wants the braking: `velocity_itself`.
-/// Reads levels of the cells and the velocity before, which stands where the mass was.
+/// Faces in air beside the liquid take from the pressure what the liquid's open faces next to them
+/// do on average: particles at the surface read both. It is the acceleration that goes on smoothly
+/// into the air; to continue the velocity itself would brake whatever turns or shears. Surface
+/// tension, which feeds on every ripple, wants the braking: `velocity_itself`.
+/// After the projection; reads levels and pressures of the cells.
 template <class Real>
-void extrapolate(const Borders<Real>& borders, const LevelOf<Real>* level, bool velocity_itself,
+void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
+                 const PressureFields<Real>& fields, bool velocity_itself,
                  StaggeredGrid<Real>& grid);
 
 }  // namespace weir

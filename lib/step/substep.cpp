@@ -79,7 +79,7 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan)
         }
         projection(settings.borders, walls, plan.dt_s, settings.sweeps, simulation.grid,
                    simulation.pressure);
-        extrapolate(settings.borders, simulation.pressure.level,
+        extrapolate(settings.borders, walls, simulation.pressure,
                     settings.surface_tension > Real(0), simulation.grid);
     } else {
         equation_of_state(settings.borders, walls, plan.dt_s, plan.sound_speed,
@@ -196,7 +196,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure);
     grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid);
     if (plan.viscosity > Real(0)) {
-        diffuse_velocity(settings.borders, simulation.pressure, plan.viscosity * dt_s, grid);
+        diffuse_velocity(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s,
+                         grid);
     }
     clock.charge(Stage::grid_update);
 
