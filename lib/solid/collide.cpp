@@ -161,6 +161,25 @@ Entry<Real> first_entry(const Scene<Real>& scene, Vec2<Real> from, Vec2<Real> to
     return entry;
 }
 
+/// In a notch the velocity that a blow leaves may lead into the solid again. Then there is no way
+/// on, and what is left of it goes, too: it would grow without end while the particle stays.
+template <class Real>
+void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> place) {
+    constexpr Real kAhead = Real(1.0 / 32.0);
+    const Body<Real>& body = scene.walls.body[slot];
+    const Vec2<Real> velocity = scene.particles.velocity[k];
+    const Vec2<Real> relative = velocity - velocity_at(body, place);
+    const Real speed = length(relative);
+    if (!(speed > Real(0))) {
+        return;
+    }
+    const Vec2<Real> back = (Real(-1) / speed) * relative;
+    const Vec2<Real> ahead = within_tank(scene.shape, place - kAhead * back);
+    if (standing(scene.shape, scene.walls, ahead).inside) {
+        answer(scene, k, slot, place, back);
+    }
+}
+
 /// Stops a particle where its path, seen from the body, first meets a solid. `slot`: the body that
 /// it is in, or kNoBody. False: the path began inside a solid, or off the tank.
 template <class Real>
@@ -185,6 +204,7 @@ bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<R
     ++scene.result.reflected;
     scene.particles.position[k] = entry.place;
     answer(scene, k, entry.at.slot, entry.place, entry.at.hit.normal);
+    stop_if_blocked(scene, k, entry.at.slot, entry.place);
     return true;
 }
 
