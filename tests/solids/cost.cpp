@@ -77,9 +77,9 @@ double instructions(const std::string& scene, bool solids) {
 /// Median of the ratios of seconds per particle and substep, turn by turn.
 double time_ratio(const std::string& scene) {
     std::vector<double> ratios;
-    for (int turn = 0; turn < 9; ++turn) {
-        const Run with = timed(scene, true, 25);
-        const Run without = timed(scene, false, 25);
+    for (int turn = 0; turn < 5; ++turn) {
+        const Run with = timed(scene, true, 13);
+        const Run without = timed(scene, false, 13);
         ratios.push_back((with.seconds / (with.substeps * with.particles)) /
                          (without.seconds / (without.substeps * without.particles)));
     }
