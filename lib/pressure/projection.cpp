@@ -84,7 +84,7 @@ System<Real> build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale
                 continue;
             }
             Real divergence = weights.outflow(i, j);
-            if (Solids && walls.moving && walls.cell_case[c] != 0) {
+            if (Solids && walls.moving && touches_wall(walls, c)) {
                 divergence += wall_flow(s, walls, i, j);
             }
             if (fields.on_surface) {

@@ -15,16 +15,29 @@ constexpr Real kFilledShare = Real(0.8);
 template <class Real>
 constexpr Real kFilledLevel = Real(0.5);
 
+/// Mass on those faces that a cell's centre sees past thin walls.
+template <class Real>
+Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std::int32_t c) {
+    const SeenFaces sees = faces_seen(thin, grid.shape, c);
+    return ((sees.left ? grid.mass_u[c] : Real(0)) +
+            (sees.right ? grid.mass_u[c + 1] : Real(0))) +
+           ((sees.lower ? grid.mass_v[c] : Real(0)) +
+            (sees.upper ? grid.mass_v[c + grid.shape.stride] : Real(0)));
+}
+
 template <class Real>
 void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
                         Real rest_count, PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
+    const ThinWalls<Real>* thin = walls.thin;
     const Real per_face = Real(1) / (Real(4) * rest_count);
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            const Real mass = (grid.mass_u[c] + grid.mass_u[c + 1]) +
-                              (grid.mass_v[c] + grid.mass_v[c + s.stride]);
+            const Real mass = thin != nullptr && (thin->mark[c] & kTouching) != 0
+                                  ? seen_mass(grid, *thin, c)
+                                  : (grid.mass_u[c] + grid.mass_u[c + 1]) +
+                                        (grid.mass_v[c] + grid.mass_v[c + s.stride]);
             if (!(mass > Real(0))) {
                 fields.density[c] = Real(0);
                 fields.level[c] = kEmptyLevel<Real>;

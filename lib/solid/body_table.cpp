@@ -74,6 +74,26 @@ bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_pe
 }
 
 template <class Real>
+void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
+                  Body<Real>& body) {
+    body.first_vertex = table.vertices_used;
+    body.open = true;
+    Vec2f last;
+    for (const Vec2f& vertex : def.polygon) {
+        if (body.vertex_count > 0 && vertex.x == last.x && vertex.y == last.y) {
+            continue;
+        }
+        last = vertex;
+        table.local[body.first_vertex + body.vertex_count++] =
+            convert<Real>(cells_per_m * convert<Face<Real>>(vertex));
+    }
+    body.room = body.vertex_count;
+    table.piece_list(body)[kPerVertex * body.room - 1] =
+        static_cast<std::uint16_t>(body.vertex_count);
+    table.vertices_used += body.room;
+}
+
+template <class Real>
 void place(BodyTable<Real>& table, const Body<Real>& body) {
     const Rotation<Real> turn = rotation(body.angle);
     for (std::int32_t k = 0; k < body.vertex_count; ++k) {
@@ -107,6 +127,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     template std::int32_t find_free_slot(const BodyTable<Real>&);                         \
     template bool exists(const BodyTable<Real>&, BodyId);                                 \
     template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
+    template void add_polyline(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&);\
     template void place(BodyTable<Real>&, const Body<Real>&);                             \
     template void remove(BodyTable<Real>&, std::int32_t);
 WEIR_INSTANTIATE(float)

@@ -29,9 +29,13 @@ struct Body {
     std::int32_t piece_length = 0;  ///< used entries of its piece list
     NodeBox drawn;                  ///< nodes that it wrote when it was last rasterized
     NodeBox left;                   ///< and the time before
+    Vec2<Real> met_position;        ///< where it was when particles last met it
+    Real met_angle = Real(0);
     std::uint16_t generation = 0;
     BodyKind kind = BodyKind::free;
     bool moved = false;             ///< since it was last rasterized
+    bool open = false;              ///< a polyline
+    bool hollow = false;            ///< thin all over: the nodes do not show it
 };
 static_assert(sizeof(Body<float>) <= kBodyBytes<float>, "raise kBodyBytes");
 static_assert(sizeof(Body<double>) <= kBodyBytes<double>, "raise kBodyBytes");
@@ -75,6 +79,11 @@ bool exists(const BodyTable<Real>& table, BodyId id);
 template <class Real>
 bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
                  Body<Real>& body);
+
+/// Copies an open polyline, without repeated vertices.
+template <class Real>
+void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
+                  Body<Real>& body);
 
 /// Turns and moves the vertices to the body's pose.
 template <class Real>

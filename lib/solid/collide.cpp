@@ -2,6 +2,7 @@
 
 #include "solid/contour_hit.hpp"
 #include "solid/reflect.hpp"
+#include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
 
 namespace weir {
@@ -244,9 +245,9 @@ bool is_far(Vec2<Real> before, Vec2<Real> x) {
     return absolute(x.x - before.x) > Real(1) || absolute(x.y - before.y) > Real(1);
 }
 
-/// A particle near a wall. False: it has no way out.
+/// A particle near the contour of a solid. False: it has no way out.
 template <class Real>
-bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
+bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
     const Vec2<Real> x = scene.particles.position[k];
     const Standing<Real> at = standing(scene.shape, scene.walls, x);
     scene.result.tested += at.which != kCellOutside ? 1 : 0;
@@ -280,6 +281,74 @@ std::int32_t last_near_wall(const GridShape& shape, const std::uint8_t* cell_cas
     return count;
 }
 
+template <class Real>
+void answer_all(Scene<Real>& scene, std::int32_t k, const ThinStop<Real>& stop) {
+    for (std::int32_t hit = 0; hit < stop.count; ++hit) {
+        bool again = false;  // a wall that is met twice has answered
+        for (std::int32_t other = 0; other < hit; ++other) {
+            again = again || (stop.slot[other] == stop.slot[hit] &&
+                              stop.normal[other].x == stop.normal[hit].x &&
+                              stop.normal[other].y == stop.normal[hit].y);
+        }
+        if (!again) {
+            answer(scene, k, stop.slot[hit], stop.place, stop.normal[hit]);
+        }
+    }
+}
+
+/// A particle near a thin wall. False: it has no way out.
+template <class Real>
+bool meet_thin(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool follow) {
+    const ThinWalls<Real>& thin = *scene.walls.thin;
+    const Vec2<Real> x = scene.particles.position[k];
+    ThinStop<Real> stop;
+    if (!keep_side(thin, scene.shape, scene.walls.body, before, x, follow, stop)) {
+        return false;
+    }
+    const Vec2<Real> kept = stop.place;
+    if (stop.count > 0) {
+        scene.particles.position[k] = kept;
+        answer_all(scene, k, stop);
+        scene.result.reflected += follow ? 1 : 0;
+    }
+    if (way_out_of_thin(thin, scene.shape, scene.walls.body, kept, stop)) {
+        scene.particles.position[k] = stop.place;
+        answer_all(scene, k, stop);
+        scene.result.reflected += follow ? 1 : 0;
+    }
+    return true;
+}
+
+/// Thin walls first, then the contour, and who is set back from there keeps its side, too.
+template <class Real>
+bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far, bool thin) {
+    if (!thin) {
+        return meet_contour(scene, k, before, far);
+    }
+    ++scene.result.tested;
+    if (!meet_thin(scene, k, before, true)) {
+        return false;
+    }
+    const Vec2<Real> kept = scene.particles.position[k];
+    if (case_at(scene.shape, scene.walls, kept) == kCellOutside && !far) {
+        return true;
+    }
+    if (!meet_contour(scene, k, before, far)) {
+        return false;
+    }
+    const Vec2<Real> x = scene.particles.position[k];
+    return (x.x == kept.x && x.y == kept.y) || meet_thin(scene, k, kept, false);
+}
+
+/// Whether a thin wall can be on a particle's way to `x`: within two cells, or anywhere if the
+/// particle or a wall moved further than a cell.
+template <class Real>
+bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bool far) {
+    return far || thin.reach > Real(1) ||
+           (thin.mark[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))] &
+            kNear) != 0;
+}
+
 }  // namespace
 
 template <class Real>
@@ -288,8 +357,9 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
              Contacts<Real>& contacts, CollideResult<Real>& result) {
     Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s};
     for (std::int32_t n = count; n > 0;) {
-        n = flight.far ? n - 1
-                       : last_near_wall(shape, walls.cell_case, particles.position + first, n);
+        n = flight.far || walls.thin != nullptr
+                ? n - 1
+                : last_near_wall(shape, walls.cell_case, particles.position + first, n);
         if (n < 0) {
             return;
         }
@@ -297,10 +367,11 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> before = flight.before[n];
         const bool far = flight.far && is_far(before, x);
-        if (case_at(shape, walls, x) == kCellOutside && !far) {
+        const bool thin = walls.thin != nullptr && near_thin(shape, *walls.thin, x, far);
+        if (case_at(shape, walls, x) == kCellOutside && !far && !thin) {
             continue;
         }
-        if (!meet(scene, k, before, far)) {
+        if (!meet(scene, k, before, far, thin)) {
             ++result.removed;
             particles.remove(k);
         }
@@ -309,7 +380,10 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
 
 template <class Real>
 bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point) {
-    return standing(shape, walls, point).inside;
+    ThinStop<Real> stop;
+    return standing(shape, walls, point).inside ||
+           (walls.thin != nullptr &&
+            way_out_of_thin(*walls.thin, shape, walls.body, point, stop));
 }
 
 #define WEIR_INSTANTIATE(Real)                                                               \

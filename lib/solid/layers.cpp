@@ -32,6 +32,9 @@ template <class Real>
 std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot,
                   const NodeBox& box, DistanceOf<Real>* distance, SlotOf<Real>* nearest) {
     const Body<Real>& body = table.body[slot];
+    if (body.hollow) {
+        return 0;
+    }
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
     const RasterPolygon<Real> polygon{table.outline(body), static_cast<std::uint16_t>(slot),
                                       {{}, size}};
@@ -83,6 +86,17 @@ void forget_moves(BodyTable<Real>& table) {
     }
 }
 
+/// Open fractions around a box of nodes whose distances changed.
+template <class Real>
+void recut(Layers<Real>& layers, const NodeBox& box) {
+    Walls<Real>& walls = layers.walls;
+    update_cut_cells(layers.shape, box, layers.scratch, walls);
+    if (walls.thin != nullptr) {
+        close_thin_faces(layers.shape, box, layers.thin, walls.open_u, walls.open_v,
+                         walls.full_density);
+    }
+}
+
 /// Draws all moving bodies that reach into a box onto the static layer there.
 template <class Real>
 std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const NodeBox& box) {
@@ -98,7 +112,7 @@ std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const N
             nodes += draw(layers, table, slot, part, layers.walls.distance, layers.walls.nearest);
         }
     }
-    update_cut_cells(layers.shape, box, layers.scratch, layers.walls);
+    recut(layers, box);
     return nodes;
 }
 
@@ -135,12 +149,10 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
         cells = minimum(cells + more, all_cells);
     });
     if (cells == all_cells) {
-        update_cut_cells(layers.shape, everywhere(layers), layers.scratch, layers.walls);
+        recut(layers, everywhere(layers));
         return;
     }
-    each([&](const NodeBox& box) {
-        update_cut_cells(layers.shape, box, layers.scratch, layers.walls);
-    });
+    each([&](const NodeBox& box) { recut(layers, box); });
 }
 
 }  // namespace
@@ -160,6 +172,21 @@ void clear_layers(Layers<Real>& layers) {
     std::memset(walls.near, 0,
                 static_cast<std::size_t>(near_words(layers.shape) * layers.shape.ny) *
                     sizeof walls.near[0]);
+}
+
+template <class Real>
+bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
+    Body<Real>& body = table.body[slot];
+    body.hollow = body.open;
+    if (layers.thin.capacity == 0) {
+        return !body.open;
+    }
+    if (!add_thin_edges(layers.thin, layers.shape, table, slot)) {
+        return false;
+    }
+    body.hollow = is_thin_all_over(layers.thin, table, slot);
+    layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
+    return true;
 }
 
 template <class Real>
@@ -195,6 +222,13 @@ void redraw_all(Layers<Real>& layers, BodyTable<Real>& table) {
         Body<Real>& body = table.body[slot];
         body.drawn = body.kind == BodyKind::free ? NodeBox{} : reach(layers.shape, table, body);
     }
+    clear_thin_walls(layers.thin, layers.shape, table.capacity);
+    layers.walls.thin = nullptr;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        if (table.body[slot].kind != BodyKind::free) {
+            keep_thin_edges(layers, table, slot);
+        }
+    }
     redraw_static(layers, table);
 }
 
@@ -209,6 +243,9 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
         if (body.moved) {
             body.left = body.drawn;
             body.drawn = reach(layers.shape, table, body);
+            if (layers.thin.used > 0) {
+                relink(layers.thin, layers.shape, table, slot);
+            }
             restore(layers, body.left);
             restore(layers, body.drawn);
             all = unite(all, unite(body.left, body.drawn));
@@ -241,6 +278,7 @@ void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
 
 #define WEIR_INSTANTIATE(Real)                                                           \
     template void clear_layers(Layers<Real>&);                                           \
+    template bool keep_thin_edges(Layers<Real>&, BodyTable<Real>&, std::int32_t);        \
     template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t);    \
     template std::int32_t redraw_static(Layers<Real>&, BodyTable<Real>&);                \
     template void redraw_all(Layers<Real>&, BodyTable<Real>&);                           \

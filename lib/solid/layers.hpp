@@ -16,6 +16,7 @@ struct Layers {
     DistanceOf<Real>* static_distance = nullptr;
     SlotOf<Real>* static_nearest = nullptr;
     Walls<Real> walls;        ///< the merged layer
+    ThinWalls<Real> thin;     ///< what its nodes cannot show
     Real* nodes = nullptr;                ///< a node field that is free before a substep
     VelocityOf<Real>* scratch = nullptr;  ///< a cell field that is free between steps
 };
@@ -23,6 +24,10 @@ struct Layers {
 /// Empties both layers: no solid anywhere.
 template <class Real>
 void clear_layers(Layers<Real>& layers);
+
+/// Finds what of a new body is thinner than a cell. False: there is no room for it.
+template <class Real>
+bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
 
 /// Draws one more static body. Returns the number of nodes that were computed.
 template <class Real>

@@ -1,5 +1,7 @@
 #include "solid/walls.hpp"
 
+#include "solid/thin_sight.hpp"
+
 namespace weir {
 
 template <class Real>
@@ -8,13 +10,24 @@ Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
     const std::int32_t up = node + shape.stride;
     const Vec2<Real> corner{static_cast<Real>(i), static_cast<Real>(j)};
     constexpr Real kHalf = Real(0.5);
+    const auto thin = [&](std::int32_t face, ThinMark closed) {
+        return walls.thin != nullptr && (walls.thin->mark[face] & closed) != 0;
+    };
     const auto closed_u = [&](std::int32_t low, std::int32_t high, Real x) {
+        if (thin(low, kLeftClosed)) {
+            return flow_of_thin_wall(*walls.thin, walls.body, Vec2<Real>{x, corner.y + kHalf},
+                                     low - 1, low, true);
+        }
         const Real closed = Real(1) - walls.open_u[low];
         return closed > Real(0)
                    ? closed * wall_velocity(walls, low, high, Vec2<Real>{x, corner.y + kHalf}).x
                    : Real(0);
     };
     const auto closed_v = [&](std::int32_t left, std::int32_t right, Real y) {
+        if (thin(left, kLowerClosed)) {
+            return flow_of_thin_wall(*walls.thin, walls.body, Vec2<Real>{corner.x + kHalf, y},
+                                     left - shape.stride, left, false);
+        }
         const Real closed = Real(1) - walls.open_v[left];
         return closed > Real(0)
                    ? closed * wall_velocity(walls, left, right, Vec2<Real>{corner.x + kHalf, y}).y

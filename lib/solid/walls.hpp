@@ -3,6 +3,7 @@
 
 #include "grid/staggered_grid.hpp"
 #include "solid/body_table.hpp"
+#include "solid/thin_walls.hpp"
 
 namespace weir {
 
@@ -27,6 +28,7 @@ struct Walls {
     ShareOf<Real>* full_density = nullptr;  ///< density of a cell when all around it is full
     std::uint32_t* near = nullptr;      ///< a bit a cell: it or one around it is cut by a wall
     const Body<Real>* body = nullptr;
+    const ThinWalls<Real>* thin = nullptr;  ///< null: no wall is thinner than a cell
 };
 
 /// Words of `near` for one row of the tank's cells, of which a shape may be a part.
@@ -77,6 +79,13 @@ inline Vec2<Real> wall_velocity(const Walls<Real>& walls, std::int32_t a, std::i
                                 Vec2<Real> point) {
     const std::uint16_t slot = nearest_body(walls, a, b);
     return slot == kNoBody ? Vec2<Real>{} : velocity_at(walls.body[slot], point);
+}
+
+/// Whether a contour or a thin wall is in a cell or at its faces.
+template <class Real>
+inline bool touches_wall(const Walls<Real>& walls, std::int32_t cell) {
+    return walls.cell_case[cell] != 0 ||
+           (walls.thin != nullptr && (walls.thin->mark[cell] & kTouching) != 0);
 }
 
 /// What moving walls push into the cell (i, j) through the closed parts of its faces, counted

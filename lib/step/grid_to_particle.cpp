@@ -54,11 +54,14 @@ inline Range<Real> range_around(const Field* field, std::int32_t face, std::int3
 /// One component: out = field − kSmoothing ∇²field where liquid is all around, within what is
 /// there: beyond it, a jump such as a wall without slip makes would grow from step to step.
 template <class Real>
-void sharpen(const GridShape& s, const LevelOf<Real>* level, std::int32_t back,
-             std::int32_t first_i, std::int32_t first_j, const VelocityOf<Real>* field,
-             VelocityOf<Real>* out) {
+void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real>* level,
+             std::int32_t back, std::int32_t first_i, std::int32_t first_j,
+             const VelocityOf<Real>* field, VelocityOf<Real>* out) {
     const auto deep = [&](std::int32_t face) {
         return level[face] > Real(0) && level[face - back] > Real(0);
+    };
+    const auto beside_thin_wall = [&](std::int32_t face) {
+        return thin != nullptr && ((thin->mark[face] | thin->mark[face - back]) & kTouching) != 0;
     };
     // The face before the one on the seam has cells that lie two beyond it: its image has not.
     const auto before = [&](std::int32_t face, std::int32_t i, std::int32_t j) {
@@ -70,7 +73,7 @@ void sharpen(const GridShape& s, const LevelOf<Real>* level, std::int32_t back,
             const std::int32_t face = s.index(i, j);
             const std::int32_t along = back == 1 ? s.stride : 1;
             if (!deep(face) || !deep(before(face, i, j)) || !deep(face + back) ||
-                !deep(face - along) || !deep(face + along)) {
+                !deep(face - along) || !deep(face + along) || beside_thin_wall(face)) {
                 continue;
             }
             const Real around = (field[face - 1] + field[face + 1]) +
@@ -86,15 +89,16 @@ void sharpen(const GridShape& s, const LevelOf<Real>* level, std::int32_t back,
 
 template <class Real>
 void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
-                  StaggeredGrid<Real>& grid) {
+                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin) {
     const GridShape& s = grid.shape;
     const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof *grid.mass_u;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
     std::memcpy(static_cast<void*>(sharp_u), grid.mass_u, bytes);
     std::memcpy(static_cast<void*>(sharp_v), grid.mass_v, bytes);
-    sharpen<Real>(s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, grid.mass_u, sharp_u);
-    sharpen<Real>(s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, grid.mass_v, sharp_v);
+    sharpen<Real>(thin, s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, grid.mass_u, sharp_u);
+    sharpen<Real>(thin, s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, grid.mass_v,
+                  sharp_v);
     extend_velocity(borders, s, sharp_u, sharp_v);
     const Real pic_ratio = Real(1) - flip_ratio;
     for (std::int32_t face = 0; face < s.size(); ++face) {
@@ -156,7 +160,7 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
 
 #define WEIR_INSTANTIATE(Real)                                                          \
     template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,       \
-                               StaggeredGrid<Real>&);                                   \
+                               StaggeredGrid<Real>&, const ThinWalls<Real>*);           \
     template void prepare_gather(StaggeredGrid<Real>&);                                 \
     template TransferResult<Real> grid_to_particle(                                     \
         const StaggeredGrid<Real>&, const Transfer<Real>&, Particles<Real>&);

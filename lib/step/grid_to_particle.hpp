@@ -4,6 +4,7 @@
 #include "fluid/particles.hpp"
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "solid/thin_walls.hpp"
 
 namespace weir {
 
@@ -29,10 +30,11 @@ struct Transfer {
 ///     v' = flip · v + I(change),  change = u − u_before + (1 − flip) ũ,
 /// one gather instead of two. ũ is the velocity before, sharpened by what a scatter and a gather
 /// smooth away, so that the share of PIC damps the noise between particles and not the flow.
+/// Beside thin walls (`thin`, null: there are none) nothing is smoothed across, nor sharpened.
 /// The fields' divergence and inverse diagonal are used as scratch.
 template <class Real>
 void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
-                  StaggeredGrid<Real>& grid);
+                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin = nullptr);
 
 /// Gathers both fields with the weights of particle-to-grid, moves the particle to second order,
 /// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank. Any part of the

@@ -44,6 +44,24 @@ void update_mixed(const Real* momentum, VelocityOf<Real>* volume, VelocityOf<Rea
     }
 }
 
+/// Whether a thin wall stands between two neighbouring faces of a kind: one of the faces between
+/// their cells is closed, or, one behind the other, one of them is hidden from the cell between.
+template <class Real>
+bool separated(const ThinWalls<Real>& thin, const GridShape& s, std::int32_t face,
+               std::int32_t neighbour, bool on_u) {
+    const std::int32_t low = minimum(face, neighbour);
+    const std::int32_t high = maximum(face, neighbour);
+    const bool in_row = high - low == 1;
+    if (in_row == on_u) {
+        const std::uint32_t hidden = on_u ? kLeftUnseen : kLowerUnseen;
+        const std::uint32_t hidden_before = on_u ? kLeftUnseenBefore : kLowerUnseenBefore;
+        return (thin.mark[low] & hidden) != 0 || (thin.mark[high] & hidden_before) != 0;
+    }
+    const std::uint32_t closed = on_u ? kLowerClosed : kLeftClosed;
+    const std::int32_t before = on_u ? 1 : s.stride;
+    return ((thin.mark[high] | thin.mark[high - before]) & closed) != 0;
+}
+
 /// One component's faces, for extrapolation.
 template <class Real>
 struct Component {
@@ -53,6 +71,7 @@ struct Component {
     std::int32_t back;              ///< from a face to the face before it across its own cells
     std::int32_t first_i;
     std::int32_t first_j;
+    const ThinWalls<Real>* thin;    ///< through which nothing goes on; null: there are none
 };
 
 template <class Real>
@@ -83,7 +102,9 @@ void extrapolate_component(const Component<Real>& component, const PressureField
             const auto look = [&](bool exists, std::int32_t neighbour) {
                 const bool open =
                     component.open == nullptr || component.open[neighbour] > Real(0);
-                if (exists && open && wet(neighbour)) {
+                if (exists && open && wet(neighbour) &&
+                    (component.thin == nullptr ||
+                     !separated(*component.thin, s, face, neighbour, back == 1))) {
                     sum += velocity_itself ? Real(component.velocity[neighbour])
                                            : -gained(neighbour);
                     count += Real(1);
@@ -127,9 +148,10 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
     const GridShape& s = grid.shape;
     const ShareOf<Real>* open_u = walls.active ? walls.open_u : nullptr;
     const ShareOf<Real>* open_v = walls.active ? walls.open_v : nullptr;
-    const Component<Real> u{grid.u, grid.inverse_density_u, open_u, 1, borders.wrap_x ? 0 : 1, 0};
+    const Component<Real> u{grid.u, grid.inverse_density_u, open_u,    1, borders.wrap_x ? 0 : 1,
+                            0,      walls.thin};
     const Component<Real> v{grid.v,   grid.inverse_density_v,    open_v,
-                            s.stride, 0, borders.wrap_y ? 0 : 1};
+                            s.stride, 0, borders.wrap_y ? 0 : 1, walls.thin};
     extrapolate_component(u, fields, velocity_itself, s);
     extrapolate_component(v, fields, velocity_itself, s);
 }

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "step/thin_transfer.hpp"
 #include "step/transfer_lanes.hpp"
 
 namespace weir {
@@ -52,7 +53,8 @@ inline void scatter_mixed(Mass* volume, Mass* mass, Real* momentum, std::int32_t
 
 template <class Real>
 void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
-                         Real second_density, StaggeredGrid<Real>& grid) {
+                         Real second_density, StaggeredGrid<Real>& grid,
+                         const ThinWalls<Real>* thin) {
     const GridShape& shape = grid.shape;
     clear(grid.momentum_u(), shape);
     clear(grid.momentum_v(), shape);
@@ -60,7 +62,10 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
     clear(grid.mass_v, shape);
     clear(grid.inverse_density_u, shape);
     clear(grid.inverse_density_v, shape);
-    for (std::int32_t k = 0; k < particles.count; ++k) {
+    if (thin != nullptr) {
+        scatter_past_walls(particles, *thin, second_density, grid);
+    }
+    for (std::int32_t k = 0; thin == nullptr && k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
@@ -77,12 +82,17 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
 }
 
 template <class Real>
-void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid) {
+void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid,
+                        const ThinWalls<Real>* thin) {
     const GridShape& shape = grid.shape;
     clear(grid.momentum_u(), shape);
     clear(grid.momentum_v(), shape);
     clear(grid.mass_u, shape);
     clear(grid.mass_v, shape);
+    if (thin != nullptr) {
+        scatter_past_walls(particles, *thin, Real(1), grid);
+        return;
+    }
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
@@ -95,29 +105,30 @@ void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& g
 
 template <class Real>
 void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
-                      Real second_density, StaggeredGrid<Real>& grid) {
+                      Real second_density, StaggeredGrid<Real>& grid,
+                      const ThinWalls<Real>* thin) {
     if (particles.kind != nullptr) {
-        scatter_two_liquids(particles, borders, second_density, grid);
+        scatter_two_liquids(particles, borders, second_density, grid, thin);
         return;
     }
     if constexpr (kHasLanes<Real>) {
-        if (grid.pairs != nullptr) {
+        if (grid.pairs != nullptr && thin == nullptr) {
             scatter_in_lanes(particles, grid);
             fold_borders(borders, grid);
             return;
         }
     }
-    scatter_one_liquid(particles, grid);
+    scatter_one_liquid(particles, grid, thin);
     fold_borders(borders, grid);
 }
 
 template void particle_to_grid(const Particles<float>&, const Borders<float>&, float,
-                               StaggeredGrid<float>&);
+                               StaggeredGrid<float>&, const ThinWalls<float>*);
 template void particle_to_grid(const Particles<double>&, const Borders<double>&, double,
-                               StaggeredGrid<double>&);
+                               StaggeredGrid<double>&, const ThinWalls<double>*);
 template void particle_to_grid(const Particles<Fixed>&, const Borders<Fixed>&, Fixed,
-                               StaggeredGrid<Fixed>&);
+                               StaggeredGrid<Fixed>&, const ThinWalls<Fixed>*);
 template void particle_to_grid(const Particles<SmallFixed>&, const Borders<SmallFixed>&, SmallFixed,
-                               StaggeredGrid<SmallFixed>&);
+                               StaggeredGrid<SmallFixed>&, const ThinWalls<SmallFixed>*);
 
 }  // namespace weir

@@ -3,15 +3,19 @@
 
 #include "fluid/particles.hpp"
 #include "grid/borders.hpp"
+#include "solid/thin_walls.hpp"
 
 namespace weir {
 
 /// Clears the grid, then adds every particle's mass 1 and momentum to its four u faces and four
 /// v faces with bilinear weights. Ghost rows are folded back.
 /// With two liquids momentum and, beside the count, mass are weighted by the particle's density.
+/// Past thin walls (`thin`, null: there are none) a particle gives only to faces that it sees; such
+/// worlds run the plain loops.
 /// Order: by particle, then by node. Cost: 8 weights and 16 sums a particle; two liquids: 24.
 template <class Real>
 void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
-                      Real second_density, StaggeredGrid<Real>& grid);
+                      Real second_density, StaggeredGrid<Real>& grid,
+                      const ThinWalls<Real>* thin = nullptr);
 
 }  // namespace weir

@@ -14,6 +14,7 @@
 #include "step/grid_update.hpp"
 #include "step/occupied.hpp"
 #include "step/particle_to_grid.hpp"
+#include "step/thin_transfer.hpp"
 #include "step/viscosity.hpp"
 
 namespace weir {
@@ -105,6 +106,9 @@ void fill_borders(Simulation<Real>& simulation) {
     StaggeredGrid<Real>& grid = simulation.grid;
     if (simulation.layers.walls.active) {
         mirror_in_solids(simulation.layers.walls, simulation.pressure, grid);
+        if (simulation.layers.walls.thin != nullptr) {
+            mirror_at_thin_walls(simulation.layers.walls, simulation.pressure.level, grid);
+        }
     }
     extend_velocity(simulation.settings.borders, grid.shape, grid.u, grid.v);
     extend_velocity(simulation.settings.borders, grid.shape, grid.mass_u, grid.mass_v);
@@ -156,7 +160,13 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
         return;
     }
     transfer.near = Real(1) / dt_s;
+    ThinWalls<Real>& thin = simulation.layers.thin;
+    const Vec2<Real> fall = dt_s * settings.gravity;
+    if (walls.thin != nullptr) {
+        follow_bodies(thin, simulation.bodies);
+    }
     Vec2<PositionOf<Real>> before[kBlock<Real>];
+    Vec2<VelocityOf<Real>> velocity[kBlock<Real>];
     CollideResult<Real> collisions;
     for (std::int32_t end = particles.count; end > 0;) {
         const std::int32_t count = minimum(kBlock<Real>, end);
@@ -164,14 +174,27 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
         std::memcpy(before, particles.position + end,
                     static_cast<std::size_t>(count) * sizeof before[0]);
         Particles<Real> block = particles.part(end, count);
-        const TransferResult<Real> moved = grid_to_particle(simulation.grid, transfer, block);
+        if (walls.thin != nullptr) {
+            std::memcpy(velocity, particles.velocity + end,
+                        static_cast<std::size_t>(count) * sizeof velocity[0]);
+        }
+        TransferResult<Real> moved = grid_to_particle(simulation.grid, transfer, block);
         note(moved, simulation, report);
+        if (walls.thin != nullptr) {
+            const TransferResult<Real> beside = gather_past_walls(
+                simulation.grid, transfer, thin, fall, before, velocity, block);
+            moved.far += beside.far;
+            simulation.max_speed = maximum(simulation.max_speed, beside.max_speed);
+        }
         clock.charge(Stage::grid_to_particle);
         collide(simulation.grid.shape, walls, {before, moved.far > 0, dt_s}, end, count,
                 particles, simulation.contacts, collisions);
         clock.charge(Stage::collide);
     }
     note(collisions, simulation, report);
+    if (simulation.layers.thin.capacity > 0) {
+        forget_ways(thin, simulation.bodies);
+    }
 }
 
 }  // namespace
@@ -190,7 +213,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
         clock.charge(Stage::contour);
     }
     skip_empty(simulation);
-    particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid);
+    particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid,
+                     walls.thin);
     clock.charge(Stage::particle_to_grid);
 
     surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure);
@@ -205,7 +229,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     fill_borders(simulation);
     clock.charge(Stage::pressure);
 
-    blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid);
+    blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid,
+                 walls.thin);
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
         volume_correction(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
                           simulation.pressure, grid);

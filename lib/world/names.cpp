@@ -19,6 +19,8 @@ const char* init_text(Status status) {
             return "capacity.vertices: choose 0 … kMaxVertices";
         case Status::contact_capacity_out_of_range:
             return "capacity.contacts: choose 0 … kMaxBodies";
+        case Status::wall_edge_capacity_out_of_range:
+            return "capacity.wall_edges: choose 0 … kMaxWallEdges";
         case Status::cell_size_out_of_range: return "cell_m: choose 1e-6 … 1e3 m";
         case Status::gravity_not_finite: return "gravity is NaN or infinite: give a finite vector";
         case Status::gravity_out_of_range:
@@ -54,6 +56,8 @@ const char* init_text(Status status) {
             return "pressure, contour or liquid is no enumerator: pick one from config.hpp";
         case Status::small_fixed_has_one_liquid:
             return "two liquids: choose World<Fixed>, or float";
+        case Status::small_fixed_has_no_thin_walls:
+            return "thin walls: choose World<Fixed>, or float, or set capacity.wall_edges = 0";
         case Status::small_fixed_has_no_tension:
             return "surface tension: choose World<Fixed>, or float";
         case Status::memory_missing:
@@ -90,6 +94,9 @@ const char* content_text(Status status) {
             return "a hole crosses or touches another ring: check_polygon says where";
         case Status::polygon_hole_outside:
             return "a hole lies outside the polygon or within another hole: leave it out";
+        case Status::polyline_has_holes: return "an open polyline has no holes: leave them empty";
+        case Status::no_free_wall_edge:
+            return "open or thin walls want more room: raise capacity.wall_edges";
         case Status::polygon_outside_domain:
             return "polygon lies wholly outside the tank: move it in";
         case Status::position_out_of_range:
@@ -167,6 +174,7 @@ const char* owner_name(Owner owner) {
         case Owner::vertices: return "vertices";
         case Owner::contour: return "contour";
         case Owner::cut_cells: return "cut_cells";
+        case Owner::thin_walls: return "thin_walls";
         case Owner::grid: return "grid";
         case Owner::pressure: return "pressure";
         case Owner::count: break;

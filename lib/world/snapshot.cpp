@@ -138,6 +138,11 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::open_u:
         case Block::open_v:
         case Block::full_density:
+        case Block::wall_edge:
+        case Block::wall_edge_of_cell:
+        case Block::wall_mark:
+        case Block::wall_span:
+        case Block::wall_body:
         case Block::velocity_u:
         case Block::velocity_v:
         case Block::mass_u:

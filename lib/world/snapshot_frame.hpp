@@ -66,11 +66,11 @@ struct Head {
 inline constexpr std::size_t kHeadBytes = 2 * kWordBytes + sizeof(Head);
 
 inline std::uint64_t capacity_code(const Capacity& of) {
-    const auto& [particles, cells_x, cells_y, bodies, moving, vertices, contacts, second_liquid] =
-        of;
+    const auto& [particles, cells_x, cells_y, bodies, moving, vertices, wall_edges, contacts,
+                 second_liquid] = of;
     Hash hash;
     const std::int32_t numbers[] = {particles, cells_x, cells_y,
-                                    bodies,    vertices, contacts};
+                                    bodies,    vertices, wall_edges, contacts};
     for (const std::int32_t number : numbers) {
         hash.add(number);
     }

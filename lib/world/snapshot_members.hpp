@@ -57,9 +57,9 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [position, velocity, count, capacity, kind] = particles;
     auto& [body, body_capacity, used, local, placed, pieces, scratch_list, vertex_capacity,
            vertices_used] = bodies;
-    auto& [shape, contour, static_distance, static_nearest, walls, nodes, scratch] = layers;
+    auto& [shape, contour, static_distance, static_nearest, walls, thin, nodes, scratch] = layers;
     [[maybe_unused]] auto& [active, moving, binary, distance, nearest, cell_case, open_u,
-                            open_v, full_density, near, wall_body] = walls;
+                            open_v, full_density, near, wall_body, thin_walls] = walls;
     any_member(stream, settings.gravity);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);
@@ -77,7 +77,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
 template <class Real, class Stream>
 void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) {
     auto& [position, velocity, angle, spin, surface, radius, first_vertex, vertex_count, room,
-           rings, piece_length, drawn, left, generation, kind, moved] = record;
+           rings, piece_length, drawn, left, met_position, met_angle, generation, kind, moved,
+           open, hollow] = record;
     auto& [restitution, friction, conveyor, no_slip] = surface;
     stream.member(kind, BodyKind::free, BodyKind::moving);
     stream.member(generation, 0, 0xFFFF);
@@ -91,6 +92,9 @@ void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) 
     stream.member(no_slip, false, true);
     positive_member(stream, radius);
     stream.member(moved, false, true);
+    stream.member(open, false, true);
+    any_member(stream, met_position);
+    stream.member(met_angle, -kLargestAngleKept<Real>, kLargestAngleKept<Real>);
     constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);
     const std::int32_t places = stream.member(room, 0, most_places);
     const std::int32_t count = stream.member(vertex_count, 0, places);

@@ -108,6 +108,9 @@ Status check_reach(const WorldDef& def, const Reach& reach) {
     if (!reach.everything && def.capacity.second_liquid) {
         return Status::small_fixed_has_one_liquid;
     }
+    if (!reach.everything && def.capacity.wall_edges > 0) {
+        return Status::small_fixed_has_no_thin_walls;
+    }
     if (!reach.everything && def.surface_tension_m3ps2 > 0.0F) {
         return Status::small_fixed_has_no_tension;
     }
@@ -115,6 +118,30 @@ Status check_reach(const WorldDef& def, const Reach& reach) {
     return def.surface_tension_m3ps2 > reach.surface_tension * cell_volume
                ? Status::surface_tension_out_of_range
                : Status::ok;
+}
+
+/// Names the first defect of an open polyline.
+Status check_polyline(const BodyDef& def) {
+    if (def.holes.size != 0) {
+        return Status::polyline_has_holes;
+    }
+    if (def.polygon.data == nullptr) {
+        return Status::polygon_missing;
+    }
+    if (def.polygon.size < 2) {
+        return Status::polygon_too_few_vertices;
+    }
+    if (def.polygon.size > kMaxBodyVertices) {
+        return Status::polygon_too_many_vertices;
+    }
+    bool has_length = false;
+    for (const Vec2f& vertex : def.polygon) {
+        if (!is_finite(vertex)) {
+            return Status::polygon_not_finite;
+        }
+        has_length = has_length || vertex.x != def.polygon[0].x || vertex.y != def.polygon[0].y;
+    }
+    return has_length ? Status::ok : Status::polygon_zero_area;
 }
 
 }  // namespace
@@ -132,6 +159,9 @@ Status check_capacity(const Capacity& capacity) {
     }
     if (!within(capacity.vertices, 0, kMaxVertices)) {
         return Status::vertex_capacity_out_of_range;
+    }
+    if (!within(capacity.wall_edges, 0, kMaxWallEdges)) {
+        return Status::wall_edge_capacity_out_of_range;
     }
     return within(capacity.contacts, 0, kMaxBodies) ? Status::ok
                                                     : Status::contact_capacity_out_of_range;
@@ -197,7 +227,8 @@ Status check_motion(const Motion& motion, float cell_m, const Reach& reach) {
 }
 
 Status check_body(const BodyDef& def, float cell_m, const Reach& reach) {
-    const Status polygon = check_polygon(def.polygon, def.holes);
+    const Status polygon =
+        def.open ? check_polyline(def) : check_polygon(def.polygon, def.holes);
     if (polygon != Status::ok) {
         return polygon;
     }

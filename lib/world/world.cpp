@@ -63,6 +63,16 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
         layers.nodes = layers.scratch;
     }
     layers.walls.body = bodies.body;
+    if (capacity.bodies > 0 && capacity.wall_edges > 0) {
+        ThinWalls<Real>& thin = layers.thin;
+        carver.take(Block::wall_edge, thin.edge);
+        carver.take(Block::wall_edge_of_cell, thin.first);
+        carver.take(Block::wall_mark, thin.mark);
+        carver.take(Block::wall_span, thin.span);
+        carver.take(Block::wall_body, thin.body);
+        thin.vertex = bodies.placed;
+        thin.capacity = capacity.wall_edges;
+    }
 }
 
 template <class Real>
@@ -210,6 +220,9 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
             hash.add(number);
         }
         hash.add(static_cast<std::uint32_t>(body.surface.no_slip));
+        if (body.open) {
+            hash.add(std::uint32_t{1});
+        }
         for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
             hash.add(table.outline(body).end_of(ring));
         }
@@ -248,6 +261,7 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {
         new (simulation.bodies.body + slot) Body<Real>();
     }
+    clear_thin_walls(simulation.layers.thin, simulation.grid.shape, def.capacity.bodies);
     if (def.capacity.bodies > 0) {
         clear_layers(simulation.layers);
     }

@@ -82,7 +82,9 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
     body.kind = kind;
     body.surface = surface_law<Real>(def.surface, state.cells_per_m);
     set_pose(state, def.motion, body);
-    if (!add_polygon(table, def, state.cells_per_m, body)) {
+    if (def.open) {
+        add_polyline(table, def, state.cells_per_m, body);
+    } else if (!add_polygon(table, def, state.cells_per_m, body)) {
         return Status::polygon_crosses_itself;
     }
     place(table, body);
@@ -91,7 +93,15 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
         return Status::polygon_outside_domain;
     }
     body.radius = radius_of(table, body);
+    body.met_position = body.position;
+    body.met_angle = body.angle;
     table.body[slot] = body;
+    if (!keep_thin_edges(layers, table, slot)) {
+        table.vertices_used -= body.room;
+        table.body[slot] = Body<Real>{};
+        table.body[slot].generation = body.generation;
+        return Status::no_free_wall_edge;
+    }
     ++table.used;
     layers.walls.active = true;
     if (kind == BodyKind::fixed) {
@@ -186,13 +196,21 @@ Status World<Real>::remove_body(BodyId id) {
     BodyTable<Real>& table = state_->simulation.bodies;
     Layers<Real>& layers = state_->simulation.layers;
     const bool fixed = table.body[id.slot].kind == BodyKind::fixed;
+    const bool thin = layers.thin.capacity > 0;
+    if (thin) {
+        remove_thin_edges(layers.thin, table, id.slot);
+    }
     if (!fixed) {
         erase_moving(layers, table, id.slot);
     }
     remove(table, id.slot);
-    if (fixed) {
+    if (thin) {
+        relink_all(layers.thin, layers.shape, table);
+    }
+    if (fixed || thin) {
         redraw_static(layers, table);
     }
+    layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
     layers.walls.active = table.used > 0;
     return Status::ok;
 }

@@ -102,6 +102,39 @@ const std::vector<Row>& polygon_rows() {
         {"vertex too far out",
          [](Fixture& f) { return add(f, {{0, 0}, {3000.0F, 0}, {0, 3000.0F}}); },
          Status::position_out_of_range},
+        {"polyline of no wall edges", CHANGED_BODY(open, true), Status::no_free_wall_edge},
+        {"polyline with a hole",
+         [](Fixture& f) {
+             return add_changed(f, [](BodyDef& def) {
+                 static const View<Vec2f> hole{kTriangle.data(), 3};
+                 def.open = true;
+                 def.holes = {&hole, 1};
+             });
+         },
+         Status::polyline_has_holes},
+        {"polyline of one vertex",
+         [](Fixture& f) {
+             return add_changed(f, [](BodyDef& def) { def.open = true, def.polygon.size = 1; });
+         },
+         Status::polygon_too_few_vertices},
+        {"polyline of no length",
+         [](Fixture& f) {
+             return add_changed(f, [](BodyDef& def) {
+                 static const Vec2f twice[] = {{0.1F, 0.1F}, {0.1F, 0.1F}};
+                 def.open = true;
+                 def.polygon = {twice, 2};
+             });
+         },
+         Status::polygon_zero_area},
+        {"polyline of NaN",
+         [](Fixture& f) {
+             return add_changed(f, [](BodyDef& def) {
+                 static const Vec2f nan[] = {{0.1F, 0.1F}, {0.1F, kNan}};
+                 def.open = true;
+                 def.polygon = {nan, 2};
+             });
+         },
+         Status::polygon_not_finite},
         {"more vertices than are left",
          [](Fixture& f) { return add(f, polygon_of(6, 0.05F)); }, Status::no_free_vertex},
         {"more bodies than there is room for",

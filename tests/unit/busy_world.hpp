@@ -29,7 +29,7 @@ private:
     std::uint64_t state_;
 };
 
-inline constexpr std::int32_t kBusyKinds = 8;
+inline constexpr std::int32_t kBusyKinds = 9;
 
 /// One definition for each way in which worlds differ, 0 … kBusyKinds − 1.
 inline WorldDef busy_def(std::int32_t kind) {
@@ -74,6 +74,7 @@ inline WorldDef busy_def(std::int32_t kind) {
             def.periodic_x = true;
             def.volume_gain = 0.0F;
             break;
+        case 8: def.capacity.wall_edges = 500; break;
         default: break;
     }
     return def;
@@ -101,6 +102,7 @@ void put_body(World<Real>& world, Dice& dice) {
     if (ring[1].y == 0.0F && ring.size() < 5) {
         def.holes = {holes, dice.below(2)};
     }
+    def.open = ring.size() == 6 && dice.below(2) == 0;
     def.surface = {dice.between(0.0F, 1.0F), dice.between(0.0F, 0.5F), dice.below(2) == 0,
                    dice.between(-0.2F, 0.2F)};
     BodyId id;
@@ -114,7 +116,8 @@ void put_body(World<Real>& world, Dice& dice) {
         added = world.add_moving_body(def, &id);
     }
     EXPECT_TRUE(added == Status::ok || added == Status::no_free_body ||
-                added == Status::no_free_vertex || added == Status::polygon_outside_domain)
+                added == Status::no_free_vertex ||
+                added == Status::no_free_wall_edge || added == Status::polygon_outside_domain)
         << status_text(added);
 }
 

@@ -53,6 +53,9 @@ const std::vector<Row>& fixed_rows() {
              return world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id);
          },
          Status::no_moving_bodies},
+        {"thin walls in SmallFixed",
+         init_of<SmallFixed>([](WorldDef& d) { d.capacity.wall_edges = 1; }),
+         Status::small_fixed_has_no_thin_walls},
         {"tension in SmallFixed",
          init_of<SmallFixed>([](WorldDef& d) { d.surface_tension_m3ps2 = 1.0e-5F; }),
          Status::small_fixed_has_no_tension},

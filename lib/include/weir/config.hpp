@@ -13,6 +13,7 @@ inline constexpr std::int32_t kMaxCells = 8192;
 inline constexpr std::int32_t kMaxParticles = 16 * 1024 * 1024;
 inline constexpr std::int32_t kMaxBodies = 4096;
 inline constexpr std::int32_t kMaxVertices = 1024 * 1024;
+inline constexpr std::int32_t kMaxWallEdges = 65000;
 inline constexpr std::int32_t kMaxBodyVertices = 16 * 1024;
 
 /// Stronger gravity than this is limited, m/s²: no sensor on a device feels more than 100 g.
@@ -38,6 +39,9 @@ struct Capacity {
     std::int32_t bodies = 0;        ///< 0 … kMaxBodies, static and moving together
     bool moving_bodies = true;      ///< false: static ones only, and 4 to 6 bytes less a cell
     std::int32_t vertices = 0;      ///< 0 … kMaxVertices, of all bodies; and 3 a hole
+    /// Walls thinner than 1.5 cells: room for their edges, 0 … kMaxWallEdges, about 3 for each cell
+    /// of their length and 6 for each edge. 0: none, and polygons that thin are not tight.
+    std::int32_t wall_edges = 0;
     std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
 };
@@ -151,6 +155,9 @@ struct BodyDef {
     /// Outer ring, m; 3 … kMaxBodyVertices vertices, holes included and 3 more for each; either
     /// way round. Copied, without repeated vertices and straight corners.
     View<Vec2f> polygon;
+    /// `polygon` is an open polyline, 2 … kMaxBodyVertices vertices, without holes: a wall of no
+    /// thickness with liquid on both sides. It may cross itself. Wants `capacity.wall_edges`.
+    bool open = false;
     View<View<Vec2f>> holes;   ///< rings inside it, none in another; either way round; copied
     Motion motion;             ///< a static body takes only position and angle
     Surface surface;

@@ -22,6 +22,7 @@ enum class Owner : std::uint8_t {
     vertices,   ///< polygons, their pose in the tank, their convex pieces
     contour,    ///< signed distance at nodes (static and merged), contour matrix
     cut_cells,  ///< open fractions of faces and cells
+    thin_walls,  ///< edges of walls thinner than a cell
     grid,       ///< staggered momentum, velocity, mass and inverse density
     pressure,   ///< pressure, its right-hand side and diagonal, surface level
     count
@@ -52,6 +53,11 @@ enum class Block : std::uint8_t {
     open_u,
     open_v,
     full_density,
+    wall_edge,
+    wall_edge_of_cell,
+    wall_mark,
+    wall_span,
+    wall_body,
     velocity_u,  ///< a component's mass stands behind its velocity: the transfers pair them
     mass_u,      ///< then, once velocity is known, the velocity before the pressure
     velocity_v,
@@ -86,7 +92,10 @@ template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4 && sizeof(void*) == 4 ? 608 : 1024;
 template <class Real>
-inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 112 : 144;
+inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
+inline constexpr std::size_t kWallEdgeBytes = 16;
+template <class Real>
+inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 
 /// The pressure's coarse grid: cells along an edge of its cells, and numbers for each of them.
 inline constexpr std::int32_t kCoarseEdge = 4;
@@ -116,16 +125,19 @@ struct Layout {
     Kept kept[kBlockCount] = {};
 };
 
+namespace detail {
+struct LayoutRow {
+    Block block;
+    Owner owner;
+    Kept kept;
+    std::size_t element_bytes;
+    std::size_t elements;
+};
+}  // namespace detail
+
 /// Places every block of a world of that capacity. Pure; the same on every machine.
 template <class Real>
 constexpr Layout layout(const Capacity& capacity) {
-    struct Row {
-        Block block;
-        Owner owner;
-        Kept kept;
-        std::size_t element_bytes;
-        std::size_t elements;
-    };
     const auto count = [](std::int32_t value) { return static_cast<std::size_t>(value); };
     const std::size_t particles = count(capacity.particles), vertices = count(capacity.vertices);
     // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
@@ -140,21 +152,23 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t moving_cells = capacity.moving_bodies ? solid_cells : 0;
     const std::size_t near_words =
         capacity.bodies > 0 ? (count(capacity.cells_x) + 31) / 32 * count(capacity.cells_y) : 0;
+    const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
+    const std::size_t thin = wall_edges > 0 ? 1 : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
     const std::size_t point = 2 * sizeof(Real);
-    const std::size_t index = sizeof(std::uint16_t);
+    const std::size_t bodies = count(capacity.bodies), index = sizeof(std::uint16_t);
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
     const std::size_t speed = sizeof(VelocityOf<Real>);
     const std::size_t distance = sizeof(DistanceOf<Real>);
     const std::size_t share = sizeof(ShareOf<Real>);
-    const Row rows[] = {
+    const detail::LayoutRow rows[] = {
         {Block::world_state, Owner::world, Kept::members, kWorldStateBytes<Real>, 1},
         {Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
          particles},
         {Block::particle_velocity, Owner::particles, Kept::particles, 2 * speed, particles},
         {Block::particle_kind, Owner::particles, Kept::particles, 1,
          capacity.second_liquid ? particles : 0},
-        {Block::body_table, Owner::bodies, Kept::members, kBodyBytes<Real>, count(capacity.bodies)},
+        {Block::body_table, Owner::bodies, Kept::members, kBodyBytes<Real>, bodies},
         {Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts)},
         {Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices},
         {Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices},
@@ -171,6 +185,11 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::open_u, Owner::cut_cells, Kept::redrawn, share, solid_cells},
         {Block::open_v, Owner::cut_cells, Kept::redrawn, share, solid_cells},
         {Block::full_density, Owner::cut_cells, Kept::redrawn, share, solid_cells},
+        {Block::wall_edge, Owner::thin_walls, Kept::redrawn, kWallEdgeBytes, wall_edges},
+        {Block::wall_edge_of_cell, Owner::thin_walls, Kept::redrawn, index, thin * cells},
+        {Block::wall_mark, Owner::thin_walls, Kept::redrawn, 1, thin * cells},
+        {Block::wall_span, Owner::thin_walls, Kept::redrawn, index, thin * vertices},
+        {Block::wall_body, Owner::thin_walls, Kept::redrawn, kThinBodyBytes<Real>, thin * bodies},
         {Block::velocity_u, Owner::grid, Kept::nothing, sizeof(Real), cells},
         {Block::mass_u, Owner::grid, Kept::nothing, speed, cells},
         {Block::velocity_v, Owner::grid, Kept::nothing, sizeof(Real), cells},
@@ -185,7 +204,7 @@ constexpr Layout layout(const Capacity& capacity) {
         {Block::coarse_cells, Owner::pressure, Kept::nothing, sizeof(Real), coarse_fields * coarse},
     };
     Layout result;
-    for (const Row& row : rows) {
+    for (const detail::LayoutRow& row : rows) {
         const std::size_t bytes = (row.element_bytes * row.elements + world_alignment - 1) /
                                   world_alignment * world_alignment;
         const auto slot = static_cast<std::size_t>(row.block);

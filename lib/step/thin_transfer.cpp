@@ -1,0 +1,267 @@
+#include "step/thin_transfer.hpp"
+
+#include "fluid/particles.hpp"
+#include "math/lanes.hpp"
+#include "step/tank_walls.hpp"
+
+namespace weir {
+
+namespace {
+
+/// Value and slopes from the four faces of a stencil, `step` numbers apart, of which `seen` tells
+/// those that count. At least one does.
+template <class Real>
+struct SeenSample {
+    Real value;
+    Real slope_x;
+    Real slope_y;
+};
+
+template <class Real>
+SeenSample<Real> sample_seen(const VelocityOf<Real>* field, std::int32_t step, std::int32_t stride,
+                             const Stencil<Real>& at, std::uint32_t seen) {
+    const VelocityOf<Real>* p = field + step * at.base;
+    Real face[4] = {Real(p[0]), Real(p[step]), Real(p[step * stride]),
+                    Real(p[step * (stride + 1)])};
+    const Real known[4] = {face[0], face[1], face[2], face[3]};
+    for (std::uint32_t node = 0; node < 4; ++node) {
+        if ((seen >> node & 1U) != 0) {
+            continue;
+        }
+        // Along the row, else along the column, else across.
+        const std::uint32_t others[] = {node ^ 1U, node ^ 2U, node ^ 3U};
+        for (const std::uint32_t other : others) {
+            if ((seen >> other & 1U) != 0) {
+                face[node] = known[other];
+                break;
+            }
+        }
+    }
+    const Real low_slope = face[1] - face[0];
+    const Real high_slope = face[3] - face[2];
+    const Real low = face[0] + at.fx * low_slope;
+    const Real high = face[2] + at.fx * high_slope;
+    const Real slope_y = high - low;
+    return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
+}
+
+/// Where velocity and change of a component lie, and how many numbers apart two faces are.
+template <class Real>
+struct Component {
+    const VelocityOf<Real>* velocity;
+    const VelocityOf<Real>* change;
+    std::int32_t step;
+};
+
+template <class Real>
+void components(const StaggeredGrid<Real>& grid, Component<Real>& u, Component<Real>& v) {
+    if constexpr (kHasLanes<Real>) {
+        if (grid.pairs != nullptr) {
+            u = {grid.pairs, grid.pairs + 1, 2};
+            v = {grid.u, grid.u + 1, 2};
+            return;
+        }
+    }
+    u = {grid.u, grid.mass_u, 1};
+    v = {grid.v, grid.mass_v, 1};
+}
+
+constexpr std::uint32_t kAllFour = 15U;
+
+/// One component. `mass` null: one liquid, whose count is its mass.
+template <class Real>
+void scatter_seen(VelocityOf<Real>* volume, VelocityOf<Real>* mass, Real* momentum,
+                  std::int32_t stride, const Stencil<Real>& at, Real density, Real velocity,
+                  std::uint32_t seen) {
+    const Real w1 = at.fx * at.fy;
+    const Real right = at.fx - w1;
+    const Real upper = at.fy - w1;
+    const Real weight[] = {(Real(1) - at.fx) - upper, right, upper, w1};
+    const std::int32_t node[] = {at.base, at.base + 1, at.base + stride, at.base + stride + 1};
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        if ((seen >> k & 1U) == 0) {
+            continue;
+        }
+        const Real share = weight[k] * density;
+        volume[node[k]] += weight[k];
+        if (mass != nullptr) {
+            mass[node[k]] += share;
+        }
+        momentum[node[k]] += share * velocity;
+    }
+}
+
+}  // namespace
+
+template <class Real>
+void scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>& thin,
+                        Real second_density, StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<Real> x = particles.position[k];
+        const Vec2<Real> v = particles.velocity[k];
+        const bool second = particles.kind != nullptr && particles.kind[k] == Liquid::second;
+        const Real density = second ? second_density : Real(1);
+        const std::uint32_t seen =
+            beside_thin_wall(thin, s, x) ? seen_faces(thin, s, x) : 0xFFU;
+        scatter_seen<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), s.stride,
+                           stencil_u(s, x), density, v.x, seen & kAllFour);
+        scatter_seen<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), s.stride,
+                           stencil_v(s, x), density, v.y, seen >> 4U);
+    }
+}
+
+template <class Real>
+TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
+                                       const Transfer<Real>& transfer,
+                                       const ThinWalls<Real>& thin, Vec2<Real> fall,
+                                       const Vec2<PositionOf<Real>>* before,
+                                       const Vec2<VelocityOf<Real>>* velocity,
+                                       Particles<Real>& block) {
+    const GridShape& s = grid.shape;
+    const Vec2<Real> size{static_cast<Real>(s.nx), static_cast<Real>(s.ny)};
+    Component<Real> on_u{};
+    Component<Real> on_v{};
+    components(grid, on_u, on_v);
+    TransferResult<Real> result;
+    for (std::int32_t k = 0; k < block.count; ++k) {
+        Vec2<Real> x = before[k];
+        if (!beside_thin_wall(thin, s, x)) {
+            continue;
+        }
+        const std::uint32_t seen = seen_faces(thin, s, x);
+        if (seen == 0xFFU) {
+            continue;
+        }
+        Vec2<Real> v = velocity[k];
+        const Stencil<Real> at_u = stencil_u(s, x);
+        const Stencil<Real> at_v = stencil_v(s, x);
+        const std::uint32_t seen_u = seen & kAllFour;
+        const std::uint32_t seen_v = seen >> 4U;
+        const SeenSample<Real> u =
+            seen_u != 0 ? sample_seen<Real>(on_u.velocity, on_u.step, s.stride, at_u, seen_u)
+                        : SeenSample<Real>{v.x + fall.x, Real(0), Real(0)};
+        const SeenSample<Real> w =
+            seen_v != 0 ? sample_seen<Real>(on_v.velocity, on_v.step, s.stride, at_v, seen_v)
+                        : SeenSample<Real>{v.y + fall.y, Real(0), Real(0)};
+        v.x = seen_u != 0
+                  ? transfer.flip_ratio * v.x +
+                        sample_seen<Real>(on_u.change, on_u.step, s.stride, at_u, seen_u).value
+                  : v.x + fall.x;
+        v.y = seen_v != 0
+                  ? transfer.flip_ratio * v.y +
+                        sample_seen<Real>(on_v.change, on_v.step, s.stride, at_v, seen_v).value
+                  : v.y + fall.y;
+        const Real half_x = Real(0.5) * (u.slope_x * u.value + u.slope_y * w.value);
+        const Real half_y = Real(0.5) * (w.slope_x * u.value + w.slope_y * w.value);
+        const Vec2<Real> along{u.value + transfer.dt_s * half_x, w.value + transfer.dt_s * half_y};
+        advect(size, transfer, along, x, v, result);
+        block.position[k] = x;
+        block.velocity[k] = v;
+    }
+    return result;
+}
+
+namespace {
+
+/// Faces of a stencil that thin walls do not close.
+template <class Real>
+std::uint32_t open_of(const ThinWalls<Real>& thin, std::int32_t stride, std::int32_t base,
+                      ThinMark closed) {
+    const std::int32_t face[] = {base, base + 1, base + stride, base + stride + 1};
+    std::uint32_t open = 0;
+    for (std::uint32_t node = 0; node < 4; ++node) {
+        open |= (thin.mark[face[node]] & closed) == 0 ? 1U << node : 0U;
+    }
+    return open;
+}
+
+/// Velocity of the liquid at a place, from faces that are seen from there and open. False: none.
+template <class Real>
+bool liquid_at(const ThinWalls<Real>& thin, const StaggeredGrid<Real>& liquid, Vec2<Real> place,
+               Vec2<Real>& velocity) {
+    const GridShape& s = liquid.shape;
+    const Stencil<Real> at_u = stencil_u(s, place);
+    const Stencil<Real> at_v = stencil_v(s, place);
+    const std::uint32_t seen = seen_faces(thin, s, place);
+    const std::uint32_t on_u = seen & open_of(thin, s.stride, at_u.base, kLeftClosed);
+    const std::uint32_t on_v = seen >> 4U & open_of(thin, s.stride, at_v.base, kLowerClosed);
+    if (on_u == 0 || on_v == 0) {
+        return false;
+    }
+    velocity = {sample_seen<Real>(liquid.u, 1, s.stride, at_u, on_u).value,
+                sample_seen<Real>(liquid.v, 1, s.stride, at_v, on_v).value};
+    return true;
+}
+
+/// Velocity at a closed face between two cells, on the side of the wall on which it is.
+template <class Real>
+bool mirrored_face(const Walls<Real>& walls, const StaggeredGrid<Real>& liquid, Vec2<Real> face,
+                   std::int32_t before, std::int32_t cell, bool along_x, Vec2<Real>& velocity) {
+    const ThinWalls<Real>& thin = *walls.thin;
+    const GridShape& s = liquid.shape;
+    const WallEdge* edge = edge_between(thin, face, before, cell, along_x);
+    if (edge == nullptr) {
+        return false;
+    }
+    const Vec2<Real> a = thin.vertex[edge->from];
+    const Vec2<Real> left = left_normal(thin, *edge);
+    const Real height = dot(face - a, left);
+    const Vec2<Real> normal = height >= Real(0) ? left : Vec2<Real>{} - left;
+    const Vec2<Real> place = within_tank(s, face + normal);
+    Vec2<Real> there;
+    if (hidden(thin, s, face, place) || !liquid_at(thin, liquid, place, there)) {
+        return false;
+    }
+    const Vec2<Real> wall = velocity_at(walls.body[edge->slot], face);
+    const Real approach = dot(there - wall, normal);
+    velocity = there - (approach / (Real(1) + absolute(height))) * normal;
+    return true;
+}
+
+}  // namespace
+
+template <class Real>
+void mirror_at_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
+                          StaggeredGrid<Real>& grid) {
+    const ThinWalls<Real>& thin = *walls.thin;
+    const GridShape& s = grid.shape;
+    constexpr Real kHalf = Real(0.5);
+    const auto wet = [&](std::int32_t before, std::int32_t c, std::uint32_t unseen) {
+        return level[unseen == 0 ? c : before] > Real(0);
+    };
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            const std::uint32_t mark = thin.mark[c];
+            Vec2<Real> velocity;
+            const Vec2<Real> left{static_cast<Real>(i), static_cast<Real>(j) + kHalf};
+            if ((mark & kLeftClosed) != 0 && wet(c - 1, c, mark & kLeftUnseen) &&
+                mirrored_face(walls, grid, left, c - 1, c, true, velocity)) {
+                grid.u[c] = velocity.x;
+            }
+            const Vec2<Real> lower{static_cast<Real>(i) + kHalf, static_cast<Real>(j)};
+            if ((mark & kLowerClosed) != 0 && wet(c - s.stride, c, mark & kLowerUnseen) &&
+                mirrored_face(walls, grid, lower, c - s.stride, c, false, velocity)) {
+                grid.v[c] = velocity.y;
+            }
+        }
+    }
+}
+
+#define WEIR_INSTANTIATE(Real)                                                               \
+    template void scatter_past_walls(const Particles<Real>&, const ThinWalls<Real>&, Real,   \
+                                     StaggeredGrid<Real>&);                                  \
+    template TransferResult<Real> gather_past_walls(                                         \
+        const StaggeredGrid<Real>&, const Transfer<Real>&, const ThinWalls<Real>&,           \
+        Vec2<Real>, const Vec2<PositionOf<Real>>*, const Vec2<VelocityOf<Real>>*,            \
+        Particles<Real>&);                                                                   \
+    template void mirror_at_thin_walls(const Walls<Real>&, const LevelOf<Real>*,             \
+                                       StaggeredGrid<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

@@ -1,0 +1,46 @@
+// Both transfers past walls thinner than a cell: a particle gives to and takes from those faces
+// only that it sees (the compatibility of Hu et al. 2018). Only particles within a cell of such a
+// wall come here.
+#pragma once
+
+#include "solid/thin_sight.hpp"
+#include "solid/walls.hpp"
+#include "step/grid_to_particle.hpp"
+
+namespace weir {
+
+/// Whether a thin wall may stand between a particle and a face that it reads.
+template <class Real>
+inline bool beside_thin_wall(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> x) {
+    return (thin.mark[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))] &
+            kTouching) != 0;
+}
+
+/// Adds mass and momentum of all particles to the cleared grid; ghost rows are not folded back.
+template <class Real>
+void scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>& thin,
+                        Real second_density, StaggeredGrid<Real>& grid);
+
+/// Gathers the particles of a block that stand beside thin walls anew: a face that a particle does
+/// not see has the value of the nearest one of its stencil that it sees; who sees none falls.
+/// After `grid_to_particle` of the block.
+/// @param fall velocity that gravity gives in the substep.
+/// @param before, velocity places and velocities before the block was gathered.
+template <class Real>
+TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
+                                       const Transfer<Real>& transfer,
+                                       const ThinWalls<Real>& thin, Vec2<Real> fall,
+                                       const Vec2<PositionOf<Real>>* before,
+                                       const Vec2<VelocityOf<Real>>* velocity,
+                                       Particles<Real>& block);
+
+/// Closed faces of thin walls, as particles beside them will read them: the liquid's velocity a
+/// cell further out on the side of the wall on which the face is, its part along the wall kept,
+/// its normal part in proportion to the distance. Relative to the wall's own velocity. Faces whose
+/// cell on that side holds no liquid (level > 0) keep what they have. Order: none, only faces that
+/// are open are read.
+template <class Real>
+void mirror_at_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
+                          StaggeredGrid<Real>& grid);
+
+}  // namespace weir
