@@ -20,7 +20,11 @@ struct CornerPool {
 
     CornerPool(std::int32_t cells_x, std::int32_t cells_y) {
         WorldDef def;
-        def.capacity = {1200, cells_x, cells_y, 1, 4, false};
+        def.capacity.particles = 1200;
+        def.capacity.cells_x = cells_x;
+        def.capacity.cells_y = cells_y;
+        def.capacity.bodies = 1;
+        def.capacity.vertices = 4;
         def.cell_m = 0.02F;
         memory.resize(world_bytes<Real>(def.capacity) + world_alignment);
         void* start = memory.data();
