@@ -98,9 +98,8 @@ int main() {
 #endif
     }
     const std::uint64_t ticks = port::ticks() - start;
-    port::print("pocket ", POCKET_CELLS_X, " x ", POCKET_CELLS_Y, " cells, ",
-                g_world.particle_positions().size, " particles, hash ",
-                port::hex(g_world.state_hash()), "\n");
+    port::print("scene pocket_", POCKET_CELLS_X, "x", POCKET_CELLS_Y, " ", POCKET_STEPS, " ",
+                g_world.particle_positions().size, " ", port::hex(g_world.state_hash()), "\n");
     port::print("world ", sizeof g_memory, ", ram ", port::ram_bytes(), ", stack ",
                 port::stack_high_water(), " of ", port::stack_bytes(), ", code ",
                 port::code_bytes(), " bytes\n");

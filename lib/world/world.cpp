@@ -86,6 +86,7 @@ void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Rea
                              &coarse.centre_y,   &coarse.reach_u,  &coarse.reach_v};
     if constexpr (Stored<Real>::shares_momentum) {
         coarse.correction = next;
+        coarse.residual = next + coarse.shape.size();
         return;
     }
     const std::int32_t count =

@@ -101,7 +101,7 @@ inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 inline constexpr std::int32_t kCoarseEdge = 4;
 inline constexpr std::int32_t kCoarseFields = 7;
 inline constexpr std::int32_t kCoarseFieldsOfTwoLiquids = 9;
-inline constexpr std::int32_t kCoarseFieldsPacked = 1;  ///< SmallFixed: for the volume only
+inline constexpr std::int32_t kCoarseFieldsPacked = 2;  ///< SmallFixed: for the volume only
 
 /// Coarse cells along an axis of so many cells.
 constexpr std::int32_t coarse_cells(std::int32_t cells) {
