@@ -1,7 +1,5 @@
 #include "pressure/volume_correction.hpp"
 
-#include <cstring>
-
 #include "pressure/patches.hpp"
 
 namespace weir {
@@ -22,12 +20,10 @@ constexpr Real kCellWindow = Real(0.2);
 template <class Real>
 constexpr Real kPatchWindow = Real(0.03);
 
-/// Drift between patches over that between cells, at equal difference; the second one where both
-/// patches are full and the surface is some way off. With more waves of one cell gain energy.
+/// Drift between patches over that between cells, at equal difference. With twice as much a column
+/// that starts too dense gains energy by its expansion, with four times waves of one cell grow.
 template <class Real>
-constexpr Real kPatchGain = Real(2);
-template <class Real>
-constexpr Real kDeepPatchGain = Real(4);
+constexpr Real kPatchGain = Real(1);
 
 /// Just below the surface density is known to this: lattices are no continuum.
 template <class Real>
@@ -63,14 +59,13 @@ inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32
     return clamp(e, -kWindow<Real>, kWindow<Real>);
 }
 
-/// Mean excess of a patch's liquid cells, 0 in air, into `correction`, and into `residual` whether
-/// all its cells are liquid.
-template <class Real>
-void average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
-             PressureFields<Real>& f) {
+/// Mean excess of a patch's liquid cells; 0 in air.
+template <bool Solids, class Real>
+Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
+             const PressureFields<Real>& f) {
     Real sum = Real(0);
     std::int32_t count = 0;
-    bool open = !walls.active;
+    bool open = !Solids;
     for (std::int32_t y = 0; y < patch.height; ++y) {
         for (std::int32_t x = 0; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
@@ -81,38 +76,32 @@ void average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
             }
         }
     }
-    const Real mean = part_of(sum, maximum(count, 1));
-    const bool full = count == patch.width * patch.height;
-    f.coarse.correction[patch.q] =
-        open ? clamp(mean, -kPatchWindow<Real>, kPatchWindow<Real>) : kSolidPatch<Real>;
-    f.coarse.residual[patch.q] = Real(full ? 1 : 0);
+    if (count == 0) {
+        return open ? Real(0) : kSolidPatch<Real>;
+    }
+    return clamp(part_of(sum, count), -kPatchWindow<Real>, kPatchWindow<Real>);
 }
 
 /// By how much the mean excess rises from one patch to the next, times the gain between them.
 template <class Real>
-inline Real rise(const CoarseGrid<Real>& coarse, std::int32_t from, std::int32_t to) {
-    const Real low = coarse.correction[from];
-    const Real high = coarse.correction[to];
-    if (low == kSolidPatch<Real> || high == kSolidPatch<Real>) {
-        return Real(0);
-    }
-    const bool deep = coarse.residual[from] == Real(1) && coarse.residual[to] == Real(1);
-    return (deep ? kDeepPatchGain<Real> : kPatchGain<Real>) * (high - low);
+inline Real rise(Real from, Real to) {
+    const bool solid = from == kSolidPatch<Real> || to == kSolidPatch<Real>;
+    return solid ? Real(0) : kPatchGain<Real> * (to - from);
 }
 
 /// The same on each of a patch's faces along an axis: between the patches' centres the mean excess
 /// is linear, so that the third face, on the centre, has half of both.
 template <class Real>
-void rises(const CoarseGrid<Real>& coarse, std::int32_t q, std::int32_t step, Real* on_face) {
-    const Real before = rise(coarse, q - step, q);
-    const Real after = rise(coarse, q, q + step);
+void rises(const Real* excess, std::int32_t q, std::int32_t step, Real* on_face) {
+    const Real before = rise(excess[q - step], excess[q]);
+    const Real after = rise(excess[q], excess[q + step]);
     on_face[0] = before;
     on_face[1] = before;
     on_face[2] = Real(0.5) * (before + after);
     on_face[3] = after;
 }
 
-template <class Real>
+template <bool Solids, class Real>
 void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
            const PressureFields<Real>& fields, const Patch& patch, StaggeredGrid<Real>& grid) {
     static_assert(kCoarseEdge == 4, "rises() knows four faces");
@@ -120,31 +109,28 @@ void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     const VelocityOf<Real>* e = fields.divergence;
     Real along_x[kCoarseEdge];
     Real along_y[kCoarseEdge];
-    rises(fields.coarse, patch.q, 1, along_x);
-    rises(fields.coarse, patch.q, fields.coarse.shape.stride, along_y);
+    rises(fields.coarse.correction, patch.q, 1, along_x);
+    rises(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
     for (std::int32_t y = 0; y < patch.height; ++y) {
         for (std::int32_t x = 0; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
             const bool has_left = patch.i + x > 0 || borders.wrap_x;
             const bool has_lower = patch.j + y > 0 || borders.wrap_y;
-            if (has_left && (!walls.active || walls.open_u[c] > Real(0))) {
+            if (has_left && (!Solids || walls.open_u[c] > Real(0))) {
                 grid.u[c] -= speed * ((e[c] - e[c - 1]) + along_x[x]);
             }
-            if (has_lower && (!walls.active || walls.open_v[c] > Real(0))) {
+            if (has_lower && (!Solids || walls.open_v[c] > Real(0))) {
                 grid.v[c] -= speed * ((e[c] - e[c - s.stride]) + along_y[y]);
             }
         }
     }
 }
 
-}  // namespace
-
-template <class Real>
-void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
+template <bool Solids, class Real>
+void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
+             PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
-    const Real speed = gain / dt_s;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
@@ -152,17 +138,24 @@ void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, S
         }
     }
     extend_cells(borders, s, fields.divergence);
-    for_each_patch(s, big, [&](const Patch& patch) { average(s, walls, patch, fields); });
-    if (fields.on_surface) {
-        // Drops under surface tension are small and keep together without.
-        std::memset(fields.coarse.correction, 0,
-                    static_cast<std::size_t>(big.size()) * sizeof(Real));
-    }
-    mirror_cells(borders, big, fields.coarse.correction);
-    mirror_cells(borders, big, fields.coarse.residual);
+    // Drops under surface tension are small and keep together without.
     for_each_patch(s, big, [&](const Patch& patch) {
-        drift(borders, walls, speed, fields, patch, grid);
+        fields.coarse.correction[patch.q] =
+            fields.on_surface ? Real(0) : average<Solids>(s, walls, patch, fields);
     });
+    mirror_cells(borders, big, fields.coarse.correction);
+    for_each_patch(s, big, [&](const Patch& patch) {
+        drift<Solids>(borders, walls, speed, fields, patch, grid);
+    });
+}
+
+}  // namespace
+
+template <class Real>
+void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
+                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
+    const auto stage = walls.active ? correct<true, Real> : correct<false, Real>;
+    stage(borders, walls, gain / dt_s, fields, grid);
 }
 
 template void volume_correction(const Borders<float>&, const Walls<float>&, float, float,

@@ -81,7 +81,7 @@ TEST(Volume, ADenseStartExpandsSoon) {
     }
     world->step(kStep);
     EXPECT_GT(bottom_error(*world, 16.0), 0.008);
-    for (int step = 0; step < 300; ++step) {
+    for (int step = 0; step < 600; ++step) {
         world->step(kStep);
     }
     EXPECT_LT(bottom_error(*world, 16.0), 0.004);
