@@ -25,6 +25,7 @@ constexpr Problem kProblems[] = {
     {"real", "coastline, letters, drawings: pieces, and liquid poured over them",
      solids::real_geometry},
     // Tightness.
+    {"torture", "particles thrown at random polygons", solids::torture},
     {"thin", "walls thinner than a cell hold a column of liquid", solids::thin_walls},
     // Moving bodies.
     // Still water.

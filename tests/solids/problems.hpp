@@ -19,6 +19,7 @@ void contour_normals(Report& report, const Effort& effort);  // R3
 void real_geometry(Report& report, const Effort& effort);
 
 // Tightness.
+void torture(Report& report, const Effort& effort);
 void thin_walls(Report& report, const Effort& effort);
 
 // Moving bodies.

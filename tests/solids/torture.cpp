@@ -1,0 +1,339 @@
+// Particles thrown at random polygons, up to four cells a step: thin, spiky, concave, overlapping,
+// moving, spinning, put elsewhere. Nothing stays inside, nothing passes a closed wall, nothing is
+// lost uncounted; the paper's mode beside it.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../stability/random.hpp"
+#include "problems.hpp"
+#include "weir/weir.hpp"
+
+namespace solids {
+
+namespace {
+
+using stability::Random;
+using weir::Vec2f;
+
+constexpr float kCell = 0.02F;
+constexpr float kFrame = 1.0F / 60.0F;
+constexpr std::int32_t kCells = 40;
+constexpr std::int32_t kThrown = 1000;
+constexpr std::int32_t kSteps = 60;
+constexpr std::int32_t kLastPlacing = 20;
+/// A body puts at most 33 substeps between itself and what it was put on, two a step.
+constexpr std::int32_t kCleanFrom = kLastPlacing + 17;
+/// A contour shows corners to half a cell.
+constexpr double kTolerance = 0.5;
+
+struct Shape {
+    std::vector<Vec2f> ring;  ///< cells, own frame
+    bool open = false;
+    bool divides = false;  ///< an open line from wall to wall
+    bool moving = false;
+    bool placed = false;   ///< is put elsewhere now and then
+    weir::Motion motion;   ///< m
+    weir::BodyId id;
+};
+
+struct Counts {
+    std::int64_t thrown = 0;
+    std::int64_t inside = 0;
+    std::int64_t wrong_side = 0;
+    std::int64_t unaccounted = 0;
+    std::int64_t removed = 0;
+    double deepest = 0.0;
+};
+
+std::vector<Vec2f> random_ring(Random& random) {
+    std::vector<Vec2f> ring;
+    const float size = random.uniform(1.5F, 8.0F);
+    switch (random.integer(0, 4)) {
+        case 0: {  // a plate
+            const float half = random.uniform(0.02F, 0.7F);
+            return {{-size, -half}, {size, -half}, {size, half}, {-size, half}};
+        }
+        case 1: {  // a spike
+            return {{0, -random.uniform(0.3F, 2.0F)}, {2 * size, 0}, {0, random.uniform(0.3F, 2.0F)}};
+        }
+        case 2: {  // a star
+            const std::int32_t tips = random.integer(3, 8);
+            for (std::int32_t k = 0; k < 2 * tips; ++k) {
+                const float angle = 3.14159265F * static_cast<float>(k) / static_cast<float>(tips);
+                const float r = (k % 2 == 0 ? 1.0F : random.uniform(0.2F, 0.6F)) * size;
+                ring.push_back({r * std::cos(angle), r * std::sin(angle)});
+            }
+            return ring;
+        }
+        case 3: {  // an L
+            const float arm = random.uniform(0.3F, 2.5F);
+            return {{0, 0}, {size, 0}, {size, arm}, {arm, arm}, {arm, size}, {0, size}};
+        }
+        default: {  // a blob
+            const std::int32_t corners = random.integer(3, 12);
+            for (std::int32_t k = 0; k < corners; ++k) {
+                const float angle =
+                    6.2831853F * (static_cast<float>(k) + random.uniform(-0.3F, 0.3F)) /
+                    static_cast<float>(corners);
+                const float r = random.uniform(0.5F, 1.0F) * size;
+                ring.push_back({r * std::cos(angle), r * std::sin(angle)});
+            }
+            return ring;
+        }
+    }
+}
+
+Vec2f random_place(Random& random) {
+    return {random.uniform(4.0F, kCells - 4.0F) * kCell, random.uniform(4.0F, kCells - 4.0F) * kCell};
+}
+
+Shape random_shape(Random& random, bool divided) {
+    Shape shape;
+    shape.ring = random_ring(random);
+    shape.moving = random.chance(0.6F);
+    shape.motion.position_m = random_place(random);
+    shape.motion.angle_rad = random.uniform(-3.0F, 3.0F);
+    if (shape.moving) {
+        const float speed = 0.5F * kCell / kFrame;
+        shape.motion.velocity_mps = {random.uniform(-speed, speed), random.uniform(-speed, speed)};
+        shape.motion.spin_radps = random.chance(0.5F) ? random.uniform(-6.0F, 6.0F) : 0.0F;
+        shape.placed = !divided && random.chance(0.4F);
+    }
+    return shape;
+}
+
+/// A bent line from below the tank to above it.
+Shape divider(Random& random) {
+    Shape shape;
+    shape.open = true;
+    shape.divides = true;
+    shape.moving = random.chance(0.5F);
+    for (std::int32_t k = 0; k <= 8; ++k) {
+        shape.ring.push_back({random.uniform(-2.0F, 2.0F), -48.0F + 12.0F * static_cast<float>(k)});
+    }
+    shape.motion.position_m = {0.5F * kCells * kCell, 0.5F * kCells * kCell};
+    if (shape.moving) {
+        shape.motion.velocity_mps = {random.uniform(-0.2F, 0.2F) * kCell / kFrame, 0.0F};
+        shape.motion.spin_radps = random.uniform(-0.5F, 0.5F);
+    }
+    return shape;
+}
+
+Vec2f in_frame(const weir::Motion& motion, Vec2f cells) {
+    const float x = cells.x - motion.position_m.x / kCell;
+    const float y = cells.y - motion.position_m.y / kCell;
+    const float c = std::cos(motion.angle_rad);
+    const float s = std::sin(motion.angle_rad);
+    return {c * x + s * y, c * y - s * x};
+}
+
+/// Depth of a point within a ring, 0 outside.
+double depth_in(const std::vector<Vec2f>& ring, Vec2f p) {
+    bool inside = false;
+    double nearest = 1.0e9;
+    for (std::size_t k = 0, last = ring.size() - 1; k < ring.size(); last = k++) {
+        const double ax = static_cast<double>(ring[last].x);
+        const double ay = static_cast<double>(ring[last].y);
+        const double dx = static_cast<double>(ring[k].x) - ax;
+        const double dy = static_cast<double>(ring[k].y) - ay;
+        const double px = static_cast<double>(p.x) - ax;
+        const double py = static_cast<double>(p.y) - ay;
+        const double t = std::clamp((px * dx + py * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+        nearest = std::min(nearest, std::hypot(px - t * dx, py - t * dy));
+        if ((ring[k].y > p.y) != (ring[last].y > p.y) && px < py / dy * dx) {
+            inside = !inside;
+        }
+    }
+    return inside ? nearest : 0.0;
+}
+
+/// On which side of a dividing line a point is.
+bool left_of(const Shape& line, const weir::Motion& motion, Vec2f cells) {
+    const Vec2f p = in_frame(motion, cells);
+    std::size_t k = 0;
+    while (k + 2 < line.ring.size() && line.ring[k + 1].y < p.y) {
+        ++k;
+    }
+    const Vec2f a = line.ring[k];
+    const Vec2f b = line.ring[k + 1];
+    return p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+}
+
+class Scene {
+public:
+    Scene(std::uint64_t seed, weir::Contour contour) : random_(seed) {
+        divided_ = random_.chance(0.4F);
+        weir::WorldDef def;
+        def.cell_m = kCell;
+        def.capacity.cells_x = kCells;
+        def.capacity.cells_y = kCells;
+        def.capacity.particles = kThrown;
+        def.capacity.bodies = 8;
+        def.capacity.vertices = 256;
+        def.capacity.wall_edges = 6000;
+        def.contour = contour;
+        def.gravity_mps2 = {0.0F, random_.chance(0.5F) ? -9.81F : 0.0F};
+        def.flip_ratio = 1.0F;
+        def.cfl = 2.0F;
+        def.max_substeps = 2;
+        memory_.resize(weir::world_bytes<float>(def.capacity) + weir::world_alignment);
+        void* aligned = memory_.data();
+        std::size_t room = memory_.size();
+        std::align(weir::world_alignment, room - weir::world_alignment, aligned, room);
+        ready_ = world_.init(def, aligned, room) == weir::Status::ok;
+        const std::int32_t bodies = random_.integer(2, 5);
+        if (divided_) {
+            add(divider(random_));
+        }
+        for (std::int32_t k = 0; k < bodies; ++k) {
+            add(random_shape(random_, divided_));
+        }
+    }
+
+    void run(Counts& counts) {
+        throw_particles();
+        const std::int32_t thrown = world_.particle_positions().size;
+        counts.thrown += thrown;
+        const std::int32_t left = left_count();
+        std::int32_t removed = 0;
+        for (std::int32_t step = 0; step < kSteps && ready_; ++step) {
+            move(step);
+            const weir::StepReport report = world_.step(kFrame);
+            removed += report.particles_removed_stuck;
+            counts.unaccounted += std::abs(thrown - removed - report.particles);
+            if (step >= kCleanFrom) {
+                look_inside(counts);
+            }
+        }
+        counts.removed += removed;
+        if (divided_) {
+            const std::int32_t now = left_count();
+            const std::int32_t right = world_.particle_positions().size - now;
+            counts.wrong_side += std::max(0, now - left) + std::max(0, right - (thrown - left));
+        }
+    }
+
+private:
+    void add(Shape shape) {
+        std::vector<Vec2f> metres;
+        for (const Vec2f& vertex : shape.ring) {
+            metres.push_back({vertex.x * kCell, vertex.y * kCell});
+        }
+        weir::BodyDef def;
+        def.polygon = {metres.data(), static_cast<std::int32_t>(metres.size())};
+        def.open = shape.open;
+        def.motion = shape.motion;
+        def.surface.restitution = random_.uniform(0.0F, 1.0F);
+        const weir::Status added = shape.moving ? world_.add_moving_body(def, &shape.id)
+                                                : world_.add_static_body(def, &shape.id);
+        if (added == weir::Status::ok) {
+            shapes_.push_back(shape);
+        } else if (shape.open) {
+            divided_ = false;
+        }
+    }
+
+    void throw_particles() {
+        for (std::int32_t k = 0; k < kThrown; ++k) {
+            const float speed = random_.uniform(0.0F, 4.0F) * kCell / kFrame;
+            const float angle = random_.uniform(0.0F, 6.2831853F);
+            const Vec2f at{random_.uniform(0.1F, kCells - 0.1F) * kCell,
+                           random_.uniform(0.1F, kCells - 0.1F) * kCell};
+            const weir::Status added =
+                world_.add_particle(at, {speed * std::cos(angle), speed * std::sin(angle)});
+            ready_ = ready_ && (added == weir::Status::ok ||
+                                added == weir::Status::particle_inside_solid);
+        }
+    }
+
+    void move(std::int32_t step) {
+        for (Shape& shape : shapes_) {
+            if (shape.moving && step % 15 == 7) {
+                weir::Motion motion;
+                ready_ = ready_ && world_.motion(shape.id, &motion) == weir::Status::ok;
+                motion.velocity_mps = {-motion.velocity_mps.x, -motion.velocity_mps.y};
+                motion.spin_radps = -motion.spin_radps;
+                ready_ = ready_ && world_.set_motion(shape.id, motion) == weir::Status::ok;
+            }
+            if (shape.placed && step <= kLastPlacing && step % 5 == 0) {
+                weir::Motion motion = shape.motion;
+                motion.position_m = random_place(random_);
+                motion.angle_rad = random_.uniform(-3.0F, 3.0F);
+                ready_ = ready_ && world_.set_motion(shape.id, motion) == weir::Status::ok;
+            }
+        }
+    }
+
+    std::int32_t left_count() const {
+        if (!divided_) {
+            return 0;
+        }
+        weir::Motion motion;
+        std::int32_t count = 0;
+        if (world_.motion(shapes_[0].id, &motion) == weir::Status::ok) {
+            for (const Vec2f& x : world_.particle_positions()) {
+                count += left_of(shapes_[0], motion, x) ? 1 : 0;
+            }
+        }
+        return count;
+    }
+
+    void look_inside(Counts& counts) const {
+        for (const Shape& shape : shapes_) {
+            weir::Motion motion;
+            if (shape.open || world_.motion(shape.id, &motion) != weir::Status::ok) {
+                continue;
+            }
+            for (const Vec2f& x : world_.particle_positions()) {
+                const double depth = depth_in(shape.ring, in_frame(motion, x));
+                counts.inside += depth > kTolerance ? 1 : 0;
+                counts.deepest = std::max(counts.deepest, depth);
+            }
+        }
+    }
+
+    Random random_;
+    std::vector<std::byte> memory_;
+    weir::World<float> world_;
+    std::vector<Shape> shapes_;
+    bool divided_ = false;
+    bool ready_ = false;
+};
+
+}  // namespace
+
+void torture(Report& report, const Effort& effort) {
+    const std::int32_t scenes = effort.full ? 1000 : 40;
+    for (const bool paper : {false, true}) {
+        Counts counts;
+        for (std::int32_t scene = 0; scene < scenes; ++scene) {
+            Scene(static_cast<std::uint64_t>(scene) + 1,
+                  paper ? weir::Contour::mid_edge : weir::Contour::interpolated)
+                .run(counts);
+        }
+        const std::string name = paper ? "torture.mid_edge" : "torture";
+        report.figure(name + ".thrown", static_cast<double>(counts.thrown), "particles");
+        report.figure(name + ".removed_and_counted", static_cast<double>(counts.removed),
+                      "particles");
+        report.figure(name + ".deepest", counts.deepest, "cells");
+        if (paper) {
+            report.figure(name + ".inside_too_long", static_cast<double>(counts.inside), "looks");
+            report.figure(name + ".wrong_side", static_cast<double>(counts.wrong_side),
+                          "particles");
+        } else {
+            report.equals(name + ".inside_too_long", static_cast<double>(counts.inside), "looks",
+                          0.0);
+            report.equals(name + ".wrong_side", static_cast<double>(counts.wrong_side),
+                          "particles", 0.0);
+        }
+        report.equals(name + ".unaccounted", static_cast<double>(counts.unaccounted), "particles",
+                      0.0);
+    }
+}
+
+}  // namespace solids
