@@ -43,6 +43,12 @@ struct Particles {
 template <class Real>
 inline constexpr Real kWallGap = Real(1.0 / 64.0);
 
+template <class Real>
+inline bool in_tank(const GridShape& s, Vec2<Real> x) {
+    return Real(0) <= x.x && x.x < static_cast<Real>(s.nx) && Real(0) <= x.y &&
+           x.y < static_cast<Real>(s.ny);
+}
+
 /// The nearest point that a particle may have.
 template <class Real>
 inline Vec2<Real> within_tank(const GridShape& s, Vec2<Real> x) {

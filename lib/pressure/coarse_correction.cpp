@@ -367,10 +367,24 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights,
     });
 }
 
+template <class Real>
+void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields) {
+    CoarseGrid<Real>& coarse = fields.coarse;
+    for (std::int32_t q = 0; q < coarse.shape.size(); ++q) {
+        coarse.correction[q] = factor * coarse.correction[q];
+    }
+    for_each_patch(shape, coarse.shape, [&](const Patch& patch) {
+        if (coarse.inverse_diagonal[patch.q] != Real(0)) {
+            add_correction(shape, patch, fields);
+        }
+    });
+}
+
 #define WEIR_INSTANTIATE_FOR(Solids, Mixed, Real)                                        \
     template void set_up_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&); \
     template void correct_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&);
 #define WEIR_INSTANTIATE(Real)                \
+    template void add_again(const GridShape&, Real, PressureFields<Real>&); \
     WEIR_INSTANTIATE_FOR(false, false, Real)  \
     WEIR_INSTANTIATE_FOR(true, false, Real)   \
     WEIR_INSTANTIATE_FOR(false, true, Real)   \

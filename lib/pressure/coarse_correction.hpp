@@ -25,4 +25,8 @@ template <bool Solids, bool Mixed, class Real>
 void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights,
                     PressureFields<Real>& fields);
 
+/// Adds the last correction once more, times a factor.
+template <class Real>
+void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields);
+
 }  // namespace weir

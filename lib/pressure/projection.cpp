@@ -33,13 +33,6 @@ inline Real surface_share(Real weight, Real open, Real level, std::int32_t neigh
                                (Real(1) / liquid_fraction(level, air, open) - Real(1));
 }
 
-/// Whether all faces of a cell are wide open. Such cells are relaxed without reading a weight.
-template <class Real>
-inline bool untouched(const Walls<Real>& walls, std::int32_t cell, std::int32_t up) {
-    return walls.open_u[cell] == Real(1) && walls.open_u[cell + 1] == Real(1) &&
-           walls.open_v[cell] == Real(1) && walls.open_v[up] == Real(1);
-}
-
 /// Rows low … high hold all the liquid; no other needs to be swept.
 struct Rows {
     std::int32_t low = 0;
@@ -83,8 +76,9 @@ System<Real> build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale
                 fields.pressure[c] = Real(0);
                 continue;
             }
+            const bool wide = !Solids || untouched(walls, c, up);
             Real divergence = weights.outflow(i, j);
-            if (Solids && walls.moving && touches_wall(walls, c)) {
+            if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
                 divergence += wall_flow(s, walls, i, j);
             }
             if (fields.on_surface) {
@@ -95,7 +89,7 @@ System<Real> build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale
             }
             fields.divergence[c] = divergence;
             // The sign tells `relax` which cells a wall touches.
-            const Real sign = Real(Solids && !untouched(walls, c, up) ? -1 : 1);
+            const Real sign = Real(wide ? 1 : -1);
             if constexpr (Stored<Real>::shares_momentum) {
                 fields.inverse_diagonal[c] = sign * diagonal;  // relax_packed.hpp
             } else {
@@ -202,10 +196,37 @@ void project(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFiel
     }
 }
 
+/// Σ correction × residual of the coarse equations.
+template <class Real>
+Face<Real> work_of_correction(const CoarseGrid<Real>& coarse) {
+    Face<Real> work = Face<Real>(0);
+    for (std::int32_t j = 0; j < coarse.shape.ny; ++j) {
+        for (std::int32_t i = 0; i < coarse.shape.nx; ++i) {
+            const std::int32_t q = coarse.shape.index(i, j);
+            if (coarse.inverse_diagonal[q] != Real(0)) {
+                work += static_cast<Face<Real>>(coarse.correction[q]) *
+                        static_cast<Face<Real>>(coarse.residual[q]);
+            }
+        }
+    }
+    return work;
+}
+
+/// The coarse grid takes bodies to move as they do. They yield to its correction, by as much more
+/// as they are light: the step along the correction is the one that suits the whole system.
+template <class Real>
+void yield_to_correction(const CoupledSolve<Real>& coupled, PressureFields<Real>& fields) {
+    const Face<Real> stiff = coupled.stages->yielding(coupled);
+    const Face<Real> work = work_of_correction(fields.coarse);
+    const Face<Real> share = work > Face<Real>(0) ? work / (work + stiff) : Face<Real>(0);
+    add_again(coupled.shape, static_cast<Real>(share - Face<Real>(1)), fields);
+    coupled.stages->set_aside(coupled);
+}
+
 template <bool Solids, bool Mixed, class Real>
 void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
-           std::int32_t cycles, std::int32_t sweeps, StaggeredGrid<Real>& grid,
-           PressureFields<Real>& fields) {
+           std::int32_t cycles, std::int32_t sweeps, const CoupledSolve<Real>* coupled,
+           StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
     const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
     const System<Real> system = build(weights, rescale, fields);
     const Rows rows = system.rows;
@@ -218,11 +239,23 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
     } else {
         set_up_coarse(weights, fields);
         for (std::int32_t cycle = 0; cycle < cycles; ++cycle) {
+            if (coupled != nullptr) {
+                coupled->stages->begin(*coupled);
+            }
             correct_coarse(weights, fields);
+            if (coupled != nullptr) {
+                yield_to_correction(*coupled, fields);
+            }
             extend_cells(borders, grid.shape, fields.pressure);
             for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
                 relax(weights, rows, half_sweep & 1, fields);
+                if (coupled != nullptr) {
+                    coupled->stages->relax(*coupled, kRelaxation<Real>, half_sweep & 1);
+                }
                 extend_cells(borders, grid.shape, fields.pressure);
+            }
+            if (coupled != nullptr) {
+                coupled->stages->end(*coupled);
             }
         }
     }
@@ -233,7 +266,8 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
 
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
+                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
+                const CoupledSolve<Real>* coupled) {
     // A much longer step than the last starts from less than the last pressure would suggest.
     const Real rescale =
         fields.last_dt > Seconds<Real>{}
@@ -246,16 +280,17 @@ void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<
     const auto solver = walls.active ? (mixed ? solve<true, true, Real> : solve<true, false, Real>)
                                      : (mixed ? solve<false, true, Real>
                                               : solve<false, false, Real>);
-    solver(borders, walls, rescale, cycles, sweeps, grid, fields);
+    solver(borders, walls, rescale, cycles, sweeps, coupled, grid, fields);
 }
 
-template void projection(const Borders<float>&, const Walls<float>&, float, std::int32_t,
-                         StaggeredGrid<float>&, PressureFields<float>&);
-template void projection(const Borders<double>&, const Walls<double>&, double, std::int32_t,
-                         StaggeredGrid<double>&, PressureFields<double>&);
-template void projection(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, std::int32_t,
-                         StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
-template void projection(const Borders<SmallFixed>&, const Walls<SmallFixed>&, Seconds<SmallFixed>,
-                         std::int32_t, StaggeredGrid<SmallFixed>&, PressureFields<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real)                                                                \
+    template void projection(const Borders<Real>&, const Walls<Real>&, Seconds<Real>,         \
+                             std::int32_t, StaggeredGrid<Real>&, PressureFields<Real>&,       \
+                             const CoupledSolve<Real>*);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

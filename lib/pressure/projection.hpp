@@ -3,7 +3,7 @@
 
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "solid/free_body.hpp"
 
 namespace weir {
 
@@ -14,9 +14,11 @@ namespace weir {
 /// density that the grid holds. Starts from the last pressure, makes one correction on a coarse
 /// grid and then `sweeps` red-black relaxations, no more and no less: time is bounded, the result
 /// is the same on every machine. Cost: about 10 operations a liquid cell and sweep.
+/// `coupled`: free bodies that are solved for together with the pressure, or null.
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields);
+                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
+                const CoupledSolve<Real>* coupled = nullptr);
 
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face
 /// between them answers to the pressure by its inverse.

@@ -11,6 +11,10 @@ constexpr Real kLeastFullDensity = Real(0.02);
 /// Share of a cell's open faces that liquid must cover for an air cell to be taken as filled.
 template <class Real>
 constexpr Real kFilledShare = Real(0.8);
+/// The same for a cell that a contour crosses: what opens behind a body that draws back is as thin
+/// as a film at first and holds no particle, but is not empty.
+template <class Real>
+constexpr Real kFilledShareOfCut = Real(0.6);
 
 template <class Real>
 constexpr Real kFilledLevel = Real(0.5);
@@ -76,7 +80,9 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
     face(j > 0 || borders.wrap_y, cut ? Real(walls.open_v[c]) : Real(1), c - s.stride);
     face(j + 1 < s.ny || borders.wrap_y, cut ? Real(walls.open_v[c + s.stride]) : Real(1),
          c + s.stride);
-    return open > Real(0) && covered >= kFilledShare<Real> * open;
+    const Real share =
+        cut && walls.cell_case[c] != 0 ? kFilledShareOfCut<Real> : kFilledShare<Real>;
+    return open > Real(0) && covered >= share * open;
 }
 
 }  // namespace

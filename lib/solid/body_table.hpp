@@ -41,6 +41,9 @@ static_assert(sizeof(Body<float>) <= kBodyBytes<float>, "raise kBodyBytes");
 static_assert(sizeof(Body<double>) <= kBodyBytes<double>, "raise kBodyBytes");
 
 template <class Real>
+struct BodyLoad;
+
+template <class Real>
 struct BodyTable {
     Body<Real>* body = nullptr;
     std::int32_t capacity = 0;
@@ -49,6 +52,7 @@ struct BodyTable {
     Vec2<Real>* placed = nullptr;   ///< the same vertices in the tank, at the current poses
     std::uint16_t* pieces = nullptr;
     ArrayView<std::uint16_t> scratch;  ///< of the decomposition
+    BodyLoad<Real>* load = nullptr;  ///< null: the world has no room for what bodies receive
     std::int32_t vertex_capacity = 0;
     std::int32_t vertices_used = 0;
 

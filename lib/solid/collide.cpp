@@ -1,5 +1,6 @@
 #include "solid/collide.hpp"
 
+#include "solid/body_force.hpp"
 #include "solid/contour_hit.hpp"
 #include "solid/reflect.hpp"
 #include "solid/thin_sweep.hpp"
@@ -46,12 +47,6 @@ Vec2<Real> carried(const Scene<Real>& scene, const Body<Real>& body, Vec2<Real> 
                : x;
 }
 
-template <class Real>
-bool in_tank(const GridShape& s, Vec2<Real> x) {
-    return Real(0) <= x.x && x.x < static_cast<Real>(s.nx) && Real(0) <= x.y &&
-           x.y < static_cast<Real>(s.ny);
-}
-
 /// Gives the particle its velocity after a blow at `x`, and the body its due.
 template <class Real>
 void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
@@ -62,9 +57,12 @@ void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x
     const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
     const Vec2<Real> after = reflect(body.surface, surface, before, normal);
     particles.velocity[k] = after;
+    const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
     if (scene.contacts.capacity > 0) {
-        const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
         record_blow(scene.contacts, body, slot, kind, x, before - after);
+    }
+    if (scene.walls.load != nullptr) {
+        receive_blow(scene.walls, slot, kind, x, before - after);
     }
     scene.result.max_speed =
         maximum(scene.result.max_speed, maximum(absolute(after.x), absolute(after.y)));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid/staggered_grid.hpp"
-#include "solid/body_table.hpp"
+#include "solid/body_load.hpp"
 #include "solid/thin_walls.hpp"
 
 namespace weir {
@@ -29,6 +29,9 @@ struct Walls {
     std::uint32_t* near = nullptr;      ///< a bit a cell: it or one around it is cut by a wall
     const Body<Real>* body = nullptr;
     const ThinWalls<Real>* thin = nullptr;  ///< null: no wall is thinner than a cell
+    std::int32_t bodies = 0;            ///< slots
+    BodyLoad<Real>* load = nullptr;     ///< what bodies receive; null: nobody wants to know
+    Face<Real> particle_mass[2] = {};   ///< of either liquid, over the first's density, cells²
 };
 
 /// Words of `near` for one row of the tank's cells, of which a shape may be a part.
@@ -86,6 +89,14 @@ template <class Real>
 inline bool touches_wall(const Walls<Real>& walls, std::int32_t cell) {
     return walls.cell_case[cell] != 0 ||
            (walls.thin != nullptr && (walls.thin->mark[cell] & kTouching) != 0);
+}
+
+/// Whether all faces of a cell are wide open. A cell that no contour crosses may yet have a closed
+/// one: its neighbour is a sliver.
+template <class Real>
+inline bool untouched(const Walls<Real>& walls, std::int32_t cell, std::int32_t up) {
+    return walls.open_u[cell] == Real(1) && walls.open_u[cell + 1] == Real(1) &&
+           walls.open_v[cell] == Real(1) && walls.open_v[up] == Real(1);
 }
 
 /// What moving walls push into the cell (i, j) through the closed parts of its faces, counted

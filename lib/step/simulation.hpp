@@ -5,6 +5,7 @@
 #include "grid/staggered_grid.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/contacts.hpp"
+#include "solid/free_body.hpp"
 #include "solid/layers.hpp"
 #include "step/settings.hpp"
 #include "weir/report.hpp"
@@ -20,6 +21,8 @@ struct Simulation {
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;
+    const FreeBodyStages<Real>* free_bodies = nullptr;  ///< null: there was none yet
+    Real* body_diagonal = nullptr;                      ///< for them, a cell field
     Contacts<Real> contacts;
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;

@@ -15,6 +15,7 @@
 #include "step/occupied.hpp"
 #include "step/particle_to_grid.hpp"
 #include "step/thin_transfer.hpp"
+#include "step/two_way.hpp"
 #include "step/viscosity.hpp"
 
 namespace weir {
@@ -56,7 +57,8 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s)
     walls.moving = false;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         Body<Real>& body = table.body[slot];
-        if (body.kind != BodyKind::moving) {
+        if (body.kind != BodyKind::moving ||
+            (table.load != nullptr && table.load[slot].is_free())) {
             continue;
         }
         if (body.velocity.x != Real(0) || body.velocity.y != Real(0) || body.spin != Real(0)) {
@@ -78,8 +80,9 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan)
             surface_tension(simulation.grid.shape, settings.borders, walls,
                             plan.surface_tension * plan.dt_s, simulation.pressure);
         }
+        const CoupledSolve<Real> coupled = coupled_solve(simulation, plan.dt_s);
         projection(settings.borders, walls, plan.dt_s, settings.sweeps, simulation.grid,
-                   simulation.pressure);
+                   simulation.pressure, simulation.free_bodies != nullptr ? &coupled : nullptr);
         extrapolate(settings.borders, walls, simulation.pressure,
                     settings.surface_tension > Real(0), simulation.grid);
     } else {
@@ -213,6 +216,12 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
         clock.charge(Stage::contour);
     }
     skip_empty(simulation);
+    const bool two_way = simulation.bodies.load != nullptr;
+    Account<Real> account;
+    if (two_way) {
+        account = open_account(simulation, dt_s);
+        accelerate_bodies(simulation, dt_s);
+    }
     particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid,
                      walls.thin);
     clock.charge(Stage::particle_to_grid);
@@ -226,6 +235,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     clock.charge(Stage::grid_update);
 
     solve_pressure(simulation, plan);
+    if (two_way) {
+        press_bodies(simulation, dt_s, report);
+    }
     fill_borders(simulation);
     clock.charge(Stage::pressure);
 
@@ -237,7 +249,14 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     }
     clock.charge(Stage::volume);
 
+    if (two_way) {
+        move_free_bodies(simulation, dt_s, report);
+        clock.charge(Stage::contour);
+    }
     gather(simulation, dt_s, clock, report);
+    if (two_way) {
+        close_account(account, simulation);
+    }
 }
 
 template void substep(Simulation<float>&, const SubstepPlan<float>&, StepReport&);

@@ -35,6 +35,7 @@ const char* init_text(Status status) {
         case Status::sound_speed_out_of_range:
             return "sound_speed_mps: choose 0 (automatic) or at most kMaxSpeed cells a second";
         case Status::restitution_out_of_range: return "restitution: choose 0 (slide) … 1 (mirror)";
+        case Status::body_density_out_of_range: return "density_ratio: choose 1e-3 … 1e3";
         case Status::friction_out_of_range: return "friction: choose 0 (none) … 1000";
         case Status::viscosity_out_of_range:
             return "viscosity_m2ps: choose 0 … 1e6 cells² a second";
@@ -104,6 +105,10 @@ const char* content_text(Status status) {
         case Status::motion_not_finite: return "motion has a NaN or infinite number";
         case Status::motion_out_of_range:
             return "motion: at most kMaxSpeed cells/s, 1e4 rad and rad/s";
+        case Status::two_way_missing:
+            return "the world was made without room for forces: set capacity.two_way";
+        case Status::free_body_in_small_world:
+            return "SmallFixed has no room to solve for bodies: use Fixed, or move it yourself";
         case Status::output_missing: return "the pointer for the result is null";
         case Status::no_free_particle:
             return "no room for that many particles: raise capacity.particles";

@@ -124,10 +124,14 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::vertex_local: return all_vertices<Real>(from, elements);
         case Block::piece_index: return all_indices(from, of);
         case Block::pressure: return all_finite<Real>(from, elements);
+        case Block::body_load:
+            return all_finite<Face<Real>>(from, elements * (sizeof(BodyLoad<Real>) /
+                                                            sizeof(Face<Real>)));
         case Block::world_state:
         case Block::body_table:
         case Block::vertex_placed:
         case Block::contact:
+        case Block::body_diagonal:
         case Block::decomposition_scratch:
         case Block::static_distance:
         case Block::static_body:
@@ -245,6 +249,11 @@ void redraw(Simulation<Real>& simulation) {
         if (table.body[slot].kind != BodyKind::free) {
             ++table.used;
             place(table, table.body[slot]);
+            if constexpr (!Stored<Real>::shares_momentum) {
+                if (table.load != nullptr && table.load[slot].is_free()) {
+                    simulation.free_bodies = &free_body_stages<Real>();
+                }
+            }
         }
     }
     simulation.layers.walls.active = table.used > 0;

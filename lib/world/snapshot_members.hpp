@@ -49,17 +49,18 @@ void any_member(Stream& stream, Vec2<Real>& vector) {
 /// gravity changes by a call. Walls are drawn again from the bodies.
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
-    auto& [simulation, def, cells_per_m, tag, pending] = state;
-    auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers, contacts,
-           max_speed, ticks] = simulation;
+    auto& [simulation, def, cells_per_m, stepped_s, tag, pending] = state;
+    [[maybe_unused]] auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers,
+                            free_bodies, body_diagonal, contacts, max_speed, ticks] = simulation;
     auto& [pressure, divergence, inverse_diagonal, density, level, coarse, on_surface, last_dt,
            gravity_change] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
-    auto& [body, body_capacity, used, local, placed, pieces, scratch_list, vertex_capacity,
-           vertices_used] = bodies;
+    [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,
+                            vertex_capacity, vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, thin, nodes, scratch] = layers;
     [[maybe_unused]] auto& [active, moving, binary, distance, nearest, cell_case, open_u,
-                            open_v, full_density, near, wall_body, thin_walls] = walls;
+                            open_v, full_density, near, wall_body, thin_walls, wall_bodies,
+                            wall_load, particle_mass] = walls;
     any_member(stream, settings.gravity);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);

@@ -242,7 +242,12 @@ Status check_body(const BodyDef& def, float cell_m, const Reach& reach) {
     if (motion != Status::ok) {
         return motion;
     }
-    return check_surface(def.surface, cell_m);
+    const Status surface = check_surface(def.surface, cell_m);
+    if (surface != Status::ok) {
+        return surface;
+    }
+    return within(def.density_ratio, 1.0e-3F, 1.0e3F) ? Status::ok
+                                                      : Status::body_density_out_of_range;
 }
 
 Status check_box(const Box& box, float width_m, float height_m) {

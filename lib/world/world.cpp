@@ -63,6 +63,7 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
         layers.nodes = layers.scratch;
     }
     layers.walls.body = bodies.body;
+    layers.walls.bodies = capacity.bodies;
     if (capacity.bodies > 0 && capacity.wall_edges > 0) {
         ThinWalls<Real>& thin = layers.thin;
         carver.take(Block::wall_edge, thin.edge);
@@ -114,6 +115,11 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
         carver.take(Block::particle_kind, simulation.particles.kind);
         carver.take(Block::inverse_density_u, simulation.grid.inverse_density_u);
         carver.take(Block::inverse_density_v, simulation.grid.inverse_density_v);
+    }
+    if (capacity.two_way) {
+        carver.take(Block::body_load, simulation.bodies.load);
+        carver.take(Block::body_diagonal, simulation.body_diagonal);
+        simulation.layers.walls.load = simulation.bodies.load;
     }
     carver.take(Block::velocity_u, simulation.grid.u);
     carver.take(Block::velocity_v, simulation.grid.v);
@@ -227,6 +233,15 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
         for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
             hash.add(table.outline(body).end_of(ring));
         }
+        if (table.load != nullptr && table.load[slot].is_free()) {
+            const BodyLoad<Real>& load = table.load[slot];
+            const Face<Real> weights[] = {load.inverse_mass, load.inverse_inertia,
+                                          load.blows.linear.x, load.blows.linear.y,
+                                          load.blows.angular, load.blow_mass};
+            for (const Face<Real> weight : weights) {
+                hash.add(weight);
+            }
+        }
         for (std::int32_t k = 0; k < body.vertex_count; ++k) {
             hash.add(table.local[body.first_vertex + k].x);
             hash.add(table.local[body.first_vertex + k].y);
@@ -263,6 +278,15 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
         new (simulation.bodies.body + slot) Body<Real>();
     }
     clear_thin_walls(simulation.layers.thin, simulation.grid.shape, def.capacity.bodies);
+    if (def.capacity.two_way) {
+        for (std::int32_t slot = 0; slot <= def.capacity.bodies; ++slot) {
+            new (simulation.bodies.load + slot) BodyLoad<Real>();
+        }
+        const auto share = Face<Real>(1) / static_cast<Face<Real>>(def.particles_per_cell);
+        simulation.layers.walls.particle_mass[0] = share;
+        simulation.layers.walls.particle_mass[1] =
+            share * static_cast<Face<Real>>(def.second_density_ratio);
+    }
     if (def.capacity.bodies > 0) {
         clear_layers(simulation.layers);
     }

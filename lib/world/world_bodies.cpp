@@ -1,8 +1,9 @@
 // Bodies: adding, moving, asking, removing.
+#include "world/world_bodies.hpp"
+
 #include "geometry/convex_decomposition.hpp"
-#include "solid/layers.hpp"
+#include "geometry/moments.hpp"
 #include "world/validate.hpp"
-#include "world/world_state.hpp"
 
 namespace weir {
 
@@ -68,6 +69,25 @@ Real radius_of(const BodyTable<Real>& table, const Body<Real>& body) {
     return furthest;
 }
 
+/// What it weighs.
+template <class Real>
+void weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& body,
+           BodyLoad<Real>& load) {
+    load = BodyLoad<Real>{};
+    if (def.open) {
+        return;
+    }
+    Outline<Real> outline = table.outline(body);
+    outline.vertex = table.local + body.first_vertex;
+    const Moments<Real> moments = moments_of(outline);
+    const auto density = static_cast<Face<Real>>(def.density_ratio);
+    load.centre = moments.centroid;
+    load.mass = density * moments.area;
+    load.inertia = density * moments.inertia;
+}
+
+}  // namespace
+
 template <class Real>
 Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id) {
     const Status room = check_room(state, def, kind, id);
@@ -104,6 +124,9 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
     }
     ++table.used;
     layers.walls.active = true;
+    if (table.load != nullptr) {
+        weigh(def, table, body, table.load[slot]);
+    }
     if (kind == BodyKind::fixed) {
         draw_static(layers, table, slot);
     } else {
@@ -120,8 +143,6 @@ Status check_id(const WorldState<Real>& state, BodyId id) {
     return id.world == state.tag && exists(state.simulation.bodies, id) ? Status::ok
                                                                         : Status::stale_body;
 }
-
-}  // namespace
 
 template <class Real>
 Status World<Real>::add_static_body(const BodyDef& def, BodyId* id) {
@@ -204,6 +225,9 @@ Status World<Real>::remove_body(BodyId id) {
         erase_moving(layers, table, id.slot);
     }
     remove(table, id.slot);
+    if (table.load != nullptr) {
+        table.load[id.slot] = BodyLoad<Real>{};
+    }
     if (thin) {
         relink_all(layers.thin, layers.shape, table);
     }
@@ -216,6 +240,8 @@ Status World<Real>::remove_body(BodyId id) {
 }
 
 #define WEIR_INSTANTIATE(Real)                                                          \
+    template Status add_body(WorldState<Real>&, const BodyDef&, BodyKind, BodyId*);     \
+    template Status check_id(const WorldState<Real>&, BodyId);                          \
     template Status World<Real>::add_static_body(const BodyDef&, BodyId*);              \
     template Status World<Real>::add_moving_body(const BodyDef&, BodyId*);              \
     template Status World<Real>::set_motion(BodyId, const Motion&);                     \

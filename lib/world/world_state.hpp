@@ -11,6 +11,7 @@ struct WorldState {
     Simulation<Real> simulation;
     WorldDef def;
     Face<Real> cells_per_m = Face<Real>(0);
+    float stepped_s = 0.0F;        ///< in the last step
     std::uint16_t tag = 0;         ///< this world's own, in the names of its bodies
     std::uint32_t pending = 0;     ///< Clamped bits that the next report shall carry
 };

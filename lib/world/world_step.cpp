@@ -72,6 +72,9 @@ StepReport World<Real>::step(float dt_s) {
     report.clamped = state_->pending;
     state_->pending = 0;
     clear(simulation.contacts);
+    if (simulation.bodies.load != nullptr) {
+        forget_impulses(simulation.bodies);
+    }
     const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s, report);
     if (dt > Seconds<Real>{}) {
         const SubstepPlan<Real> plan = plan_substeps(simulation, dt);
@@ -90,10 +93,14 @@ StepReport World<Real>::step(float dt_s) {
         report.substeps = plan.substeps;
         report.dt_s = static_cast<float>(dt);
     }
+    state_->stepped_s = report.dt_s;
     finish(simulation.contacts);
     report.contacts_missed = simulation.contacts.missed;
     if (report.particles_slowed > 0) {
         mark(report, Clamped::speed);
+    }
+    if (report.bodies_slowed > 0) {
+        mark(report, Clamped::body_speed);
     }
     if (report.particles_reset > 0) {
         mark(report, Clamped::not_finite);

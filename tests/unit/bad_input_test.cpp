@@ -162,6 +162,25 @@ const std::vector<Row>& body_rows() {
         {"friction beyond", CHANGED_BODY(surface.friction, 1000.1F),
          Status::friction_out_of_range},
         {"friction NaN", CHANGED_BODY(surface.friction, kNan), Status::friction_out_of_range},
+        {"body density below", CHANGED_BODY(density_ratio, 0.9e-3F),
+         Status::body_density_out_of_range},
+        {"body density NaN", CHANGED_BODY(density_ratio, kNan),
+         Status::body_density_out_of_range},
+        {"free body without room for forces",
+         [](Fixture& world) {
+             BodyId id;
+             return (*world).add_free_body(body_of(kSquare4cm, {0.1F, 0.2F}), &id);
+         },
+         Status::two_way_missing},
+        {"free body in a small world",
+         [](Fixture&) {
+             WorldDef def = small_def();
+             def.capacity.two_way = true;
+             TestWorld<SmallFixed> small{def};
+             BodyId id;
+             return small->add_free_body(body_of(kSquare4cm, {0.1F, 0.2F}), &id);
+         },
+         Status::free_body_in_small_world},
         {"conveyor beyond", CHANGED_BODY(surface.conveyor_mps, 2.1e4F),
          Status::conveyor_out_of_range},
         {"conveyor NaN", CHANGED_BODY(surface.conveyor_mps, kNan), Status::conveyor_out_of_range},

@@ -43,6 +43,8 @@ struct Capacity {
     /// of their length and 6 for each edge. 0: none, and polygons that thin are not tight.
     std::int32_t wall_edges = 0;
     std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
+    /// Room and time for what liquid does to bodies and tank: `World::force`, `add_free_body`.
+    bool two_way = false;
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
 };
 
@@ -161,6 +163,8 @@ struct BodyDef {
     View<View<Vec2f>> holes;   ///< rings inside it, none in another; either way round; copied
     Motion motion;             ///< a static body takes only position and angle
     Surface surface;
+    /// Of the body over the first liquid's, for `add_free_body` and `mass`; 1e-3 … 1e3.
+    float density_ratio = 0.5F;
 };
 
 }  // namespace weir

@@ -18,7 +18,7 @@ namespace weir {
 enum class Owner : std::uint8_t {
     world,      ///< the world's own state and the step's report
     particles,  ///< positions, velocities and kinds
-    bodies,     ///< body table, contact events
+    bodies,     ///< body table, contact events, forces
     vertices,   ///< polygons, their pose in the tank, their convex pieces
     contour,    ///< signed distance at nodes (static and merged), contour matrix
     cut_cells,  ///< open fractions of faces and cells
@@ -44,6 +44,8 @@ enum class Block : std::uint8_t {
     vertex_placed,
     piece_index,
     decomposition_scratch,
+    body_load,
+    body_diagonal,
     static_distance,
     static_body,
     merged_distance,
@@ -90,12 +92,14 @@ inline constexpr std::size_t world_alignment = 16;
 /// Room for records whose types are private; checked by static_assert where they are defined.
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
-    sizeof(Real) == 4 && sizeof(void*) == 4 ? 656 : 1024;
+    sizeof(Real) == 4 ? (sizeof(void*) == 4 ? 656 : 1024) : 1152;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
 template <class Real>
 inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
+template <class Real>
+inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 84 : 168;
 
 /// The pressure's coarse grid: cells along an edge of its cells, and numbers for each of them.
 inline constexpr std::int32_t kCoarseEdge = 4;
@@ -135,6 +139,14 @@ struct LayoutRow {
 };
 }  // namespace detail
 
+/// Numbers of the pressure's coarse grid, for each of its cells.
+template <class Real>
+constexpr std::int32_t coarse_fields_of(const Capacity& capacity) {
+    return Stored<Real>::shares_momentum
+               ? kCoarseFieldsPacked
+               : (capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields);
+}
+
 /// Places every block of a world of that capacity. Pure; the same on every machine.
 template <class Real>
 constexpr Layout layout(const Capacity& capacity) {
@@ -144,16 +156,14 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t cells = (count(capacity.cells_x) + 2) * (count(capacity.cells_y) + 2);
     const std::size_t coarse = (count(coarse_cells(capacity.cells_x)) + 2) *
                                (count(coarse_cells(capacity.cells_y)) + 2);
-    const std::size_t coarse_fields =
-        count(Stored<Real>::shares_momentum
-                  ? kCoarseFieldsPacked
-                  : (capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields));
+    const std::size_t coarse_fields = count(coarse_fields_of<Real>(capacity));
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
     const std::size_t moving_cells = capacity.moving_bodies ? solid_cells : 0;
     const std::size_t near_words =
         capacity.bodies > 0 ? (count(capacity.cells_x) + 31) / 32 * count(capacity.cells_y) : 0;
     const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
     const std::size_t thin = wall_edges > 0 ? 1 : 0;
+    const std::size_t loads = capacity.two_way ? count(capacity.bodies) + 1 : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t bodies = count(capacity.bodies), index = sizeof(std::uint16_t);
@@ -176,6 +186,8 @@ constexpr Layout layout(const Capacity& capacity) {
          vertices},
         {Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
          kScratchPerVertex * vertices},
+        {Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads},
+        {Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0},
         {Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells},
         {Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), moving_cells},
         {Block::merged_distance, Owner::contour, Kept::redrawn, distance, solid_cells},

@@ -32,6 +32,7 @@ enum class Clamped : std::uint32_t {
     not_initialised = 1U << 5U,  ///< there is no world: nothing was done
     viscosity = 1U << 6U,      ///< the liquid was made thinner to fit max_substeps
     surface_tension = 1U << 7U,  ///< it was lowered to fit max_substeps
+    body_speed = 1U << 8U,    ///< free bodies were limited to 2 cells a substep
 };
 
 struct StepReport {
@@ -51,6 +52,7 @@ struct StepReport {
     std::int32_t contacts_missed = 0;  ///< blows on bodies for which the contacts had no room
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
     std::int32_t particles_slowed = 0;     ///< limited to 2 cells a substep
+    std::int32_t bodies_slowed = 0;        ///< free bodies, the same
 
     constexpr bool has(Clamped what) const {
         return (clamped & static_cast<std::uint32_t>(what)) != 0U;

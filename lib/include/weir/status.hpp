@@ -27,6 +27,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     sound_speed_out_of_range,
     restitution_out_of_range,
     friction_out_of_range,
+    body_density_out_of_range,
     viscosity_out_of_range,
     surface_tension_out_of_range,
     surface_tension_needs_projection,
@@ -64,6 +65,8 @@ enum class [[nodiscard]] Status : std::uint8_t {
     motion_not_finite,
     motion_out_of_range,
     output_missing,
+    two_way_missing,
+    free_body_in_small_world,
     // particles
     no_free_particle,
     no_such_particle,

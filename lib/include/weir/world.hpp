@@ -7,6 +7,7 @@
 #include "weir/config.hpp"
 #include "weir/contact.hpp"
 #include "weir/diagnostics.hpp"
+#include "weir/force.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"
 #include "weir/status.hpp"
@@ -43,11 +44,23 @@ public:
     Status add_static_body(const BodyDef& def, BodyId* id);
     /// A solid that moves as told; it is rasterized again in each step in which it moved.
     Status add_moving_body(const BodyDef& def, BodyId* id);
+    /// A solid that gravity and the liquid move, and that stops at the tank's walls; otherwise a
+    /// moving body. It knows no other bodies: for contacts between them couple a physics engine.
+    /// Any density is stable with Pressure::projection, down to about a tenth of the liquid's with
+    /// the other. Wants `capacity.two_way`.
+    Status add_free_body(const BodyDef& def, BodyId* id);
     /// Places a moving body and sets its velocity and spin, which it keeps until told otherwise.
     Status set_motion(BodyId id, const Motion& motion);
     /// Where a body is now, after the steps that were taken.
     Status motion(BodyId id, Motion* motion) const;
     Status remove_body(BodyId id);
+
+    /// What the liquid did to a body in the last step. Wants `capacity.two_way`.
+    Status force(BodyId id, BodyForce* force) const;
+    /// And to the tank: what liquid and bodies together do not account for. The sum over tank and
+    /// bodies is, to rounding, gravity's impulse on the liquid less what its momentum changed by.
+    Status tank_force(BodyForce* force) const;
+    Status mass(BodyId id, BodyMass* mass) const;
 
     /// Fills a box with particles on a lattice, leaving out what is inside solids.
     /// All or nothing: refuses if not every particle has room.

@@ -1,0 +1,115 @@
+#include "solid/body_force.hpp"
+
+#include "contour/marching_squares.hpp"
+
+namespace weir {
+
+namespace {
+
+/// Middle of the contour within a cell, from the cell's lower left corner.
+template <class Real>
+Vec2<Real> middle_of_contour(const GridShape& s, const Walls<Real>& walls, std::int32_t node) {
+    const DistanceOf<Real>* low = walls.distance + node;
+    const Real corner[4] = {low[0], low[1], low[s.stride + 1], low[s.stride]};
+    const ContourCell<Real> cell = contour_cell(corner);
+    Vec2<Real> sum;
+    Real weight = Real(0);
+    for (std::int32_t k = 0; k < cell.lines; ++k) {
+        const ContourLine<Real>& line = cell.line[k];
+        const Real size = length(line.to - line.from);
+        sum = sum + size * (Real(0.5) * (line.from + line.to));
+        weight += size;
+    }
+    return weight > Real(0) ? (Real(1) / weight) * sum : Vec2<Real>{Real(0.5), Real(0.5)};
+}
+
+template <class Real>
+Vec2<Real> at_corner(std::int32_t i, std::int32_t j) {
+    return {static_cast<Real>(i), static_cast<Real>(j)};
+}
+
+}  // namespace
+
+template <class Real>
+void locate_bodies(BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        if (body.kind != BodyKind::free) {
+            BodyLoad<Real>& load = table.load[slot];
+            load.at = convert<Face<Real>>(body.position) + arm_of_centre(body, load);
+        }
+    }
+}
+
+template <class Real>
+Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
+                               std::uint16_t slot, const PressedCells<Real>& cells) {
+    const Vec2<Face<Real>> centre = walls.load[slot].at;
+    const NodeBox box = cells_of(shape, walls.body[slot].drawn);
+    Impulse<Real> impulse;
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+            const std::int32_t c = shape.index(i, j);
+            if (untouched(walls, c, c + shape.stride) || !(cells.level[c] > Real(0))) {
+                continue;
+            }
+            Vec2<Real> closed;
+            for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
+                if (face.slot == slot) {
+                    closed = closed + face.outward;
+                    impulse.add(convert<Face<Real>>(cells.pressure[c] * face.outward),
+                                convert<Face<Real>>(face.centre) - centre);
+                }
+            });
+            if (closed.x == Real(0) && closed.y == Real(0)) {
+                continue;
+            }
+            const Vec2<Real> middle = middle_of_contour(shape, walls, c);
+            const Vec2<Real> half{Real(0.5), Real(0.5)};
+            const Real more = dot(cells.gravity_dt, middle - half);
+            impulse.add(convert<Face<Real>>(more * closed),
+                        convert<Face<Real>>(at_corner<Real>(i, j) + middle) - centre);
+        }
+    }
+    return impulse;
+}
+
+template <class Real>
+void press_on_bodies(const GridShape& shape, Walls<Real>& walls, BodyTable<Real>& table,
+                     const PressedCells<Real>& cells) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        Body<Real>& body = table.body[slot];
+        if (body.kind == BodyKind::free) {
+            continue;
+        }
+        BodyLoad<Real>& load = walls.load[slot];
+        const Impulse<Real> impulse =
+            pressure_impulse(shape, walls, static_cast<std::uint16_t>(slot), cells);
+        load.received.add(impulse);
+        if (load.is_free()) {
+            load.change = answer(load, impulse);
+        }
+    }
+}
+
+template <class Real>
+void forget_impulses(BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot <= table.capacity; ++slot) {
+        table.load[slot].received = Impulse<Real>{};
+    }
+}
+
+#define WEIR_INSTANTIATE(Real)                                                                \
+    template void locate_bodies(BodyTable<Real>&);                                            \
+    template Impulse<Real> pressure_impulse(const GridShape&, const Walls<Real>&,             \
+                                            std::uint16_t, const PressedCells<Real>&);        \
+    template void press_on_bodies(const GridShape&, Walls<Real>&, BodyTable<Real>&,           \
+                                  const PressedCells<Real>&);                                 \
+    template void forget_impulses(BodyTable<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

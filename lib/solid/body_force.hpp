@@ -1,0 +1,89 @@
+// Forces of the liquid on bodies: by its pressure, and by particles that hit them.
+#pragma once
+
+#include "solid/body_load.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// What the pressure stage left for the solids to read.
+template <class Real>
+struct PressedCells {
+    const Real* pressure = nullptr;  ///< dt p / ρ
+    const LevelOf<Real>* level = nullptr;  ///< > 0: liquid
+    Vec2<Real> gravity_dt;           ///< gravity × dt: the pressure's gradient at rest
+};
+
+/// Cells of a box around the nodes that a body wrote.
+inline NodeBox cells_of(const GridShape& shape, const NodeBox& drawn) {
+    return {maximum(0, drawn.i0 - 1), maximum(0, drawn.j0 - 1), minimum(shape.nx - 1, drawn.i1),
+            minimum(shape.ny - 1, drawn.j1)};
+}
+
+/// A closed part of a cell's face, as the pressure in the cell sees it.
+template <class Real>
+struct ClosedFace {
+    Vec2<Real> outward;     ///< length: how much of the face is closed
+    Vec2<Real> centre;      ///< of the face
+    std::uint16_t slot = kNoBody;
+};
+
+/// Calls visit(ClosedFace) for the faces of the cell (i, j) that solids close in part. They are
+/// those through which wall_flow pushes: the same numbers, so that what the pressure does to a
+/// body is the transpose of what the body does to the pressure.
+template <class Real, class Visit>
+inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, std::int32_t i,
+                                 std::int32_t j, Visit visit) {
+    const std::int32_t node = s.index(i, j);
+    const std::int32_t up = node + s.stride;
+    const Real x = static_cast<Real>(i);
+    const Real y = static_cast<Real>(j);
+    constexpr Real kHalf = Real(0.5);
+    const auto look = [&](Real open, Vec2<Real> outward, Vec2<Real> centre, std::int32_t a,
+                          std::int32_t b) {
+        if (open < Real(1)) {
+            visit(ClosedFace<Real>{(Real(1) - open) * outward, centre, nearest_body(walls, a, b)});
+        }
+    };
+    look(walls.open_u[node], {Real(-1), Real(0)}, {x, y + kHalf}, node, up);
+    look(walls.open_u[node + 1], {Real(1), Real(0)}, {x + Real(1), y + kHalf}, node + 1, up + 1);
+    look(walls.open_v[node], {Real(0), Real(-1)}, {x + kHalf, y}, node, node + 1);
+    look(walls.open_v[up], {Real(0), Real(1)}, {x + kHalf, y + Real(1)}, up, up + 1);
+}
+
+/// Finds the centres of mass, once the bodies have moved.
+template <class Real>
+void locate_bodies(BodyTable<Real>& table);
+
+/// Impulse of the pressure on a body within the last substep, about its centre of mass: cell
+/// pressure × closed parts of the faces, and the pressure's way from the cell's centre to the
+/// wall, as it is at rest. Without that the force would move in steps of a cell.
+/// Cost: a look at each cell of the body's rectangle, about 60 operations for each that it cuts.
+template <class Real>
+Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
+                               std::uint16_t slot, const PressedCells<Real>& cells);
+
+/// Adds what the pressure did in the last substep to all bodies' records; free bodies take the
+/// velocity that follows.
+template <class Real>
+void press_on_bodies(const GridShape& shape, Walls<Real>& walls, BodyTable<Real>& table,
+                     const PressedCells<Real>& cells);
+
+/// A blow at a point of the tank: the velocity that a particle lost there.
+template <class Real>
+inline void receive_blow(const Walls<Real>& walls, std::uint16_t slot, Liquid kind,
+                         Vec2<Real> point, Vec2<Real> lost) {
+    const Face<Real> mass = walls.particle_mass[kind == Liquid::second ? 1 : 0];
+    const Vec2<Face<Real>> impulse = mass * convert<Face<Real>>(lost);
+    BodyLoad<Real>& load = walls.load[slot];
+    const Vec2<Face<Real>> arm = convert<Face<Real>>(point) - load.at;
+    load.received.add(impulse, arm);
+    load.blows.add(impulse, arm);
+    load.blow_mass += mass;
+}
+
+/// Before a step.
+template <class Real>
+void forget_impulses(BodyTable<Real>& table);
+
+}  // namespace weir

@@ -1,0 +1,66 @@
+// What liquid does to a body, and how a free body answers. There is one record a body, and one
+// for the tank behind them, in worlds with room for it (`Capacity::two_way`).
+#pragma once
+
+#include "solid/body_table.hpp"
+
+namespace weir {
+
+/// Momentum and angular momentum, over the liquid's density and per depth: cells³/s and cells⁴/s.
+/// Sums are kept in the numbers of the public face: fixed point would saturate.
+template <class Real>
+struct Impulse {
+    Vec2<Face<Real>> linear;
+    Face<Real> angular = Face<Real>(0);
+
+    void add(Vec2<Face<Real>> push, Vec2<Face<Real>> arm) {
+        linear = linear + push;
+        angular += cross(arm, push);
+    }
+    void add(const Impulse& other) {
+        linear = linear + other.linear;
+        angular += other.angular;
+    }
+};
+
+/// Velocity of the centre of mass, and spin.
+template <class Real>
+struct Twist {
+    Vec2<Face<Real>> velocity;
+    Face<Real> spin = Face<Real>(0);
+};
+
+template <class Real>
+struct BodyLoad {
+    Vec2<Face<Real>> centre;                      ///< of mass, in the body's frame, cells
+    Vec2<Face<Real>> at;                          ///< the same in the tank, as last located
+    Face<Real> mass = Face<Real>(0);              ///< over the liquid's density, cells²
+    Face<Real> inertia = Face<Real>(0);           ///< about the centre, cells⁴
+    Face<Real> inverse_mass = Face<Real>(0);      ///< 0: it moves as told
+    Face<Real> inverse_inertia = Face<Real>(0);
+    Impulse<Real> received;    ///< in this step, about the centre of mass
+    Impulse<Real> blows;       ///< of particles, which a free body has not answered yet
+    Face<Real> blow_mass = Face<Real>(0);  ///< of those particles
+    Twist<Real> unpressed;     ///< free bodies: before the pressure
+    Twist<Real> change;        ///< and what the pressure adds to it
+
+    bool is_free() const { return inverse_mass > Face<Real>(0); }
+};
+static_assert(sizeof(BodyLoad<float>) <= kBodyLoadBytes<float>, "raise kBodyLoadBytes");
+static_assert(sizeof(BodyLoad<double>) <= kBodyLoadBytes<double>, "raise kBodyLoadBytes");
+
+/// From the body's origin to its centre of mass, in the tank's directions.
+template <class Real>
+inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Real>& load) {
+    const Rotation<Real> turn = rotation(body.angle);
+    const Rotation<Face<Real>> wide{static_cast<Face<Real>>(turn.cosine),
+                                    static_cast<Face<Real>>(turn.sine)};
+    return wide.apply(load.centre);
+}
+
+template <class Real>
+inline Twist<Real> answer(const BodyLoad<Real>& load, const Impulse<Real>& impulse) {
+    return {load.inverse_mass * impulse.linear, load.inverse_inertia * impulse.angular};
+}
+
+}  // namespace weir

@@ -1,0 +1,77 @@
+// What bodies and tank received, and what bodies weigh.
+#include "world/world_bodies.hpp"
+
+namespace weir {
+
+namespace {
+
+template <class Real>
+BodyForce in_metres(const Impulse<Real>& impulse, float cell_m, float dt_s) {
+    const auto m = static_cast<Face<Real>>(cell_m);
+    BodyForce force;
+    force.impulse_m3ps = convert<float>((m * m * m) * impulse.linear);
+    force.angular_impulse_m4ps = static_cast<float>((m * m) * (m * m) * impulse.angular);
+    force.dt_s = dt_s;
+    return force;
+}
+
+template <class Real>
+Status check(const detail::WorldState<Real>* state, const void* output) {
+    if (state == nullptr) {
+        return Status::not_initialised;
+    }
+    if (output == nullptr) {
+        return Status::output_missing;
+    }
+    return state->simulation.bodies.load == nullptr ? Status::two_way_missing : Status::ok;
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::force(BodyId id, BodyForce* force) const {
+    const Status asked = check(state_, force);
+    const Status known = asked == Status::ok ? check_id(*state_, id) : asked;
+    if (known == Status::ok) {
+        *force = in_metres(state_->simulation.bodies.load[id.slot].received, state_->def.cell_m,
+                           state_->stepped_s);
+    }
+    return known;
+}
+
+template <class Real>
+Status World<Real>::tank_force(BodyForce* force) const {
+    const Status asked = check(state_, force);
+    if (asked == Status::ok) {
+        const BodyTable<Real>& table = state_->simulation.bodies;
+        *force = in_metres(table.load[table.capacity].received, state_->def.cell_m,
+                           state_->stepped_s);
+    }
+    return asked;
+}
+
+template <class Real>
+Status World<Real>::mass(BodyId id, BodyMass* mass) const {
+    const Status asked = check(state_, mass);
+    const Status known = asked == Status::ok ? check_id(*state_, id) : asked;
+    if (known == Status::ok) {
+        const BodyLoad<Real>& load = state_->simulation.bodies.load[id.slot];
+        const auto m = static_cast<Face<Real>>(state_->def.cell_m);
+        mass->mass_m2 = static_cast<float>(m * m * load.mass);
+        mass->inertia_m4 = static_cast<float>((m * m) * (m * m) * load.inertia);
+        mass->centre_m = convert<float>(m * load.centre);
+    }
+    return known;
+}
+
+#define WEIR_INSTANTIATE(Real)                                            \
+    template Status World<Real>::force(BodyId, BodyForce*) const;         \
+    template Status World<Real>::tank_force(BodyForce*) const;            \
+    template Status World<Real>::mass(BodyId, BodyMass*) const;
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

@@ -1,0 +1,37 @@
+// Free bodies: only a program that adds one links their stages.
+#include "world/world_bodies.hpp"
+
+namespace weir {
+
+template <class Real>
+Status World<Real>::add_free_body(const BodyDef& def, BodyId* id) {
+    if (state_ == nullptr) {
+        return Status::not_initialised;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    if (simulation.bodies.load == nullptr) {
+        return Status::two_way_missing;
+    }
+    if constexpr (Stored<Real>::shares_momentum) {
+        return Status::free_body_in_small_world;
+    } else {
+        if (def.open) {
+            return Status::polygon_zero_area;  // it weighs nothing
+        }
+        const Status added = add_body(*state_, def, BodyKind::moving, id);
+        if (added == Status::ok) {
+            BodyLoad<Real>& load = simulation.bodies.load[id->slot];
+            load.inverse_mass = Face<Real>(1) / load.mass;
+            load.inverse_inertia = Face<Real>(1) / load.inertia;
+            simulation.free_bodies = &free_body_stages<Real>();
+        }
+        return added;
+    }
+}
+
+template Status World<float>::add_free_body(const BodyDef&, BodyId*);
+template Status World<double>::add_free_body(const BodyDef&, BodyId*);
+template Status World<Fixed>::add_free_body(const BodyDef&, BodyId*);
+template Status World<SmallFixed>::add_free_body(const BodyDef&, BodyId*);
+
+}  // namespace weir

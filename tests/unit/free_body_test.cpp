@@ -1,0 +1,286 @@
+// Forces of the liquid on bodies and tank, and bodies that they move.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/moments.hpp"
+#include "math/vec2.hpp"
+#include "test_world.hpp"
+#include "weir/weir.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kDt = 1.0F / 120.0F;
+
+WorldDef two_way_def() {
+    WorldDef def;
+    def.capacity.cells_x = 32;
+    def.capacity.cells_y = 32;
+    def.capacity.particles = 4096;
+    def.capacity.bodies = 3;
+    def.capacity.vertices = 24;
+    def.capacity.two_way = true;
+    def.pressure_sweeps = 32;
+    return def;
+}
+
+void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
+
+TEST(Moments, OfARectangleWithAHoleAboutAnyOrigin) {
+    // 4 × 2 about (10, 5), less 2 × 1 about (10.5, 5); the hole in either winding.
+    const Vec2<double> outer[] = {{8, 4}, {12, 4}, {12, 6}, {8, 6}};
+    const Vec2<double> left[] = {{9.5, 4.5}, {11.5, 4.5}, {11.5, 5.5}, {9.5, 5.5}};
+    const std::uint16_t ends[] = {4, 8};
+    for (const bool reversed : {false, true}) {
+        Vec2<double> all[8];
+        for (int k = 0; k < 4; ++k) {
+            all[k] = outer[k];
+            all[4 + k] = left[reversed ? 3 - k : k];
+        }
+        const Moments<double> m = moments_of(Outline<double>{all, 8, 2, ends});
+        EXPECT_NEAR(m.area, 6.0, 1e-12);
+        EXPECT_NEAR(m.centroid.x, (8 * 10 - 2 * 10.5) / 6, 1e-12);
+        EXPECT_NEAR(m.centroid.y, 5.0, 1e-12);
+        const double about_ten = 8 * (16 + 4) / 12.0 - (2 * (4 + 1) / 12.0 + 2 * 0.25);
+        const double offset = m.centroid.x - 10;
+        EXPECT_NEAR(m.inertia, about_ten - 6 * offset * offset, 1e-12);
+    }
+}
+
+TEST(FreeBody, WantsRoomAndDensity) {
+    WorldDef def = two_way_def();
+    def.capacity.two_way = false;
+    TestWorld<float> plain{def};
+    BodyId id;
+    BodyForce force;
+    BodyMass mass;
+    BodyDef body = body_of(kSquare4cm, {0.3F, 0.3F});
+    EXPECT_EQ(plain->add_free_body(body, &id), Status::two_way_missing);
+    expect_ok(plain->add_moving_body(body, &id));
+    EXPECT_EQ(plain->force(id, &force), Status::two_way_missing);
+    EXPECT_EQ(plain->tank_force(&force), Status::two_way_missing);
+    EXPECT_EQ(plain->mass(id, &mass), Status::two_way_missing);
+    TestWorld<float> world{two_way_def()};
+    body.density_ratio = 0.0009F;
+    EXPECT_EQ(world->add_free_body(body, &id), Status::body_density_out_of_range);
+    body.density_ratio = 1001.0F;
+    EXPECT_EQ(world->add_free_body(body, &id), Status::body_density_out_of_range);
+    body.density_ratio = 2.0F;
+    expect_ok(world->add_free_body(body, &id));
+    EXPECT_EQ(world->force(id, nullptr), Status::output_missing);
+    EXPECT_EQ(world->tank_force(nullptr), Status::output_missing);
+    expect_ok(world->mass(id, &mass));
+    EXPECT_NEAR(mass.mass_m2, 2 * 0.0016F, 1e-8F);
+    EXPECT_NEAR(mass.inertia_m4, mass.mass_m2 * (0.0016F + 0.0016F) / 12, 1e-12F);
+    expect_ok(world->remove_body(id));
+    EXPECT_EQ(world->force(id, &force), Status::stale_body);
+}
+
+/// A triangle, whose origin is a corner, turns about its centre of mass while it falls.
+TEST(FreeBody, FallsAndTurnsAboutItsCentreOfMass) {
+    TestWorld<double> world{two_way_def()};
+    BodyDef body = body_of(kTriangle, {0.3F, 0.5F});
+    body.motion.spin_radps = 6.0F;
+    body.motion.velocity_mps = {0.1F, 0.0F};
+    BodyId id;
+    BodyMass mass;
+    expect_ok(world->add_free_body(body, &id));
+    expect_ok(world->mass(id, &mass));
+    const auto centre = [&] {
+        Motion m;
+        expect_ok(world->motion(id, &m));
+        const double c = std::cos(static_cast<double>(m.angle_rad));
+        const double s = std::sin(static_cast<double>(m.angle_rad));
+        const Vec2<double> r = convert<double>(mass.centre_m);
+        return convert<double>(m.position_m) +
+               Vec2<double>{c * r.x - s * r.y, s * r.x + c * r.y};
+    };
+    const Vec2<double> start = centre();
+    const double vx = 0.1 - 6.0 * static_cast<double>(mass.centre_m.y);
+    const double vy = 6.0 * static_cast<double>(mass.centre_m.x);
+    double t = 0;
+    for (int k = 0; k < 25; ++k) {
+        t += static_cast<double>(world->step(kDt).dt_s);
+    }
+    const Vec2<double> end = centre();
+    EXPECT_NEAR(end.x - start.x, vx * t, 1e-5);
+    EXPECT_NEAR(end.y - start.y, vy * t - 0.5 * 9.81 * t * (t + static_cast<double>(kDt)), 2e-3);
+    Motion m;
+    expect_ok(world->motion(id, &m));
+    EXPECT_NEAR(m.spin_radps, 6.0F, 1e-5F) << "nothing turns it";
+}
+
+TEST(FreeBody, StopsAtTheTanksWalls) {
+    for (const float restitution : {0.0F, 0.5F}) {
+        WorldDef def = two_way_def();
+        def.walls.bottom.restitution = restitution;
+        def.walls.right.friction = 0.5F;
+        TestWorld<float> world{def};
+        BodyDef body = body_of(kSquare4cm, {0.3F, 0.3F}, 0.3F);
+        body.motion.velocity_mps = {3.0F, 0.0F};
+        BodyId id;
+        expect_ok(world->add_free_body(body, &id));
+        Motion m;
+        for (int k = 0; k < 600; ++k) {
+            world->step(kDt);
+            expect_ok(world->motion(id, &m));
+            ASSERT_LT(m.position_m.x, 0.64F - 0.0199F);
+            ASSERT_GT(m.position_m.y, 0.0199F);
+        }
+        EXPECT_NEAR(m.position_m.y, 0.02F, 1e-5F) << "lies flat";
+        EXPECT_NEAR(m.spin_radps, 0.0F, 1e-4F) << "and does not rock";
+    }
+}
+
+/// The same scene, with the bits of each: measuring changes nothing.
+TEST(Force, MeasuringChangesNoBits) {
+    std::uint64_t hash[2];
+    for (const bool two_way : {false, true}) {
+        WorldDef def = two_way_def();
+        def.capacity.two_way = two_way;
+        TestWorld<float> world{def};
+        BodyId id;
+        BodyDef wheel = body_of(kSquare4cm, {0.4F, 0.06F});
+        wheel.motion.spin_radps = 5.0F;
+        expect_ok(world->add_moving_body(wheel, &id));
+        expect_ok(world->fill({{0, 0}, {0.2F, 0.3F}}));
+        for (int k = 0; k < 100; ++k) {
+            world->step(kDt);
+        }
+        hash[two_way ? 1 : 0] = world->state_hash();
+    }
+    EXPECT_EQ(hash[0], hash[1]);
+}
+
+/// A box held under water is pressed upwards by what it displaces, off the grid's lines, too.
+TEST(Force, ArchimedesHoldsAtAnyPlace) {
+    for (const float y : {0.2F, 0.206F, 0.213F}) {
+        for (const float angle : {0.0F, 0.3F}) {
+            TestWorld<float> world{two_way_def()};
+            const Ring box = rectangle(0.16F, 0.12F);
+            BodyId id;
+            expect_ok(world->add_static_body(body_of(box, {0.32F, y}, angle), &id));
+            expect_ok(world->fill({{0, 0}, {0.64F, 0.4F}}));
+            float lift = 0;
+            BodyForce force;
+            for (int k = 0; k < 480; ++k) {
+                world->step(kDt);
+                expect_ok(world->force(id, &force));
+                lift += k >= 240 ? force.impulse_m3ps.y / force.dt_s / 240 : 0;
+            }
+            const float displaced = 0.16F * 0.12F;
+            // The contour cuts corners: of a box of 8 × 6 cells at most one cell is lost.
+            EXPECT_NEAR(lift / (9.81F * displaced), 1.0F, 1.05F / 48) << y << " " << angle;
+        }
+    }
+}
+
+/// What liquid, bodies and tank exchange adds up in every step, whatever happens.
+template <class Real>
+double largest_gap(Pressure pressure) {
+    WorldDef def = two_way_def();
+    def.pressure = pressure;
+    TestWorld<Real> world{def};
+    const Ring box = rectangle(0.1F, 0.08F);
+    BodyDef floating = body_of(box, {0.45F, 0.1F});
+    floating.surface.friction = 0.3F;
+    BodyId ids[2];
+    expect_ok(world->add_free_body(floating, &ids[0]));
+    expect_ok(world->add_static_body(body_of(kTriangle, {0.3F, 0.0F}), &ids[1]));
+    expect_ok(world->fill({{0, 0}, {0.2F, 0.4F}}));
+    Diagnostics before;
+    Diagnostics after;
+    double worst = 0;
+    expect_ok(world->diagnose(&before));
+    for (int k = 0; k < 150; ++k) {
+        const StepReport report = world->step(kDt);
+        expect_ok(world->diagnose(&after));
+        BodyForce force;
+        Vec2<double> sum;
+        for (const BodyId id : ids) {
+            expect_ok(world->force(id, &force));
+            sum = sum + convert<double>(force.impulse_m3ps);
+        }
+        expect_ok(world->tank_force(&force));
+        sum = sum + convert<double>(force.impulse_m3ps);
+        const Vec2<double> gained = after.momentum_m3ps - before.momentum_m3ps;
+        const double weight = before.mass_m2 * 9.81 * static_cast<double>(report.dt_s);
+        worst = std::fmax(worst, std::fabs(sum.x + gained.x) / weight);
+        worst = std::fmax(worst, std::fabs(sum.y + gained.y + weight) / weight);
+        before = after;
+    }
+    return worst;
+}
+
+TEST(Force, ActionIsReaction) {
+    EXPECT_LT(largest_gap<float>(Pressure::projection), 1e-4);
+    EXPECT_LT(largest_gap<float>(Pressure::equation_of_state), 1e-3);
+    EXPECT_LT(largest_gap<double>(Pressure::projection), 1e-6);  // the face speaks float
+}
+
+/// Between two steps a free body's momentum changes by what it received, and gravity.
+TEST(FreeBody, TakesExactlyWhatItReceives) {
+    TestWorld<double> world{two_way_def()};
+    const Ring box = rectangle(0.1F, 0.08F);
+    BodyDef floating = body_of(box, {0.45F, 0.3F});
+    BodyId id;
+    expect_ok(world->add_free_body(floating, &id));
+    expect_ok(world->fill({{0, 0}, {0.64F, 0.2F}}));
+    BodyMass mass;
+    expect_ok(world->mass(id, &mass));
+    const double m = static_cast<double>(mass.mass_m2);
+    Motion before;
+    Motion after;
+    expect_ok(world->motion(id, &before));
+    double gained = 0;
+    double received = 0;
+    for (int k = 0; k < 200; ++k) {
+        const double dt = static_cast<double>(world->step(kDt).dt_s);
+        BodyForce force;
+        expect_ok(world->force(id, &force));
+        received += static_cast<double>(force.impulse_m3ps.y) - m * 9.81 * dt;
+    }
+    expect_ok(world->motion(id, &after));
+    gained = m * static_cast<double>(after.velocity_mps.y - before.velocity_mps.y);
+    EXPECT_NEAR(gained, received, 0.01 * m) << "blows of the last substep are still to come";
+}
+
+/// Light or heavy, pushed about by a breaking dam: nothing explodes.
+TEST(FreeBody, AnyDensityIsStable) {
+    for (const Pressure pressure : {Pressure::projection, Pressure::equation_of_state}) {
+        for (const float density : {0.001F, 0.05F, 0.9F, 1000.0F}) {
+            if (pressure == Pressure::equation_of_state && density < 0.1F) {
+                continue;  // explicit: a light body asks for steps that this scheme does not make
+            }
+            WorldDef def = two_way_def();
+            def.pressure = pressure;
+            TestWorld<float> world{def};
+            const Ring box = rectangle(0.12F, 0.08F);
+            BodyDef body = body_of(box, {0.45F, 0.3F}, 0.2F);
+            body.density_ratio = density;
+            BodyId id;
+            expect_ok(world->add_free_body(body, &id));
+            expect_ok(world->fill({{0, 0}, {0.25F, 0.4F}}));
+            const std::int32_t particles = world->particle_positions().size;
+            Motion m;
+            float fastest = 0;
+            for (int k = 0; k < 300; ++k) {
+                world->step(kDt);
+                expect_ok(world->motion(id, &m));
+                fastest = std::fmax(fastest, std::fabs(m.velocity_mps.y));
+            }
+            EXPECT_TRUE(all_inside(*world));
+            EXPECT_GE(world->particle_positions().size, particles * 99 / 100);
+            EXPECT_LT(fastest, 10.0F) << density << (pressure == Pressure::projection ? "" : " eos");
+            if (density < 1) {
+                EXPECT_GT(m.position_m.y, 0.08F) << "it floats: " << density;
+            } else {
+                EXPECT_LT(m.position_m.y, 0.08F) << "it sank: " << density;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace weir
