@@ -309,8 +309,10 @@ bool meet_thin(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool follo
         answer_all(scene, k, stop);
         scene.result.reflected += follow ? 1 : 0;
     }
-    if (way_out_of_thin(thin, scene.shape, scene.walls.body, kept, stop)) {
-        scene.particles.position[k] = stop.place;
+    ThinStop<Real> way;
+    if (way_out_of_thin(thin, scene.shape, scene.walls.body, kept, stop) &&
+        keep_side(thin, scene.shape, scene.walls.body, kept, stop.place, false, way)) {
+        scene.particles.position[k] = way.place;
         answer_all(scene, k, stop);
         scene.result.reflected += follow ? 1 : 0;
     }
