@@ -4,12 +4,12 @@ namespace weir {
 
 template <class Real>
 void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t first_i,
-             std::int32_t first_j, Real amount, const VelocityOf<Real>* field,
+             std::int32_t first_j, const Part& rows, Real amount, const VelocityOf<Real>* field,
              VelocityOf<Real>* out) {
     const bool along_x = share.back == 1;
     // The face before the one on the seam has cells that lie two beyond it: its image has not.
     const std::int32_t period = share.back * (along_x ? s.nx : s.ny);
-    for (std::int32_t j = first_j; j < s.ny; ++j) {
+    for (std::int32_t j = maximum(first_j, rows.first); j < rows.end; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
             const Real own = share.at(face);
@@ -30,13 +30,14 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
     }
 }
 
-template void diffuse(const GridShape&, const FaceShare<float>&, std::int32_t, std::int32_t, float,
-                      const float*, float*);
-template void diffuse(const GridShape&, const FaceShare<double>&, std::int32_t, std::int32_t,
-                      double, const double*, double*);
-template void diffuse(const GridShape&, const FaceShare<Fixed>&, std::int32_t, std::int32_t, Fixed,
-                      const Fixed*, Fixed*);
-template void diffuse(const GridShape&, const FaceShare<SmallFixed>&, std::int32_t, std::int32_t,
-                      SmallFixed, const VelocityOf<SmallFixed>*, VelocityOf<SmallFixed>*);
+#define WEIR_INSTANTIATE(Real)                                                            \
+    template void diffuse(const GridShape&, const FaceShare<Real>&, std::int32_t,         \
+                          std::int32_t, const Part&, Real, const VelocityOf<Real>*,       \
+                          VelocityOf<Real>*);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -31,7 +31,7 @@ struct FaceShare {
 /// lines of the field have been extended. `out` keeps its value where no liquid is.
 template <class Real>
 void diffuse(const GridShape& shape, const FaceShare<Real>& share, std::int32_t first_i,
-             std::int32_t first_j, Real amount, const VelocityOf<Real>* field,
+             std::int32_t first_j, const Part& rows, Real amount, const VelocityOf<Real>* field,
              VelocityOf<Real>* out);
 
 }  // namespace weir

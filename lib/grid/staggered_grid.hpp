@@ -6,6 +6,9 @@
 // All arrays share one numbering with a ring of ghost cells, i = −1 … nx, j = −1 … ny.
 #pragma once
 
+#include <cstring>
+
+#include "base/work.hpp"
 #include "math/vec2.hpp"
 
 namespace weir {
@@ -16,8 +19,17 @@ struct GridShape {
     std::int32_t stride = 0;  ///< nx + 2: from a cell to the one above it
 
     std::int32_t size() const { return stride * (ny + 2); }
+    /// Entries of the lines along all borders: what it costs to fill them.
+    std::int32_t border() const { return 2 * (nx + ny + 4); }
     std::int32_t index(std::int32_t i, std::int32_t j) const { return (j + 1) * stride + i + 1; }
 };
+
+/// Copies some rows of a field, ghost rows counted from the lowest.
+template <class Field>
+inline void copy_rows(const GridShape& s, const Part& rows, const Field* from, Field* to) {
+    std::memcpy(static_cast<void*>(to + rows.first * s.stride), from + rows.first * s.stride,
+                static_cast<std::size_t>((rows.end - rows.first) * s.stride) * sizeof(Field));
+}
 
 /// Level of a cell that no particle reaches (level_of_density(0)), cells.
 template <class Real>

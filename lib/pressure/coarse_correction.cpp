@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "pressure/coarse_seams.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
 
@@ -165,40 +166,6 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
     }
 }
 
-/// A seam's faces, and cells beyond it, are those of the other side. `step`: along the seam.
-template <class Real>
-void join(Real* field, std::int32_t low, std::int32_t high, std::int32_t step,
-          std::int32_t count) {
-    for (std::int32_t k = 0; k < count; ++k) {
-        const Real sum = field[low + k * step] + field[high + k * step];
-        field[low + k * step] = sum;
-        field[high + k * step] = sum;
-    }
-}
-
-template <class Real>
-void join_faces(const Borders<Real>& borders, const GridShape& big, Real* on_u, Real* on_v) {
-    if (borders.wrap_x) {
-        join(on_u, big.index(0, 0), big.index(big.nx, 0), big.stride, big.ny);
-    }
-    if (borders.wrap_y) {
-        join(on_v, big.index(0, 0), big.index(0, big.ny), 1, big.nx);
-    }
-}
-
-/// Of a cell field: what the ghosts took goes to the cells that they stand for.
-template <class Real>
-void join_cells(const Borders<Real>& borders, const GridShape& big, Real* field) {
-    if (borders.wrap_x) {
-        join(field, big.index(0, 0), big.index(big.nx, 0), big.stride, big.ny);
-        join(field, big.index(-1, 0), big.index(big.nx - 1, 0), big.stride, big.ny);
-    }
-    if (borders.wrap_y) {
-        join(field, big.index(0, 0), big.index(0, big.ny), 1, big.nx);
-        join(field, big.index(0, -1), big.index(0, big.ny - 1), 1, big.nx);
-    }
-}
-
 /// How a patch's cells share in its own and its neighbours' unknowns: linear between the centres,
 /// and to the surface.
 template <class Real>
@@ -277,60 +244,70 @@ void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>
 }
 
 template <class Real>
-void relax(const Borders<Real>& borders, CoarseGrid<Real>& coarse) {
+void relax(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
     const GridShape& s = coarse.shape;
     Real* p = coarse.correction;
-    const Real omega = over_relaxation<Real>(coarse.last_row - coarse.first_row + 1);
-    for (std::int32_t half_sweep = 0; half_sweep < 2 * kCoarseSweeps; ++half_sweep) {
-        for (std::int32_t j = coarse.first_row; j <= coarse.last_row; ++j) {
-            for (std::int32_t i = (j + half_sweep) & 1; i < s.nx; i += 2) {
-                const std::int32_t q = s.index(i, j);
-                const Real inverse = coarse.inverse_diagonal[q];
-                if (inverse == Real(0)) {
-                    continue;
-                }
-                const std::int32_t up = q + s.stride;
-                const Real sum =
-                    (coarse.weight_u[q] * p[q - 1] + coarse.weight_u[q + 1] * p[q + 1]) +
-                    (coarse.weight_v[q] * p[q - s.stride] + coarse.weight_v[up] * p[up]);
-                p[q] += omega * ((sum + coarse.residual[q]) * inverse - p[q]);
+    const std::int32_t depth = maximum(0, coarse.last_row - coarse.first_row + 1);
+    const Real omega = over_relaxation<Real>(depth);
+    const Part part = work.take(2 * kCoarseSweeps * depth, (s.nx + 1) / 2);
+    for (std::int32_t at = part.first; at < part.end; ++at) {
+        const std::int32_t j = coarse.first_row + at % depth;
+        for (std::int32_t i = (j + at / depth) & 1; i < s.nx; i += 2) {
+            const std::int32_t q = s.index(i, j);
+            const Real inverse = coarse.inverse_diagonal[q];
+            if (inverse == Real(0)) {
+                continue;
             }
+            const std::int32_t up = q + s.stride;
+            const Real sum = (coarse.weight_u[q] * p[q - 1] + coarse.weight_u[q + 1] * p[q + 1]) +
+                             (coarse.weight_v[q] * p[q - s.stride] + coarse.weight_v[up] * p[up]);
+            p[q] += omega * ((sum + coarse.residual[q]) * inverse - p[q]);
         }
-        extend_cells(borders, s, p);
+        if (j == coarse.last_row) {
+            extend_cells(borders, s, p);
+        }
     }
 }
 
 }  // namespace
 
 template <bool Solids, bool Mixed, class Real>
-void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights,
-                   PressureFields<Real>& fields) {
+void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFields<Real>& fields,
+                   Work work) {
     CoarseGrid<Real>& coarse = fields.coarse;
     const GridShape& s = weights.grid.shape;
     const GridShape& big = coarse.shape;
-    Real* const fresh[] = {coarse.residual, coarse.inverse_diagonal, coarse.weight_u,
-                           coarse.weight_v, coarse.centre_x,         coarse.centre_y};
-    for (Real* field : fresh) {
-        clear(field, big);
+    if (work.once(8 * big.size())) {
+        Real* const fresh[] = {coarse.residual, coarse.inverse_diagonal, coarse.weight_u,
+                               coarse.weight_v, coarse.centre_x,         coarse.centre_y};
+        for (Real* field : fresh) {
+            clear(field, big);
+        }
+        if (Mixed) {
+            clear(coarse.reach_u, big);
+            clear(coarse.reach_v, big);
+        }
     }
-    if (Mixed) {
-        clear(coarse.reach_u, big);
-        clear(coarse.reach_v, big);
+    for_each_patch(s, big, work,
+                   [&](const Patch& patch) { find_centre(s, fields, patch, coarse); });
+    if (work.once(3 * big.border())) {
+        extend_cells(weights.borders, big, coarse.residual);
+        extend_cells(weights.borders, big, coarse.centre_x);
+        extend_cells(weights.borders, big, coarse.centre_y);
     }
-    for_each_patch(s, big, [&](const Patch& patch) { find_centre(s, fields, patch, coarse); });
-    extend_cells(weights.borders, big, coarse.residual);
-    extend_cells(weights.borders, big, coarse.centre_x);
-    extend_cells(weights.borders, big, coarse.centre_y);
-    for_each_patch(
-        s, big, [&](const Patch& patch) { add_patch(weights, fields, patch, coarse); });
-    join_cells(weights.borders, big, coarse.inverse_diagonal);
-    join_faces(weights.borders, big, coarse.weight_u, coarse.weight_v);
-    if (Mixed) {
-        join_faces(weights.borders, big, coarse.reach_u, coarse.reach_v);
+    for_each_patch(s, big, work,
+                   [&](const Patch& patch) { add_patch(weights, fields, patch, coarse); });
+    if (work.once(4 * big.border())) {
+        join_cells(weights.borders, big, coarse.inverse_diagonal);
+        join_faces(weights.borders, big, coarse.weight_u, coarse.weight_v);
+        if (Mixed) {
+            join_faces(weights.borders, big, coarse.reach_u, coarse.reach_v);
+        }
+        coarse.first_row = big.ny;
+        coarse.last_row = -1;
     }
-    coarse.first_row = big.ny;
-    coarse.last_row = -1;
-    for (std::int32_t j = 0; j < big.ny; ++j) {
+    const Part rows = work.take(big.ny, big.nx);
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < big.nx; ++i) {
             const std::int32_t q = big.index(i, j);
             const Real diagonal =
@@ -346,21 +323,25 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights,
 }
 
 template <bool Solids, bool Mixed, class Real>
-void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights,
-                    PressureFields<Real>& fields) {
+void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFields<Real>& fields,
+                    Work work) {
     CoarseGrid<Real>& coarse = fields.coarse;
     const GridShape& s = weights.grid.shape;
     const GridShape& big = coarse.shape;
-    clear(coarse.residual, big);
-    clear(coarse.correction, big);
-    for_each_patch(s, big, [&](const Patch& patch) {
+    if (work.once(2 * big.size())) {
+        clear(coarse.residual, big);
+        clear(coarse.correction, big);
+    }
+    for_each_patch(s, big, work, [&](const Patch& patch) {
         if (coarse.inverse_diagonal[patch.q] != Real(0)) {
             gather_residual(weights, fields, patch, coarse);
         }
     });
-    join_cells(weights.borders, big, coarse.residual);
-    relax(weights.borders, coarse);
-    for_each_patch(s, big, [&](const Patch& patch) {
+    if (work.once(big.border())) {
+        join_cells(weights.borders, big, coarse.residual);
+    }
+    relax(weights.borders, work, coarse);
+    for_each_patch(s, big, work, [&](const Patch& patch) {
         if (coarse.inverse_diagonal[patch.q] != Real(0)) {
             add_correction(s, patch, fields);
         }
@@ -373,7 +354,7 @@ void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields
     for (std::int32_t q = 0; q < coarse.shape.size(); ++q) {
         coarse.correction[q] = factor * coarse.correction[q];
     }
-    for_each_patch(shape, coarse.shape, [&](const Patch& patch) {
+    for_each_patch(shape, coarse.shape, Work(), [&](const Patch& patch) {
         if (coarse.inverse_diagonal[patch.q] != Real(0)) {
             add_correction(shape, patch, fields);
         }
@@ -381,8 +362,10 @@ void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields
 }
 
 #define WEIR_INSTANTIATE_FOR(Solids, Mixed, Real)                                        \
-    template void set_up_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&); \
-    template void correct_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&);
+    template void set_up_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&,  \
+                                Work);                                                           \
+    template void correct_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&, \
+                                 Work);
 #define WEIR_INSTANTIATE(Real)                \
     template void add_again(const GridShape&, Real, PressureFields<Real>&); \
     WEIR_INSTANTIATE_FOR(false, false, Real)  \

@@ -18,12 +18,12 @@ namespace weir {
 /// `set_up` once a solve, after the fine equations; `correct` then adds one correction.
 /// Order: by row. Cost: set-up about 2 sweeps on the fine grid, each correction about 3.
 template <bool Solids, bool Mixed, class Real>
-void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights,
-                   PressureFields<Real>& fields);
+void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFields<Real>& fields,
+                   Work work);
 
 template <bool Solids, bool Mixed, class Real>
-void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights,
-                    PressureFields<Real>& fields);
+void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFields<Real>& fields,
+                    Work work);
 
 /// Adds the last correction once more, times a factor.
 template <class Real>

@@ -13,11 +13,12 @@ constexpr Real kBulkViscosity = Real(0.2);
 template <class Real>
 void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real sound_speed, StaggeredGrid<Real>& grid,
-                       PressureFields<Real>& fields) {
+                       PressureFields<Real>& fields, Work work) {
     const GridShape& s = grid.shape;
     const Real stiffness = dt_s * sound_speed * sound_speed;
     const Real damping = dt_s * kBulkViscosity<Real> * sound_speed;
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    const Part cells = work.take(s.ny, s.nx);
+    for (std::int32_t j = cells.first; j < cells.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             const Real compression = fields.density[c] - Real(1);
@@ -30,9 +31,12 @@ void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, S
             fields.pressure[c] = pressure;
         }
     }
-    extend_cells(borders, s, fields.pressure);
-    fields.last_dt = dt_s;
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    if (work.once(s.border())) {
+        extend_cells(borders, s, fields.pressure);
+        fields.last_dt = dt_s;
+    }
+    const Part faces = work.take(s.ny, s.nx);
+    for (std::int32_t j = faces.first; j < faces.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             if ((i > 0 || borders.wrap_x) && (!walls.active || walls.open_u[c] > Real(0))) {
@@ -46,13 +50,13 @@ void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, S
 }
 
 template void equation_of_state(const Borders<float>&, const Walls<float>&, float, float,
-                                StaggeredGrid<float>&, PressureFields<float>&);
+                                StaggeredGrid<float>&, PressureFields<float>&, Work);
 template void equation_of_state(const Borders<double>&, const Walls<double>&, double, double,
-                                StaggeredGrid<double>&, PressureFields<double>&);
+                                StaggeredGrid<double>&, PressureFields<double>&, Work);
 template void equation_of_state(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
-                                StaggeredGrid<Fixed>&, PressureFields<Fixed>&);
+                                StaggeredGrid<Fixed>&, PressureFields<Fixed>&, Work);
 template void equation_of_state(const Borders<SmallFixed>&, const Walls<SmallFixed>&,
                                 Seconds<SmallFixed>, SmallFixed, StaggeredGrid<SmallFixed>&,
-                                PressureFields<SmallFixed>&);
+                                PressureFields<SmallFixed>&, Work);
 
 }  // namespace weir

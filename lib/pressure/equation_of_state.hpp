@@ -13,6 +13,6 @@ namespace weir {
 template <class Real>
 void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real sound_speed, StaggeredGrid<Real>& grid,
-                       PressureFields<Real>& fields);
+                       PressureFields<Real>& fields, Work work = {});
 
 }  // namespace weir

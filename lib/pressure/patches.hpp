@@ -14,10 +14,11 @@ struct Patch {
     std::int32_t height;
 };
 
-/// By row, from below.
+/// By row, from below: as many rows as the work allows.
 template <class Visit>
-void for_each_patch(const GridShape& s, const GridShape& big, Visit visit) {
-    for (std::int32_t row = 0; row < big.ny; ++row) {
+void for_each_patch(const GridShape& s, const GridShape& big, Work work, Visit visit) {
+    const Part rows = work.take(big.ny, kCoarseEdge * s.nx);
+    for (std::int32_t row = rows.first; row < rows.end; ++row) {
         const std::int32_t j = kCoarseEdge * row;
         for (std::int32_t column = 0; column < big.nx; ++column) {
             const std::int32_t i = kCoarseEdge * column;

@@ -23,6 +23,18 @@ struct CoarseGrid {
     std::int32_t last_row = -1;
 };
 
+/// One solve, between its parts.
+template <class Real>
+struct Solve {
+    std::int32_t first_row = 0;  ///< these hold all the liquid
+    std::int32_t last_row = -1;
+    std::int32_t cycles = 0;
+    Real rescale = Real(0);      ///< of the last pressure p, to start from
+    Real share = Real(1);        ///< of that, in the end
+    Product<Real> wanted{};      ///< pᵀb, of the equations Ap = b
+    Product<Real> there{};       ///< pᵀAp, but for its diagonal at first
+};
+
 template <class Real>
 struct PressureFields {
     Real* pressure = nullptr;          ///< dt · p / ρ (the first liquid's), cells²/s; 0 in air
@@ -34,6 +46,7 @@ struct PressureFields {
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     Real gravity_change = Real(1);     ///< strength of gravity now over then, at most 1
+    Solve<Real> solve = {};
 };
 
 }  // namespace weir

@@ -39,21 +39,14 @@ struct Rows {
     std::int32_t high = -1;
 };
 
-/// The equations Ap = b, and the old pressure p in them.
-template <class Real>
-struct System {
-    Rows rows;
-    Product<Real> wanted{};  ///< pᵀb
-    Product<Real> own{};     ///< pᵀ(diagonal of A)p
-};
-
 template <bool Solids, bool Mixed, class Real>
-System<Real> build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale,
-                   PressureFields<Real>& fields) {
+void build(const FaceWeights<Solids, Mixed, Real>& weights, const Part& part,
+           PressureFields<Real>& fields) {
     const Walls<Real>& walls = weights.walls;
     const GridShape& s = weights.grid.shape;
-    System<Real> system{{s.ny, -1}};
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    const Real rescale = fields.solve.rescale;
+    Solve<Real> system = fields.solve;
+    for (std::int32_t j = part.first; j < part.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             const Real level = fields.level[c];
@@ -99,12 +92,27 @@ System<Real> build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale
             const Real scaled = fields.pressure[c] * rescale;
             const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);
             fields.pressure[c] = start;
-            system.rows = {minimum(system.rows.low, j), j};
+            system.first_row = minimum(system.first_row, j);
+            system.last_row = j;
             system.wanted = system.wanted - product(start, divergence);
-            system.own = system.own + product(start * diagonal, start);
+            system.there = system.there + product(start * diagonal, start);
         }
     }
-    return system;
+    fields.solve = system;
+}
+
+/// How much of the old pressure p to start from: eighths, or all. `wanted`: pᵀb, `there`: pᵀAp.
+template <class Real>
+Real share_of_start(Product<Real> wanted, Product<Real> there) {
+    const Product<Real> twice = wanted + wanted;
+    if (twice >= there) {
+        return Real(1);
+    }
+    const Product<Real> eight_times = (twice + twice) + (twice + twice);
+    const Real share = eight_times >= (there + there) + there
+                           ? Real(0.375)
+                           : (eight_times >= there + there ? Real(0.25) : Real(0.125));
+    return eight_times >= there ? share : Real(0);
 }
 
 /// The old pressure is where the solve starts, but not if it is further from the solution than no
@@ -113,12 +121,16 @@ System<Real> build(const FaceWeights<Solids, Mixed, Real>& weights, Real rescale
 /// pressure; eighths are near enough. From such a start sweeps leave the velocity with no more
 /// energy than it came with.
 template <bool Solids, bool Mixed, class Real>
-void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, const System<Real>& system,
+void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
                  PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
+    Solve<Real>& solve = fields.solve;
     Real* p = fields.pressure;
-    Product<Real> there = system.own;
-    for (std::int32_t j = system.rows.low; j <= system.rows.high; ++j) {
+    const std::int32_t depth = maximum(0, solve.last_row - solve.first_row + 1);
+    const Part weighed = work.take(depth, s.nx);
+    Product<Real> there = solve.there;
+    for (std::int32_t at = weighed.first; at < weighed.end; ++at) {
+        const std::int32_t j = solve.first_row + at;
         for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
             const Real inverse = fields.inverse_diagonal[c];
             if (inverse != Real(0)) {
@@ -126,21 +138,21 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, const System<R
             }
         }
     }
-    const Product<Real> twice = system.wanted + system.wanted;
-    if (twice >= there) {
-        return;  // nearer than none
+    solve.there = there;
+    if (work.once(1)) {
+        solve.share = share_of_start<Real>(solve.wanted, there);
     }
-    const Product<Real> eight_times = (twice + twice) + (twice + twice);
-    Real share = eight_times >= (there + there) + there
-                     ? Real(0.375)
-                     : (eight_times >= there + there ? Real(0.25) : Real(0.125));
-    share = eight_times >= there ? share : Real(0);
-    for (std::int32_t j = system.rows.low; j <= system.rows.high; ++j) {
+    const bool nearer = solve.share == Real(1);  // than no pressure at all
+    const Part scaled = work.take(nearer ? 0 : depth, s.nx);
+    for (std::int32_t at = scaled.first; at < scaled.end; ++at) {
+        const std::int32_t j = solve.first_row + at;
         for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
-            p[c] = share * p[c];
+            p[c] = solve.share * p[c];
         }
     }
-    extend_cells(weights.borders, s, p);
+    if (work.once(s.border()) && !nearer) {
+        extend_cells(weights.borders, s, p);
+    }
 }
 
 template <bool Solids, bool Mixed, class Real>
@@ -178,12 +190,12 @@ inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32
 }
 
 template <bool Solids, bool Mixed, class Real>
-void project(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFields<Real>& fields,
-             StaggeredGrid<Real>& grid) {
+void project(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
+             const PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const ShareOf<Real>* open_u = Solids ? weights.walls.open_u : nullptr;
     const ShareOf<Real>* open_v = Solids ? weights.walls.open_v : nullptr;
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             if (weights.has_left(i)) {
@@ -223,43 +235,85 @@ void yield_to_correction(const CoupledSolve<Real>& coupled, PressureFields<Real>
     coupled.stages->set_aside(coupled);
 }
 
+/// Sweep after sweep, one colour and then the other, row by row.
 template <bool Solids, bool Mixed, class Real>
-void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
-           std::int32_t cycles, std::int32_t sweeps, const CoupledSolve<Real>* coupled,
-           StaggeredGrid<Real>& grid, PressureFields<Real>& fields) {
+void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
+           const CoupledSolve<Real>* coupled, Work work, PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t lowest = fields.solve.first_row;
+    const std::int32_t depth = maximum(0, fields.solve.last_row - lowest + 1);
+    const Part part = work.take(2 * sweeps * depth, (s.nx + 1) / 2);
+    for (std::int32_t at = part.first; at < part.end;) {
+        const std::int32_t half_sweep = at / depth;
+        const std::int32_t begin = half_sweep * depth;
+        const std::int32_t end = minimum(part.end, begin + depth);
+        const Rows rows{lowest + at - begin, lowest + end - begin - 1};
+        if constexpr (Stored<Real>::shares_momentum) {
+            relax_packed(weights, rows.low, rows.high, depth, half_sweep & 1, fields);
+        } else {
+            relax(weights, rows, half_sweep & 1, fields);
+        }
+        if (end == begin + depth) {
+            if (coupled != nullptr) {
+                coupled->stages->relax(*coupled, kRelaxation<Real>, half_sweep & 1);
+            }
+            extend_cells(weights.borders, s, fields.pressure);
+        }
+        at = end;
+    }
+}
+
+template <bool Solids, bool Mixed, class Real>
+void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t sweeps,
+           const CoupledSolve<Real>* coupled, StaggeredGrid<Real>& grid,
+           PressureFields<Real>& fields, Work work) {
+    const GridShape& s = grid.shape;
     const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
-    const System<Real> system = build(weights, rescale, fields);
-    const Rows rows = system.rows;
-    extend_cells(borders, grid.shape, fields.pressure);
+    build(weights, work.take(s.ny, s.nx), fields);
+    if (work.once(s.border())) {
+        extend_cells(borders, s, fields.pressure);
+    }
     if (!fields.on_surface) {
-        weigh_start(weights, system, fields);
+        weigh_start(weights, work, fields);
     }
     if constexpr (Stored<Real>::shares_momentum) {
-        relax_packed(weights, rows.low, rows.high, cycles * (sweeps + kSweepsForCoarse), fields);
+        sweep(weights, fields.solve.cycles * (sweeps + kSweepsForCoarse), coupled, work, fields);
     } else {
-        set_up_coarse(weights, fields);
-        for (std::int32_t cycle = 0; cycle < cycles; ++cycle) {
-            if (coupled != nullptr) {
+        set_up_coarse(weights, fields, work);
+        for (std::int32_t cycle = 0; cycle < fields.solve.cycles; ++cycle) {
+            if (coupled != nullptr && work.once(s.size())) {
                 coupled->stages->begin(*coupled);
             }
-            correct_coarse(weights, fields);
-            if (coupled != nullptr) {
+            correct_coarse(weights, fields, work);
+            if (coupled != nullptr && work.once(s.size())) {
                 yield_to_correction(*coupled, fields);
             }
-            extend_cells(borders, grid.shape, fields.pressure);
-            for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
-                relax(weights, rows, half_sweep & 1, fields);
-                if (coupled != nullptr) {
-                    coupled->stages->relax(*coupled, kRelaxation<Real>, half_sweep & 1);
-                }
-                extend_cells(borders, grid.shape, fields.pressure);
+            if (work.once(s.border())) {
+                extend_cells(borders, s, fields.pressure);
             }
-            if (coupled != nullptr) {
+            sweep(weights, sweeps, coupled, work, fields);
+            if (coupled != nullptr && work.once(s.size())) {
                 coupled->stages->end(*coupled);
             }
         }
     }
-    project(weights, fields, grid);
+    project(weights, work.take(s.ny, s.nx), fields, grid);
+}
+
+/// What a solve starts from.
+template <class Real>
+Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Real>& fields) {
+    const bool cold = !(fields.last_dt > Seconds<Real>{});
+    // A much longer step than the last starts from less than the last pressure would suggest.
+    const Real rescale =
+        cold ? Real(0) : minimum(fields.gravity_change * (dt_s / fields.last_dt), Real(16));
+    fields.gravity_change = Real(1);
+    fields.last_dt = dt_s;
+    Solve<Real> solve;
+    solve.first_row = rows;
+    solve.cycles = cold ? kColdStart : 1;
+    solve.rescale = rescale;
+    return solve;
 }
 
 }  // namespace
@@ -267,26 +321,21 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, Real rescale,
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
-                const CoupledSolve<Real>* coupled) {
-    // A much longer step than the last starts from less than the last pressure would suggest.
-    const Real rescale =
-        fields.last_dt > Seconds<Real>{}
-            ? minimum(fields.gravity_change * (dt_s / fields.last_dt), Real(16))
-            : Real(0);
-    fields.gravity_change = Real(1);
-    const std::int32_t cycles = fields.last_dt > Seconds<Real>{} ? 1 : kColdStart;
-    fields.last_dt = dt_s;
+                const CoupledSolve<Real>* coupled, Work work) {
+    if (work.once(1)) {
+        fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
+    }
     const bool mixed = grid.inverse_density_u != nullptr;
     const auto solver = walls.active ? (mixed ? solve<true, true, Real> : solve<true, false, Real>)
                                      : (mixed ? solve<false, true, Real>
                                               : solve<false, false, Real>);
-    solver(borders, walls, rescale, cycles, sweeps, coupled, grid, fields);
+    solver(borders, walls, sweeps, coupled, grid, fields, work);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \
     template void projection(const Borders<Real>&, const Walls<Real>&, Seconds<Real>,         \
                              std::int32_t, StaggeredGrid<Real>&, PressureFields<Real>&,       \
-                             const CoupledSolve<Real>*);
+                             const CoupledSolve<Real>*, Work);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -18,7 +18,7 @@ namespace weir {
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
-                const CoupledSolve<Real>* coupled = nullptr);
+                const CoupledSolve<Real>* coupled = nullptr, Work work = {});
 
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face
 /// between them answers to the pressure by its inverse.

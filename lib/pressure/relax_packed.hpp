@@ -89,18 +89,16 @@ Real best_relaxation(std::int32_t rows) {
     return Real(2) / (Real(1) + Real(1.5707963) / n);
 }
 
-/// Red-black sweeps over the rows low … high, from the pressures that are there.
+/// One colour of the rows low … high, of the `depth` rows that hold liquid.
 template <bool Solids, bool Mixed, class Real>
 void relax_packed(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t low,
-                  std::int32_t high, std::int32_t sweeps, PressureFields<Real>& fields) {
+                  std::int32_t high, std::int32_t depth, std::int32_t colour,
+                  PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    const Real omega = best_relaxation<Real>(high - low + 1);
-    for (std::int32_t half_sweep = 0; half_sweep < 2 * sweeps; ++half_sweep) {
-        for (std::int32_t j = low; j <= high; ++j) {
-            relax_packed_row<Solids>(fields, weights.walls, omega, s.stride,
-                                     s.index((j + half_sweep) & 1, j), s.index(s.nx, j));
-        }
-        extend_cells(weights.borders, s, fields.pressure);
+    const Real omega = best_relaxation<Real>(depth);
+    for (std::int32_t j = low; j <= high; ++j) {
+        relax_packed_row<Solids>(fields, weights.walls, omega, s.stride,
+                                 s.index((j + colour) & 1, j), s.index(s.nx, j));
     }
 }
 

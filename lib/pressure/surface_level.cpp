@@ -31,11 +31,11 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
 
 template <class Real>
 void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
-                        Real rest_count, PressureFields<Real>& fields) {
+                        Real rest_count, const Part& rows, PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
     const ThinWalls<Real>* thin = walls.thin;
     const Real per_face = Real(1) / (Real(4) * rest_count);
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             const Real mass = thin != nullptr && (thin->mark[c] & kTouching) != 0
@@ -108,11 +108,15 @@ Real level_of_density(Real density) {
 
 template <class Real>
 void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
-                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields) {
-    density_from_faces(grid, walls, rest_count, fields);
-    extend_cells(borders, grid.shape, fields.level);
+                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
+                   Work work) {
     const GridShape& s = grid.shape;
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    density_from_faces(grid, walls, rest_count, work.take(s.ny, s.nx), fields);
+    if (work.once(s.border())) {
+        extend_cells(borders, s, fields.level);
+    }
+    const Part rows = work.take(s.ny, s.nx);
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             if (fields.level[c] <= Real(0) &&
@@ -121,7 +125,9 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
             }
         }
     }
-    mirror_cells(borders, s, fields.level);
+    if (work.once(s.border())) {
+        mirror_cells(borders, s, fields.level);
+    }
 }
 
 template float level_of_density(float);
@@ -129,12 +135,13 @@ template double level_of_density(double);
 template Fixed level_of_density(Fixed);
 template SmallFixed level_of_density(SmallFixed);
 template void surface_level(const StaggeredGrid<float>&, const Borders<float>&,
-                            const Walls<float>&, float, PressureFields<float>&);
+                            const Walls<float>&, float, PressureFields<float>&, Work);
 template void surface_level(const StaggeredGrid<double>&, const Borders<double>&,
-                            const Walls<double>&, double, PressureFields<double>&);
+                            const Walls<double>&, double, PressureFields<double>&, Work);
 template void surface_level(const StaggeredGrid<Fixed>&, const Borders<Fixed>&,
-                            const Walls<Fixed>&, Fixed, PressureFields<Fixed>&);
+                            const Walls<Fixed>&, Fixed, PressureFields<Fixed>&, Work);
 template void surface_level(const StaggeredGrid<SmallFixed>&, const Borders<SmallFixed>&,
-                            const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&);
+                            const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&,
+                            Work);
 
 }  // namespace weir

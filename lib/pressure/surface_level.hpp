@@ -17,6 +17,7 @@ Real level_of_density(Real density);
 /// pressure. Order: by row. Cost: 4 sums and about one square root a cell near the surface.
 template <class Real>
 void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
-                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields);
+                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
+                   Work work = {});
 
 }  // namespace weir

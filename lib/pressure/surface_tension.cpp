@@ -19,9 +19,9 @@ constexpr Real kFlat = Real(1.0e-6);
 /// One axis of the smoothing, `step` from cell to cell. Deep in a solid nothing is known: its
 /// neighbour's own value stands there.
 template <class Field, class Real>
-void smooth(const GridShape& s, const Walls<Real>& walls, std::int32_t step, const Field* from,
-            VelocityOf<Real>* to) {
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+void smooth(const GridShape& s, const Walls<Real>& walls, const Part& rows, std::int32_t step,
+            const Field* from, VelocityOf<Real>* to) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             const Real here = minimum(Real(from[c]), Real(1));
@@ -82,15 +82,22 @@ Real surface_curvature(const GridShape& s, const VelocityOf<Real>* f, const Leve
 
 template <class Real>
 void surface_tension(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
-                     Real amount, PressureFields<Real>& fields) {
+                     Real amount, PressureFields<Real>& fields, Work work) {
     VelocityOf<Real>* f = fields.divergence;
     VelocityOf<Real>* between = fields.inverse_diagonal;
-    mirror_cells(borders, s, fields.density);
-    smooth(s, walls, 1, fields.density, between);
-    mirror_cells(borders, s, between);
-    smooth(s, walls, s.stride, between, f);
-    mirror_cells(borders, s, f);
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    if (work.once(s.border())) {
+        mirror_cells(borders, s, fields.density);
+    }
+    smooth(s, walls, work.take(s.ny, s.nx), 1, fields.density, between);
+    if (work.once(s.border())) {
+        mirror_cells(borders, s, between);
+    }
+    smooth(s, walls, work.take(s.ny, s.nx), s.stride, between, f);
+    if (work.once(s.border())) {
+        mirror_cells(borders, s, f);
+    }
+    const Part rows = work.take(s.ny, s.nx);
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             if (!(fields.level[c] > Real(0))) {
@@ -98,17 +105,20 @@ void surface_tension(const GridShape& s, const Borders<Real>& borders, const Wal
             }
         }
     }
-    extend_cells(borders, s, fields.pressure);
-    fields.on_surface = true;
+    if (work.once(s.border())) {
+        extend_cells(borders, s, fields.pressure);
+        fields.on_surface = true;
+    }
 }
 
 template void surface_tension(const GridShape&, const Borders<float>&, const Walls<float>&, float,
-                              PressureFields<float>&);
+                              PressureFields<float>&, Work);
 template void surface_tension(const GridShape&, const Borders<double>&, const Walls<double>&,
-                              double, PressureFields<double>&);
+                              double, PressureFields<double>&, Work);
 template void surface_tension(const GridShape&, const Borders<Fixed>&, const Walls<Fixed>&,
-                              Fixed, PressureFields<Fixed>&);
+                              Fixed, PressureFields<Fixed>&, Work);
 template void surface_tension(const GridShape&, const Borders<SmallFixed>&,
-                              const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&);
+                              const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&,
+                              Work);
 
 }  // namespace weir

@@ -18,6 +18,7 @@ namespace weir {
 /// the liquid.
 template <class Real>
 void surface_tension(const GridShape& shape, const Borders<Real>& borders,
-                     const Walls<Real>& walls, Real amount, PressureFields<Real>& fields);
+                     const Walls<Real>& walls, Real amount, PressureFields<Real>& fields,
+                     Work work = {});
 
 }  // namespace weir

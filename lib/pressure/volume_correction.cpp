@@ -128,23 +128,28 @@ void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 
 template <bool Solids, class Real>
 void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
-             PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
+             PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
-    for (std::int32_t j = 0; j < s.ny; ++j) {
+    const Part cells = work.take(s.ny, s.nx);
+    for (std::int32_t j = cells.first; j < cells.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             fields.divergence[c] = excess(s, fields, c);
         }
     }
-    extend_cells(borders, s, fields.divergence);
+    if (work.once(s.border())) {
+        extend_cells(borders, s, fields.divergence);
+    }
     // Drops under surface tension are small and keep together without.
-    for_each_patch(s, big, [&](const Patch& patch) {
+    for_each_patch(s, big, work, [&](const Patch& patch) {
         fields.coarse.correction[patch.q] =
             fields.on_surface ? Real(0) : average<Solids>(s, walls, patch, fields);
     });
-    mirror_cells(borders, big, fields.coarse.correction);
-    for_each_patch(s, big, [&](const Patch& patch) {
+    if (work.once(big.border())) {
+        mirror_cells(borders, big, fields.coarse.correction);
+    }
+    for_each_patch(s, big, work, [&](const Patch& patch) {
         drift<Solids>(borders, walls, speed, fields, patch, grid);
     });
 }
@@ -153,19 +158,20 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
+                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
+                       Work work) {
     const auto stage = walls.active ? correct<true, Real> : correct<false, Real>;
-    stage(borders, walls, gain / dt_s, fields, grid);
+    stage(borders, walls, gain / dt_s, fields, grid, work);
 }
 
 template void volume_correction(const Borders<float>&, const Walls<float>&, float, float,
-                                PressureFields<float>&, StaggeredGrid<float>&);
+                                PressureFields<float>&, StaggeredGrid<float>&, Work);
 template void volume_correction(const Borders<double>&, const Walls<double>&, double, double,
-                                PressureFields<double>&, StaggeredGrid<double>&);
+                                PressureFields<double>&, StaggeredGrid<double>&, Work);
 template void volume_correction(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
-                                PressureFields<Fixed>&, StaggeredGrid<Fixed>&);
+                                PressureFields<Fixed>&, StaggeredGrid<Fixed>&, Work);
 template void volume_correction(const Borders<SmallFixed>&, const Walls<SmallFixed>&,
                                 Seconds<SmallFixed>, SmallFixed, PressureFields<SmallFixed>&,
-                                StaggeredGrid<SmallFixed>&);
+                                StaggeredGrid<SmallFixed>&, Work);
 
 }  // namespace weir

@@ -14,6 +14,7 @@ namespace weir {
 /// the drift.
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid);
+                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
+                       Work work = {});
 
 }  // namespace weir

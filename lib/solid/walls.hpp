@@ -47,12 +47,13 @@ inline void mark_near(Walls<Real>& walls, const GridShape& shape, std::int32_t i
     word = near ? word | bit : word & ~bit;
 }
 
-/// Calls visit(i, j) for every cell near a wall, row by row. Where there is none, 32 cells cost one
-/// look.
+/// Calls visit(i, j) for every cell of some rows that is near a wall, row by row. Where there is
+/// none, 32 cells cost one look.
 template <class Real, class Visit>
-inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, Visit visit) {
+inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, const Part& rows,
+                          Visit visit) {
     const std::int32_t words = near_words(shape);
-    for (std::int32_t j = 0; j < shape.ny; ++j) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t k = 0; 32 * k < shape.nx; ++k) {
             std::int32_t i = 32 * k;
             for (std::uint32_t left = walls.near[j * words + k]; left != 0; left >>= 1U, ++i) {

@@ -142,23 +142,19 @@ Real mirror_v(const Walls<Real>& walls, const Field<Real>& field, std::int32_t i
 }
 
 template <class Real>
-void mirror_field(const Walls<Real>& walls, const Field<Real>& field,
+void mirror_field(const Walls<Real>& walls, const Field<Real>& field, Work work,
                   PressureFields<Real>& fields, VelocityOf<Real>* u, VelocityOf<Real>* v) {
     const GridShape& s = field.velocity.shape;
     // All are computed before the first is written: they read each other.
-    std::int32_t count = 0;
-    for_each_near(s, walls, [&](std::int32_t i, std::int32_t j) {
+    for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
         const std::int32_t c = s.index(i, j);
-        fields.divergence[count] = i > 0 ? mirror_u(walls, field, i, j) : Real(u[c]);
-        fields.inverse_diagonal[count] = j > 0 ? mirror_v(walls, field, i, j) : Real(v[c]);
-        ++count;
+        fields.divergence[c] = i > 0 ? mirror_u(walls, field, i, j) : Real(u[c]);
+        fields.inverse_diagonal[c] = j > 0 ? mirror_v(walls, field, i, j) : Real(v[c]);
     });
-    count = 0;
-    for_each_near(s, walls, [&](std::int32_t i, std::int32_t j) {
+    for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
         const std::int32_t c = s.index(i, j);
-        u[c] = fields.divergence[count];
-        v[c] = fields.inverse_diagonal[count];
-        ++count;
+        u[c] = fields.divergence[c];
+        v[c] = fields.inverse_diagonal[c];
     });
 }
 
@@ -166,20 +162,20 @@ void mirror_field(const Walls<Real>& walls, const Field<Real>& field,
 
 template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
-                      StaggeredGrid<Real>& grid) {
+                      StaggeredGrid<Real>& grid, Work work) {
     const Field<Real> now{{grid.shape, grid.u, grid.v}, fields.level, mirrored<Real>};
     const Field<Real> was{{grid.shape, grid.mass_u, grid.mass_v}, fields.level, before<Real>};
-    mirror_field(walls, now, fields, grid.u, grid.v);
-    mirror_field(walls, was, fields, grid.mass_u, grid.mass_v);
+    mirror_field(walls, now, work, fields, grid.u, grid.v);
+    mirror_field(walls, was, work, fields, grid.mass_u, grid.mass_v);
 }
 
 template void mirror_in_solids(const Walls<float>&, PressureFields<float>&,
-                               StaggeredGrid<float>&);
+                               StaggeredGrid<float>&, Work);
 template void mirror_in_solids(const Walls<double>&, PressureFields<double>&,
-                               StaggeredGrid<double>&);
+                               StaggeredGrid<double>&, Work);
 template void mirror_in_solids(const Walls<Fixed>&, PressureFields<Fixed>&,
-                               StaggeredGrid<Fixed>&);
+                               StaggeredGrid<Fixed>&, Work);
 template void mirror_in_solids(const Walls<SmallFixed>&, PressureFields<SmallFixed>&,
-                               StaggeredGrid<SmallFixed>&);
+                               StaggeredGrid<SmallFixed>&, Work);
 
 }  // namespace weir

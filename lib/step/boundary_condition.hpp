@@ -18,6 +18,6 @@ namespace weir {
 /// Cost: about 200 operations for each closed face within 1½ cells of a wall.
 template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
-                      StaggeredGrid<Real>& grid);
+                      StaggeredGrid<Real>& grid, Work work = {});
 
 }  // namespace weir

@@ -1,7 +1,5 @@
 #include "step/grid_to_particle.hpp"
 
-#include <cstring>
-
 #include "grid/diffuse.hpp"
 #include "step/tank_walls.hpp"
 #include "step/transfer_lanes.hpp"
@@ -55,7 +53,7 @@ inline Range<Real> range_around(const Field* field, std::int32_t face, std::int3
 /// there: beyond it, a jump such as a wall without slip makes would grow from step to step.
 template <class Real>
 void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real>* level,
-             std::int32_t back, std::int32_t first_i, std::int32_t first_j,
+             std::int32_t back, std::int32_t first_i, std::int32_t first_j, const Part& rows,
              const VelocityOf<Real>* field, VelocityOf<Real>* out) {
     const auto deep = [&](std::int32_t face) {
         return level[face] > Real(0) && level[face - back] > Real(0);
@@ -68,7 +66,7 @@ void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real
         const bool on_seam = (back == 1 ? i : j) == 0;
         return face - back + (on_seam ? back * (back == 1 ? s.nx : s.ny) : 0);
     };
-    for (std::int32_t j = first_j; j < s.ny; ++j) {
+    for (std::int32_t j = maximum(first_j, rows.first); j < rows.end; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
             const std::int32_t along = back == 1 ? s.stride : 1;
@@ -89,19 +87,24 @@ void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real
 
 template <class Real>
 void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
-                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin) {
+                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin, Work work) {
     const GridShape& s = grid.shape;
-    const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof *grid.mass_u;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
-    std::memcpy(static_cast<void*>(sharp_u), grid.mass_u, bytes);
-    std::memcpy(static_cast<void*>(sharp_v), grid.mass_v, bytes);
-    sharpen<Real>(thin, s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, grid.mass_u, sharp_u);
-    sharpen<Real>(thin, s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, grid.mass_v,
+    const Part copied = work.take(s.ny + 2, s.stride);
+    copy_rows(s, copied, grid.mass_u, sharp_u);
+    copy_rows(s, copied, grid.mass_v, sharp_v);
+    const Part rows = work.take(s.ny, s.nx);
+    sharpen<Real>(thin, s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, rows, grid.mass_u,
+                  sharp_u);
+    sharpen<Real>(thin, s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, rows, grid.mass_v,
                   sharp_v);
-    extend_velocity(borders, s, sharp_u, sharp_v);
+    if (work.once(s.border())) {
+        extend_velocity(borders, s, sharp_u, sharp_v);
+    }
     const Real pic_ratio = Real(1) - flip_ratio;
-    for (std::int32_t face = 0; face < s.size(); ++face) {
+    const Part blended = work.take(s.ny + 2, s.stride);
+    for (std::int32_t face = blended.first * s.stride; face < blended.end * s.stride; ++face) {
         grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
         grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
     }
@@ -138,10 +141,10 @@ TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real
 }  // namespace
 
 template <class Real>
-void prepare_gather(StaggeredGrid<Real>& grid) {
+void prepare_gather(StaggeredGrid<Real>& grid, Work work) {
     if constexpr (kHasLanes<Real>) {
         if (grid.pairs != nullptr) {
-            pair_fields(grid);
+            pair_fields(grid, work);
         }
     }
 }
@@ -160,8 +163,8 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
 
 #define WEIR_INSTANTIATE(Real)                                                          \
     template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,       \
-                               StaggeredGrid<Real>&, const ThinWalls<Real>*);           \
-    template void prepare_gather(StaggeredGrid<Real>&);                                 \
+                               StaggeredGrid<Real>&, const ThinWalls<Real>*, Work);     \
+    template void prepare_gather(StaggeredGrid<Real>&, Work);                           \
     template TransferResult<Real> grid_to_particle(                                     \
         const StaggeredGrid<Real>&, const Transfer<Real>&, Particles<Real>&);
 WEIR_INSTANTIATE(float)

@@ -34,7 +34,8 @@ struct Transfer {
 /// The fields' divergence and inverse diagonal are used as scratch.
 template <class Real>
 void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
-                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin = nullptr);
+                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin = nullptr,
+                  Work work = {});
 
 /// Gathers both fields with the weights of particle-to-grid, moves the particle to second order,
 /// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank. Any part of the
@@ -48,6 +49,6 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
 /// Lays the fields that are gathered side by side, where the grid has room for pairs: velocity_u
 /// to mass_v are gone then.
 template <class Real>
-void prepare_gather(StaggeredGrid<Real>& grid);
+void prepare_gather(StaggeredGrid<Real>& grid, Work work = {});
 
 }  // namespace weir

@@ -16,12 +16,17 @@ Real momentum_at(const Real* momentum, std::int32_t face) {
     return value;
 }
 
+/// Faces of some rows, the last one of the grid's at most.
+inline Part faces_of(const GridShape& s, const Part& rows) {
+    return {maximum(s.index(-1, rows.first), s.index(0, 0)),
+            minimum(s.index(-1, rows.end), s.index(s.nx, s.ny) + 1)};
+}
+
 /// Ascending, so that a velocity may stand where the momenta of faces before it stood.
 template <class Real>
-void update(const Real* momentum, VelocityOf<Real>* mass, const GridShape& s, Real gained,
+void update(const Real* momentum, VelocityOf<Real>* mass, const Part& faces, Real gained,
             VelocityOf<Real>* velocity) {
-    const std::int32_t end = s.index(s.nx, s.ny);
-    for (std::int32_t face = s.index(0, 0); face <= end; ++face) {
+    for (std::int32_t face = faces.first; face < faces.end; ++face) {
         const Real m = mass[face];
         const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
         mass[face] = before;
@@ -33,9 +38,8 @@ void update(const Real* momentum, VelocityOf<Real>* mass, const GridShape& s, Re
 /// as dense as the first liquid.
 template <class Real>
 void update_mixed(const Real* momentum, VelocityOf<Real>* volume, VelocityOf<Real>* mass,
-                  const GridShape& s, Real gained, VelocityOf<Real>* velocity) {
-    const std::int32_t end = s.index(s.nx, s.ny);
-    for (std::int32_t face = s.index(0, 0); face <= end; ++face) {
+                  const Part& faces, Real gained, VelocityOf<Real>* velocity) {
+    for (std::int32_t face = faces.first; face < faces.end; ++face) {
         const Real m = mass[face];
         const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
         mass[face] = m > Real(0) ? volume[face] / m : Real(1);
@@ -76,7 +80,7 @@ struct Component {
 
 template <class Real>
 void extrapolate_component(const Component<Real>& component, const PressureFields<Real>& fields,
-                           bool velocity_itself, const GridShape& s) {
+                           bool velocity_itself, const GridShape& s, const Part& rows) {
     const LevelOf<Real>* level = fields.level;
     const std::int32_t back = component.back;
     const auto wet = [&](std::int32_t face) {
@@ -91,7 +95,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
         const Real rise = pressure_rise(fields, face - back, face, open);
         return component.light != nullptr ? Real(component.light[face]) * rise : rise;
     };
-    for (std::int32_t j = component.first_j; j < s.ny; ++j) {
+    for (std::int32_t j = maximum(component.first_j, rows.first); j < rows.end; ++j) {
         for (std::int32_t i = component.first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
             if (wet(face) || empty(face)) {
@@ -127,24 +131,29 @@ void extrapolate_component(const Component<Real>& component, const PressureField
 
 template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s,
-                 const LevelOf<Real>* level, StaggeredGrid<Real>& grid) {
+                 const LevelOf<Real>* level, StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
+    // One component after the other: packed velocities take the place of momenta.
+    const Part on_u = faces_of(s, work.take(s.ny + 1, s.stride));
+    const Part on_v = faces_of(s, work.take(s.ny + 1, s.stride));
     if (grid.inverse_density_u != nullptr) {
-        update_mixed(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, s, gravity.x * dt_s,
-                     grid.u);
-        update_mixed(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, s, gravity.y * dt_s,
-                     grid.v);
+        update_mixed(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, on_u,
+                     gravity.x * dt_s, grid.u);
+        update_mixed(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, on_v,
+                     gravity.y * dt_s, grid.v);
     } else {
-        update(grid.momentum_u(), grid.mass_u, s, gravity.x * dt_s, grid.u);
-        update(grid.momentum_v(), grid.mass_v, s, gravity.y * dt_s, grid.v);
+        update(grid.momentum_u(), grid.mass_u, on_u, gravity.x * dt_s, grid.u);
+        update(grid.momentum_v(), grid.mass_v, on_v, gravity.y * dt_s, grid.v);
     }
-    close_walls(borders, level, grid);
+    if (work.once(s.border())) {
+        close_walls(borders, level, grid);
+    }
 }
 
 template <class Real>
 void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
                  const PressureFields<Real>& fields, bool velocity_itself,
-                 StaggeredGrid<Real>& grid) {
+                 StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
     const ShareOf<Real>* open_u = walls.active ? walls.open_u : nullptr;
     const ShareOf<Real>* open_v = walls.active ? walls.open_v : nullptr;
@@ -152,16 +161,17 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
                             0,      walls.thin};
     const Component<Real> v{grid.v,   grid.inverse_density_v,    open_v,
                             s.stride, 0, borders.wrap_y ? 0 : 1, walls.thin};
-    extrapolate_component(u, fields, velocity_itself, s);
-    extrapolate_component(v, fields, velocity_itself, s);
+    const Part rows = work.take(s.ny, s.nx);
+    extrapolate_component(u, fields, velocity_itself, s, rows);
+    extrapolate_component(v, fields, velocity_itself, s, rows);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                  \
-    template void grid_update(const Borders<Real>&, Vec2<Real>, Seconds<Real>,  \
-                              const LevelOf<Real>*, StaggeredGrid<Real>&);      \
-    template void extrapolate(const Borders<Real>&, const Walls<Real>&,         \
-                              const PressureFields<Real>&, bool,                \
-                              StaggeredGrid<Real>&);
+#define WEIR_INSTANTIATE(Real)                                                   \
+    template void grid_update(const Borders<Real>&, Vec2<Real>, Seconds<Real>,   \
+                              const LevelOf<Real>*, StaggeredGrid<Real>&, Work); \
+    template void extrapolate(const Borders<Real>&, const Walls<Real>&,          \
+                              const PressureFields<Real>&, bool,                 \
+                              StaggeredGrid<Real>&, Work);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -13,7 +13,7 @@ namespace weir {
 /// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
 template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s,
-                 const LevelOf<Real>* level, StaggeredGrid<Real>& grid);
+                 const LevelOf<Real>* level, StaggeredGrid<Real>& grid, Work work = {});
 
 /// Faces in air beside the liquid take from the pressure what the liquid's open faces next to them
 /// do on average: particles at the surface read both. It is the acceleration that goes on smoothly
@@ -23,6 +23,6 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
 template <class Real>
 void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
                  const PressureFields<Real>& fields, bool velocity_itself,
-                 StaggeredGrid<Real>& grid);
+                 StaggeredGrid<Real>& grid, Work work = {});
 
 }  // namespace weir

@@ -42,25 +42,29 @@ Vec2<float> furthest(const Vec2<float>* position, std::int32_t count) {
 #endif
 
 template <class Real>
-void empty_cells(const GridShape& tank, std::int32_t i0, std::int32_t i1, std::int32_t j0,
-                 std::int32_t j1, PressureFields<Real>& fields) {
-    for (std::int32_t j = j0; j < minimum(j1, tank.ny); ++j) {
-        for (std::int32_t i = i0; i < minimum(i1, tank.nx); ++i) {
-            const std::int32_t c = tank.index(i, j);
-            fields.pressure[c] = Real(0);
-            fields.density[c] = Real(0);
-            fields.level[c] = kEmptyLevel<Real>;
-        }
+void empty_row(const GridShape& tank, std::int32_t i0, std::int32_t i1, std::int32_t j,
+               PressureFields<Real>& fields) {
+    for (std::int32_t i = i0; i < i1; ++i) {
+        const std::int32_t c = tank.index(i, j);
+        fields.pressure[c] = Real(0);
+        fields.density[c] = Real(0);
+        fields.level[c] = kEmptyLevel<Real>;
     }
 }
 
 }  // namespace
 
 template <class Real>
-GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
-                        const Particles<Real>& particles) {
+Vec2<PositionOf<Real>> furthest_of(const Particles<Real>& particles,
+                                   Vec2<PositionOf<Real>> so_far) {
     const auto end = furthest(particles.position, particles.count);
-    const Vec2<Real> last{Real(end.x), Real(end.y)};
+    return {maximum(so_far.x, end.x), maximum(so_far.y, end.y)};
+}
+
+template <class Real>
+GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
+                        Vec2<PositionOf<Real>> furthest) {
+    const Vec2<Real> last{Real(furthest.x), Real(furthest.y)};
     GridShape part = tank;
     if (!borders.wrap_x) {
         part.nx = minimum(tank.nx, static_cast<std::int32_t>(last.x) + kMargin);
@@ -73,17 +77,24 @@ GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
 
 template <class Real>
 void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape& now,
-                  PressureFields<Real>& fields) {
+                  PressureFields<Real>& fields, Work work) {
     // The last part's ghost cells lie within the tank, unless it was all of it.
-    empty_cells(tank, 0, last.nx + 1, now.ny, last.ny + 1, fields);
-    empty_cells(tank, now.nx, last.nx + 1, 0, minimum(now.ny, last.ny + 1), fields);
+    const std::int32_t columns = minimum(last.nx + 1, tank.nx);
+    const std::int32_t all_rows = minimum(last.ny + 1, tank.ny);
+    const bool smaller = now.nx < columns || now.ny < all_rows;
+    const Part rows = work.take(smaller ? all_rows : 0, columns);
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        empty_row(tank, j < now.ny ? now.nx : 0, columns, j, fields);
+    }
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \
+    template Vec2<PositionOf<Real>> furthest_of(const Particles<Real>&,                       \
+                                                Vec2<PositionOf<Real>>);                      \
     template GridShape occupied_part(const GridShape&, const Borders<Real>&,                  \
-                                     const Particles<Real>&);                                 \
+                                     Vec2<PositionOf<Real>>);                                 \
     template void empty_beyond(const GridShape&, const GridShape&, const GridShape&,          \
-                               PressureFields<Real>&);
+                               PressureFields<Real>&, Work);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -9,16 +9,21 @@
 
 namespace weir {
 
-/// The part of the tank that this substep needs. Along a seam it is always the whole tank.
+/// The larger of what is known so far and of the particles' places, along either axis.
 /// Cost: 2 comparisons a particle.
 template <class Real>
+Vec2<PositionOf<Real>> furthest_of(const Particles<Real>& particles,
+                                   Vec2<PositionOf<Real>> so_far);
+
+/// The part of the tank that this substep needs. Along a seam it is always the whole tank.
+template <class Real>
 GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
-                        const Particles<Real>& particles);
+                        Vec2<PositionOf<Real>> furthest);
 
 /// Empties the cells that the last substep's part had and this one's has not: pressure, density
 /// and level are what a cell without liquid has.
 template <class Real>
 void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape& now,
-                  PressureFields<Real>& fields);
+                  PressureFields<Real>& fields, Work work);
 
 }  // namespace weir

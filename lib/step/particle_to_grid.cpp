@@ -9,10 +9,11 @@ namespace weir {
 
 namespace {
 
+/// Rows, ghost rows included, from the lowest.
 template <class Field>
-void clear(Field* field, const GridShape& shape) {
-    std::memset(static_cast<void*>(field), 0,
-                static_cast<std::size_t>(shape.size()) * sizeof(Field));
+void clear(Field* field, const GridShape& shape, const Part& rows) {
+    std::memset(static_cast<void*>(field + rows.first * shape.stride), 0,
+                static_cast<std::size_t>((rows.end - rows.first) * shape.stride) * sizeof(Field));
 }
 
 template <class Mass, class Real>
@@ -54,18 +55,21 @@ inline void scatter_mixed(Mass* volume, Mass* mass, Real* momentum, std::int32_t
 template <class Real>
 void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
                          Real second_density, StaggeredGrid<Real>& grid,
-                         const ThinWalls<Real>* thin) {
+                         const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
-    clear(grid.momentum_u(), shape);
-    clear(grid.momentum_v(), shape);
-    clear(grid.mass_u, shape);
-    clear(grid.mass_v, shape);
-    clear(grid.inverse_density_u, shape);
-    clear(grid.inverse_density_v, shape);
+    const Part rows = work.take(shape.ny + 2, shape.stride);
+    clear(grid.momentum_u(), shape, rows);
+    clear(grid.momentum_v(), shape, rows);
+    clear(grid.mass_u, shape, rows);
+    clear(grid.mass_v, shape, rows);
+    clear(grid.inverse_density_u, shape, rows);
+    clear(grid.inverse_density_v, shape, rows);
+    const Part part = work.take(particles.count, 1);
     if (thin != nullptr) {
-        scatter_past_walls(particles, *thin, second_density, grid);
+        scatter_past_walls(particles.part(part.first, part.end - part.first), *thin,
+                           second_density, grid);
     }
-    for (std::int32_t k = 0; thin == nullptr && k < particles.count; ++k) {
+    for (std::int32_t k = part.first; thin == nullptr && k < part.end; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
@@ -74,26 +78,31 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
         scatter_mixed(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), shape.stride,
                       stencil_v(shape, x), density, v.y);
     }
-    StaggeredGrid<Real> by_mass = grid;
-    by_mass.mass_u = grid.inverse_density_u;
-    by_mass.mass_v = grid.inverse_density_v;
-    fold_borders(borders, by_mass);
-    fold_counts(borders, shape, grid.mass_u, grid.mass_v);
+    if (work.once(shape.border())) {
+        StaggeredGrid<Real> by_mass = grid;
+        by_mass.mass_u = grid.inverse_density_u;
+        by_mass.mass_v = grid.inverse_density_v;
+        fold_borders(borders, by_mass);
+        fold_counts(borders, shape, grid.mass_u, grid.mass_v);
+    }
 }
 
 template <class Real>
 void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid,
-                        const ThinWalls<Real>* thin) {
+                        const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
-    clear(grid.momentum_u(), shape);
-    clear(grid.momentum_v(), shape);
-    clear(grid.mass_u, shape);
-    clear(grid.mass_v, shape);
+    const Part rows = work.take(shape.ny + 2, shape.stride);
+    clear(grid.momentum_u(), shape, rows);
+    clear(grid.momentum_v(), shape, rows);
+    clear(grid.mass_u, shape, rows);
+    clear(grid.mass_v, shape, rows);
+    const Part part = work.take(particles.count, 1);
     if (thin != nullptr) {
-        scatter_past_walls(particles, *thin, Real(1), grid);
+        scatter_past_walls(particles.part(part.first, part.end - part.first), *thin, Real(1),
+                           grid);
         return;
     }
-    for (std::int32_t k = 0; k < particles.count; ++k) {
+    for (std::int32_t k = part.first; k < part.end; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
@@ -106,29 +115,33 @@ void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& g
 template <class Real>
 void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
                       Real second_density, StaggeredGrid<Real>& grid,
-                      const ThinWalls<Real>* thin) {
+                      const ThinWalls<Real>* thin, Work work) {
     if (particles.kind != nullptr) {
-        scatter_two_liquids(particles, borders, second_density, grid, thin);
+        scatter_two_liquids(particles, borders, second_density, grid, thin, work);
         return;
     }
+    bool in_lanes = false;
     if constexpr (kHasLanes<Real>) {
-        if (grid.pairs != nullptr && thin == nullptr) {
-            scatter_in_lanes(particles, grid);
-            fold_borders(borders, grid);
-            return;
+        in_lanes = grid.pairs != nullptr && thin == nullptr;
+        if (in_lanes) {
+            scatter_in_lanes(particles, grid, work);
         }
     }
-    scatter_one_liquid(particles, grid, thin);
-    fold_borders(borders, grid);
+    if (!in_lanes) {
+        scatter_one_liquid(particles, grid, thin, work);
+    }
+    if (work.once(grid.shape.border())) {
+        fold_borders(borders, grid);
+    }
 }
 
-template void particle_to_grid(const Particles<float>&, const Borders<float>&, float,
-                               StaggeredGrid<float>&, const ThinWalls<float>*);
-template void particle_to_grid(const Particles<double>&, const Borders<double>&, double,
-                               StaggeredGrid<double>&, const ThinWalls<double>*);
-template void particle_to_grid(const Particles<Fixed>&, const Borders<Fixed>&, Fixed,
-                               StaggeredGrid<Fixed>&, const ThinWalls<Fixed>*);
-template void particle_to_grid(const Particles<SmallFixed>&, const Borders<SmallFixed>&, SmallFixed,
-                               StaggeredGrid<SmallFixed>&, const ThinWalls<SmallFixed>*);
+#define WEIR_INSTANTIATE(Real)                                                            \
+    template void particle_to_grid(const Particles<Real>&, const Borders<Real>&, Real,    \
+                                   StaggeredGrid<Real>&, const ThinWalls<Real>*, Work);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

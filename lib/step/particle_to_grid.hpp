@@ -16,6 +16,6 @@ namespace weir {
 template <class Real>
 void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
                       Real second_density, StaggeredGrid<Real>& grid,
-                      const ThinWalls<Real>* thin = nullptr);
+                      const ThinWalls<Real>* thin = nullptr, Work work = {});
 
 }  // namespace weir

@@ -72,22 +72,23 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s)
 }
 
 template <class Real>
-void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
+void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     const Settings<Real>& settings = simulation.settings;
     const Walls<Real>& walls = simulation.layers.walls;
     if (settings.pressure == Pressure::projection) {
         if (plan.surface_tension > Real(0)) {
             surface_tension(simulation.grid.shape, settings.borders, walls,
-                            plan.surface_tension * plan.dt_s, simulation.pressure);
+                            plan.surface_tension * plan.dt_s, simulation.pressure, work);
         }
         const CoupledSolve<Real> coupled = coupled_solve(simulation, plan.dt_s);
         projection(settings.borders, walls, plan.dt_s, settings.sweeps, simulation.grid,
-                   simulation.pressure, simulation.free_bodies != nullptr ? &coupled : nullptr);
+                   simulation.pressure, simulation.free_bodies != nullptr ? &coupled : nullptr,
+                   work);
         extrapolate(settings.borders, walls, simulation.pressure,
-                    settings.surface_tension > Real(0), simulation.grid);
+                    settings.surface_tension > Real(0), simulation.grid, work);
     } else {
         equation_of_state(settings.borders, walls, plan.dt_s, plan.sound_speed,
-                          simulation.grid, simulation.pressure);
+                          simulation.grid, simulation.pressure, work);
     }
 }
 
@@ -105,16 +106,18 @@ Real volume_gain(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
 
 /// Faces that no liquid owns: inside solids and beyond the tank.
 template <class Real>
-void fill_borders(Simulation<Real>& simulation) {
+void fill_borders(Simulation<Real>& simulation, Work work) {
     StaggeredGrid<Real>& grid = simulation.grid;
     if (simulation.layers.walls.active) {
-        mirror_in_solids(simulation.layers.walls, simulation.pressure, grid);
-        if (simulation.layers.walls.thin != nullptr) {
+        mirror_in_solids(simulation.layers.walls, simulation.pressure, grid, work);
+        if (simulation.layers.walls.thin != nullptr && work.once(grid.shape.size())) {
             mirror_at_thin_walls(simulation.layers.walls, simulation.pressure.level, grid);
         }
     }
-    extend_velocity(simulation.settings.borders, grid.shape, grid.u, grid.v);
-    extend_velocity(simulation.settings.borders, grid.shape, grid.mass_u, grid.mass_v);
+    if (work.once(2 * grid.shape.border())) {
+        extend_velocity(simulation.settings.borders, grid.shape, grid.u, grid.v);
+        extend_velocity(simulation.settings.borders, grid.shape, grid.mass_u, grid.mass_v);
+    }
 }
 
 template <class Real>
@@ -128,57 +131,77 @@ template <class Real>
 void note(const CollideResult<Real>& result, Simulation<Real>& simulation, StepReport& report) {
     report.particles_tested += result.tested;
     report.particles_reflected += result.reflected;
-    report.particles_stuck = result.stuck;
+    report.particles_stuck += result.stuck;
     report.particles_removed_stuck += result.removed;
     simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
 }
 
 /// The grid's stages see the part of the tank that the liquid is in.
 template <class Real>
-void skip_empty(Simulation<Real>& simulation) {
+void skip_empty(Simulation<Real>& simulation, Work work) {
     const GridShape& tank = simulation.layers.shape;
-    const GridShape part =
-        occupied_part(tank, simulation.settings.borders, simulation.particles);
-    empty_beyond(tank, simulation.occupied, part, simulation.pressure);
-    simulation.occupied = part;
-    simulation.grid.shape = part;
+    const Particles<Real>& particles = simulation.particles;
+    if (work.once(1)) {
+        simulation.furthest = {};
+    }
+    const Part part = work.take(particles.count, 1);
+    simulation.furthest = furthest_of(particles.part(part.first, part.end - part.first),
+                                      simulation.furthest);
+    if (work.once(1)) {
+        simulation.grid.shape =
+            occupied_part<Real>(tank, simulation.settings.borders, simulation.furthest);
+    }
+    empty_beyond(tank, simulation.occupied, simulation.grid.shape, simulation.pressure, work);
+    if (work.once(1)) {
+        simulation.occupied = simulation.grid.shape;
+    }
 }
 
 /// Moves the particles and lets them meet the solids: a block at a time, because a particle's path
 /// is known only while the place that it comes from is.
 template <class Real>
-void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
+void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work, StageClock& clock,
             StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
     Particles<Real>& particles = simulation.particles;
     Transfer<Real> transfer{dt_s, settings.flip_ratio,
                             minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
-    simulation.max_speed = Real(0);
-    prepare_gather(simulation.grid);
-    simulation.grid.shape = simulation.layers.shape;
+    prepare_gather(simulation.grid, work);
+    if (work.once(1)) {
+        simulation.grid.shape = simulation.layers.shape;
+        simulation.max_speed = Real(0);
+        simulation.gathered = particles.count;
+        report.particles_stuck = 0;
+    }
     const Walls<Real>& walls = simulation.layers.walls;
     if (!walls.active) {
-        note(grid_to_particle(simulation.grid, transfer, particles), simulation, report);
+        const Part part = work.take(simulation.gathered, 1);
+        Particles<Real> some = particles.part(part.first, part.end - part.first);
+        note(grid_to_particle(simulation.grid, transfer, some), simulation, report);
         clock.charge(Stage::grid_to_particle);
         return;
     }
     transfer.near = Real(1) / dt_s;
     ThinWalls<Real>& thin = simulation.layers.thin;
     const Vec2<Real> fall = dt_s * settings.gravity;
-    if (walls.thin != nullptr) {
+    if (walls.thin != nullptr && work.once(simulation.bodies.vertices_used + 1)) {
         follow_bodies(thin, simulation.bodies);
     }
     Vec2<PositionOf<Real>> before[kBlock<Real>];
     Vec2<VelocityOf<Real>> velocity[kBlock<Real>];
     CollideResult<Real> collisions;
-    for (std::int32_t end = particles.count; end > 0;) {
+    // From the pool's end, which may come nearer on the way.
+    const Part part = work.take((simulation.gathered + kBlock<Real> - 1) / kBlock<Real>,
+                                kBlock<Real>);
+    for (std::int32_t at = part.first; at < part.end; ++at) {
+        const std::int32_t end = simulation.gathered - at * kBlock<Real>;
         const std::int32_t count = minimum(kBlock<Real>, end);
-        end -= count;
-        std::memcpy(before, particles.position + end,
+        const std::int32_t first = end - count;
+        std::memcpy(before, particles.position + first,
                     static_cast<std::size_t>(count) * sizeof before[0]);
-        Particles<Real> block = particles.part(end, count);
+        Particles<Real> block = particles.part(first, count);
         if (walls.thin != nullptr) {
-            std::memcpy(velocity, particles.velocity + end,
+            std::memcpy(velocity, particles.velocity + first,
                         static_cast<std::size_t>(count) * sizeof velocity[0]);
         }
         TransferResult<Real> moved = grid_to_particle(simulation.grid, transfer, block);
@@ -190,12 +213,12 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
             simulation.max_speed = maximum(simulation.max_speed, beside.max_speed);
         }
         clock.charge(Stage::grid_to_particle);
-        collide(simulation.grid.shape, walls, {before, moved.far > 0, dt_s}, end, count,
+        collide(simulation.grid.shape, walls, {before, moved.far > 0, dt_s}, first, count,
                 particles, simulation.contacts, collisions);
         clock.charge(Stage::collide);
     }
     note(collisions, simulation, report);
-    if (simulation.layers.thin.capacity > 0) {
+    if (simulation.layers.thin.capacity > 0 && work.once(simulation.bodies.capacity)) {
         forget_ways(thin, simulation.bodies);
     }
 }
@@ -203,7 +226,8 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, StageClock& clock,
 }  // namespace
 
 template <class Real>
-void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepReport& report) {
+void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+             StepReport& report) {
     const Seconds<Real> dt_s = plan.dt_s;
     StaggeredGrid<Real>& grid = simulation.grid;
     Walls<Real>& walls = simulation.layers.walls;
@@ -211,57 +235,62 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepRe
     StageClock clock(simulation.ticks, report);
 
     if (walls.active) {
-        move_bodies(simulation.bodies, walls, dt_s);
-        report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
+        if (work.once(simulation.bodies.vertices_used + 1)) {
+            move_bodies(simulation.bodies, walls, dt_s);
+        }
+        if (work.once(simulation.bodies.capacity)) {
+            const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);
+            report.nodes_rasterized += nodes;
+            work.spend(nodes);
+        }
         clock.charge(Stage::contour);
     }
-    skip_empty(simulation);
+    skip_empty(simulation, work);
     const bool two_way = simulation.bodies.load != nullptr;
-    Account<Real> account;
-    if (two_way) {
-        account = open_account(simulation, dt_s);
+    if (two_way && work.once(simulation.particles.count + simulation.bodies.capacity)) {
+        simulation.expected = open_account(simulation, dt_s).expected;
         accelerate_bodies(simulation, dt_s);
     }
     particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid,
-                     walls.thin);
+                     walls.thin, work);
     clock.charge(Stage::particle_to_grid);
 
-    surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure);
-    grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid);
+    surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure, work);
+    grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid, work);
     if (plan.viscosity > Real(0)) {
-        diffuse_velocity(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s,
-                         grid);
+        diffuse_velocity(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s, grid,
+                         work);
     }
     clock.charge(Stage::grid_update);
 
-    solve_pressure(simulation, plan);
-    if (two_way) {
+    solve_pressure(simulation, plan, work);
+    if (two_way && work.once(grid.shape.size())) {
         press_bodies(simulation, dt_s, report);
     }
-    fill_borders(simulation);
+    fill_borders(simulation, work);
     clock.charge(Stage::pressure);
 
-    blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid,
-                 walls.thin);
+    blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, walls.thin,
+                 work);
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
         volume_correction(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
-                          simulation.pressure, grid);
+                          simulation.pressure, grid, work);
     }
     clock.charge(Stage::volume);
 
-    if (two_way) {
+    if (two_way && work.once(simulation.bodies.vertices_used + 1)) {
         move_free_bodies(simulation, dt_s, report);
         clock.charge(Stage::contour);
     }
-    gather(simulation, dt_s, clock, report);
-    if (two_way) {
-        close_account(account, simulation);
+    gather(simulation, dt_s, work, clock, report);
+    if (two_way && work.once(simulation.particles.count)) {
+        close_account(Account<Real>{simulation.expected}, simulation);
     }
 }
 
-template void substep(Simulation<float>&, const SubstepPlan<float>&, StepReport&);
-template void substep(Simulation<double>&, const SubstepPlan<double>&, StepReport&);
-template void substep(Simulation<Fixed>&, const SubstepPlan<Fixed>&, StepReport&);
-template void substep(Simulation<SmallFixed>&, const SubstepPlan<SmallFixed>&, StepReport&);
+template void substep(Simulation<float>&, const SubstepPlan<float>&, Work, StepReport&);
+template void substep(Simulation<double>&, const SubstepPlan<double>&, Work, StepReport&);
+template void substep(Simulation<Fixed>&, const SubstepPlan<Fixed>&, Work, StepReport&);
+template void substep(Simulation<SmallFixed>&, const SubstepPlan<SmallFixed>&, Work, StepReport&);
 
 }  // namespace weir

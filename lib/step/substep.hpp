@@ -5,8 +5,10 @@
 
 namespace weir {
 
-/// Advances everything by plan.dt_s. Adds counts and ticks to the report.
+/// Advances everything by plan.dt_s, or does as much of it as the work allows. Adds counts and
+/// ticks to the report.
 template <class Real>
-void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, StepReport& report);
+void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+             StepReport& report);
 
 }  // namespace weir

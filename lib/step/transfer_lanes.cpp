@@ -34,30 +34,36 @@ inline void add(float* to, Lanes what) {
     store_lanes(to, load_lanes(to) + what);
 }
 
+/// Entries of some rows, ghost rows included.
+Part take_rows(Work work, const GridShape& s) {
+    const Part rows = work.take(s.ny + 2, s.stride);
+    return {rows.first * s.stride, rows.end * s.stride};
+}
+
 /// Numbers of two fields side by side → the two fields.
-void unpack(const float* pairs, std::int32_t size, float* first, float* second) {
-    std::int32_t k = 0;
-    for (; k + 4 <= size; k += 4) {
+void unpack(const float* pairs, const Part& part, float* first, float* second) {
+    std::int32_t k = part.first;
+    for (; k + 4 <= part.end; k += 4) {
         const Lanes a = load_lanes(pairs + 2 * k);
         const Lanes b = load_lanes(pairs + 2 * k + 4);
         store_lanes(first + k, shuffle<0, 2, 4, 6>(a, b));
         store_lanes(second + k, shuffle<1, 3, 5, 7>(a, b));
     }
-    for (; k < size; ++k) {
+    for (; k < part.end; ++k) {
         first[k] = pairs[2 * k];
         second[k] = pairs[2 * k + 1];
     }
 }
 
-void pack(const float* first, const float* second, std::int32_t size, float* pairs) {
-    std::int32_t k = 0;
-    for (; k + 4 <= size; k += 4) {
+void pack(const float* first, const float* second, const Part& part, float* pairs) {
+    std::int32_t k = part.first;
+    for (; k + 4 <= part.end; k += 4) {
         const Lanes a = load_lanes(first + k);
         const Lanes b = load_lanes(second + k);
         store_lanes(pairs + 2 * k, shuffle<0, 4, 1, 5>(a, b));
         store_lanes(pairs + 2 * k + 4, shuffle<2, 6, 3, 7>(a, b));
     }
-    for (; k < size; ++k) {
+    for (; k < part.end; ++k) {
         pairs[2 * k] = first[k];
         pairs[2 * k + 1] = second[k];
     }
@@ -91,18 +97,20 @@ inline SampleLanes sample(const float* pairs_u, const float* pairs_v, std::int32
 
 }  // namespace
 
-void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid) {
+void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid, Work work) {
     const GridShape& s = grid.shape;
     float* pairs_u = grid.v;
     float* pairs_v = grid.pairs;
-    const std::size_t bytes = 2 * static_cast<std::size_t>(s.size()) * sizeof(float);
-    std::memset(pairs_u, 0, bytes);
-    std::memset(pairs_v, 0, bytes);
+    const Part cleared = take_rows(work, s);
+    const std::size_t bytes =
+        2 * static_cast<std::size_t>(cleared.end - cleared.first) * sizeof(float);
+    std::memset(pairs_u + 2 * cleared.first, 0, bytes);
+    std::memset(pairs_v + 2 * cleared.first, 0, bytes);
     const std::int32_t stride = s.stride;
-    const std::int32_t count = particles.count;
+    const Part part = work.take(particles.count, 1);
     const Vec2<float>* position = particles.position;
     const Vec2<float>* velocities = particles.velocity;
-    for (std::int32_t k = 0; k < count; ++k) {
+    for (std::int32_t k = part.first; k < part.end; ++k) {
         const StencilPair at = stencils(stride, load_pair(&position[k].x));
         const Lanes v = load_pair(&velocities[k].x);
         const Lanes velocity = shuffle<0, 0, 1, 1>(v, v);
@@ -122,13 +130,13 @@ void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& g
         add(w, shuffle<2, 3, 6, 7>(left_lower, right_lower));
         add(w + 2 * stride, shuffle<2, 3, 6, 7>(left_upper, right_upper));
     }
-    unpack(pairs_u, s.size(), grid.mass_u, grid.u);
-    unpack(pairs_v, s.size(), grid.mass_v, grid.v);
+    unpack(pairs_u, take_rows(work, s), grid.mass_u, grid.u);
+    unpack(pairs_v, take_rows(work, s), grid.mass_v, grid.v);
 }
 
-void pair_fields(StaggeredGrid<float>& grid) {
-    pack(grid.u, grid.mass_u, grid.shape.size(), grid.pairs);
-    pack(grid.v, grid.mass_v, grid.shape.size(), grid.u);
+void pair_fields(StaggeredGrid<float>& grid, Work work) {
+    pack(grid.u, grid.mass_u, take_rows(work, grid.shape), grid.pairs);
+    pack(grid.v, grid.mass_v, take_rows(work, grid.shape), grid.u);
 }
 
 TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,

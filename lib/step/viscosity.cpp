@@ -1,34 +1,38 @@
 #include "step/viscosity.hpp"
 
-#include <cstring>
-
 #include "grid/diffuse.hpp"
 
 namespace weir {
 
 template <class Real>
 void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
-                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid) {
+                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
+                      Work work) {
     const GridShape& s = grid.shape;
-    extend_velocity(borders, s, grid.u, grid.v);
-    mirror_cells(borders, s, fields.density);
-    const std::size_t bytes = static_cast<std::size_t>(s.size()) * sizeof *grid.u;
-    std::memcpy(static_cast<void*>(fields.divergence), grid.u, bytes);
-    std::memcpy(static_cast<void*>(fields.inverse_diagonal), grid.v, bytes);
+    if (work.once(2 * s.border())) {
+        extend_velocity(borders, s, grid.u, grid.v);
+        mirror_cells(borders, s, fields.density);
+    }
+    const Part copied = work.take(s.ny + 2, s.stride);
+    copy_rows(s, copied, grid.u, fields.divergence);
+    copy_rows(s, copied, grid.v, fields.inverse_diagonal);
     const FaceShare<Real> on_u{fields.density, walls.active ? walls.open_u : nullptr, 1};
     const FaceShare<Real> on_v{fields.density, walls.active ? walls.open_v : nullptr, s.stride};
-    diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, amount, fields.divergence, grid.u);
-    diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, amount, fields.inverse_diagonal, grid.v);
-    extend_velocity(borders, s, grid.u, grid.v);
+    const Part rows = work.take(s.ny, s.nx);
+    diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, fields.divergence, grid.u);
+    diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, fields.inverse_diagonal, grid.v);
+    if (work.once(s.border())) {
+        extend_velocity(borders, s, grid.u, grid.v);
+    }
 }
 
-template void diffuse_velocity(const Borders<float>&, const Walls<float>&, PressureFields<float>&,
-                               float, StaggeredGrid<float>&);
-template void diffuse_velocity(const Borders<double>&, const Walls<double>&,
-                               PressureFields<double>&, double, StaggeredGrid<double>&);
-template void diffuse_velocity(const Borders<Fixed>&, const Walls<Fixed>&, PressureFields<Fixed>&,
-                               Fixed, StaggeredGrid<Fixed>&);
-template void diffuse_velocity(const Borders<SmallFixed>&, const Walls<SmallFixed>&,
-                               PressureFields<SmallFixed>&, SmallFixed, StaggeredGrid<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real)                                                             \
+    template void diffuse_velocity(const Borders<Real>&, const Walls<Real>&,               \
+                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&, Work);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -15,6 +15,7 @@ namespace weir {
 /// Order: none (reads only the velocities before). Cost: about 30 operations a face.
 template <class Real>
 void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
-                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid);
+                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
+                      Work work = {});
 
 }  // namespace weir

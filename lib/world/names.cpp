@@ -67,6 +67,8 @@ const char* init_text(Status status) {
         case Status::memory_too_small:
             return "memory: world_bytes<Real>(capacity) bytes are needed";
         case Status::not_initialised: return "call init first, and check what it answers";
+        case Status::step_in_progress:
+            return "a step was begun: call advance until it answers true, then ask again";
         default: return nullptr;
     }
 }

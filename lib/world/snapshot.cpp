@@ -193,7 +193,7 @@ void write(SnapshotWriter& writer, const Layout& plan, const Head& head,
 template <class Stream, class Real>
 void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldState<Real>& state) {
     Stream stream{reader};
-    const GridShape& shape = state.simulation.grid.shape;
+    const GridShape& shape = state.simulation.layers.shape;
     BodyTable<Real>& table = state.simulation.bodies;
     const auto take = [&](std::int32_t block, std::size_t first, std::size_t elements,
                           const Body<Real>& of) {
@@ -257,6 +257,7 @@ void redraw(Simulation<Real>& simulation) {
         }
     }
     simulation.layers.walls.active = table.used > 0;
+    simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = simulation.grid.shape;  // what is not kept may stand anywhere
     clear(simulation.contacts);
     if (table.capacity > 0) {
@@ -268,8 +269,9 @@ void redraw(Simulation<Real>& simulation) {
 
 template <class Real>
 Status World<Real>::save(void* memory, std::size_t bytes, std::size_t* written) const {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     if (memory == nullptr) {
         return Status::snapshot_missing;
@@ -315,6 +317,7 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
     SnapshotReader take(contents, length);
     go_through<MemberRead>(take, true, plan, *state_);
     redraw(state_->simulation);
+    state_->stepping = false;
     return Status::ok;
 }
 

@@ -49,11 +49,13 @@ void any_member(Stream& stream, Vec2<Real>& vector) {
 /// gravity changes by a call. Walls are drawn again from the bodies.
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
-    auto& [simulation, def, cells_per_m, stepped_s, tag, pending] = state;
+    auto& [simulation, def, cells_per_m, stepped_s, tag, pending, stepping, substeps_left, plan,
+           progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers,
-                            free_bodies, body_diagonal, contacts, max_speed, ticks] = simulation;
+                            free_bodies, body_diagonal, contacts, expected, gathered, furthest,
+                            max_speed, ticks] = simulation;
     auto& [pressure, divergence, inverse_diagonal, density, level, coarse, on_surface, last_dt,
-           gravity_change] = pressure_fields;
+           gravity_change, solve] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,
                             vertex_capacity, vertices_used] = bodies;

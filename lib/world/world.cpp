@@ -298,7 +298,7 @@ FieldView<Real> World<Real>::pressure() const {
     if (state_ == nullptr) {
         return {};
     }
-    const GridShape& s = state_->simulation.grid.shape;
+    const GridShape& s = state_->simulation.layers.shape;
     return {state_->simulation.pressure.pressure + s.index(0, 0), s.nx, s.ny, s.stride};
 }
 
@@ -325,7 +325,7 @@ FieldView<DistanceOf<Real>> World<Real>::signed_distance() const {
     if (state_ == nullptr || state_->def.capacity.bodies == 0) {
         return {};
     }
-    const GridShape& s = state_->simulation.grid.shape;
+    const GridShape& s = state_->simulation.layers.shape;
     return {state_->simulation.layers.walls.distance + s.index(0, 0), s.nx + 1, s.ny + 1, s.stride};
 }
 
@@ -369,7 +369,7 @@ std::uint64_t World<Real>::state_hash() const {
             hash.add(static_cast<std::uint32_t>(particles.kind[k]));
         }
     }
-    hash_field(hash, simulation.pressure.pressure, simulation.grid.shape);
+    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape);
     hash.add(simulation.pressure.last_dt);
     const Real numbers[] = {simulation.pressure.gravity_change, simulation.max_speed,
                             simulation.settings.gravity.x, simulation.settings.gravity.y};

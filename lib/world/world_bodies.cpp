@@ -146,20 +146,21 @@ Status check_id(const WorldState<Real>& state, BodyId id) {
 
 template <class Real>
 Status World<Real>::add_static_body(const BodyDef& def, BodyId* id) {
-    return state_ == nullptr ? Status::not_initialised
-                             : add_body(*state_, def, BodyKind::fixed, id);
+    const Status free = ready(state_);
+    return free != Status::ok ? free : add_body(*state_, def, BodyKind::fixed, id);
 }
 
 template <class Real>
 Status World<Real>::add_moving_body(const BodyDef& def, BodyId* id) {
-    return state_ == nullptr ? Status::not_initialised
-                             : add_body(*state_, def, BodyKind::moving, id);
+    const Status free = ready(state_);
+    return free != Status::ok ? free : add_body(*state_, def, BodyKind::moving, id);
 }
 
 template <class Real>
 Status World<Real>::set_motion(BodyId id, const Motion& motion) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     const Status known = check_id(*state_, id);
     if (known != Status::ok) {
@@ -207,8 +208,9 @@ Status World<Real>::motion(BodyId id, Motion* motion) const {
 
 template <class Real>
 Status World<Real>::remove_body(BodyId id) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     const Status known = check_id(*state_, id);
     if (known != Status::ok) {

@@ -67,8 +67,9 @@ void sum_cells(const Simulation<Real>& simulation, double cell_m, Diagnostics& o
 
 template <class Real>
 Status World<Real>::diagnose(Diagnostics* diagnostics) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     if (diagnostics == nullptr) {
         return Status::output_missing;

@@ -57,8 +57,9 @@ Status check_kind(const WorldState<Real>& state, Liquid kind) {
 
 template <class Real>
 Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     const Capacity& capacity = state_->def.capacity;
     const float cell_m = state_->def.cell_m;
@@ -102,8 +103,9 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
 
 template <class Real>
 Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     const Status valid = check_particle(*state_, position_m, velocity_mps);
     if (valid != Status::ok) {
@@ -131,8 +133,9 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
 
 template <class Real>
 Status World<Real>::remove_particle(std::int32_t index) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     Particles<Real>& particles = state_->simulation.particles;
     if (index < 0 || index >= particles.count) {

@@ -36,8 +36,9 @@ Seconds<Real> sane_time_step(const Settings<Real>& settings, float dt_s, StepRep
 
 template <class Real>
 Status World<Real>::set_gravity(Vec2f gravity_mps2) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     if (!is_finite(gravity_mps2)) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
@@ -61,16 +62,21 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
     return Status::ok;
 }
 
+namespace {
+
+/// More than this is left by no slice; `step` makes as many as it needs.
+constexpr std::int32_t kMostWork = 0x7FFFFFFF;
+
 template <class Real>
-StepReport World<Real>::step(float dt_s) {
-    StepReport report;
-    if (state_ == nullptr) {
-        mark(report, Clamped::not_initialised);
-        return report;
-    }
-    Simulation<Real>& simulation = state_->simulation;
-    report.clamped = state_->pending;
-    state_->pending = 0;
+void begin(detail::WorldState<Real>& state, float dt_s, StepReport& report) {
+    Simulation<Real>& simulation = state.simulation;
+    report = StepReport();
+    state.report = &report;
+    report.clamped = state.pending;
+    state.pending = 0;
+    state.stepping = true;
+    state.substeps_left = 0;
+    state.progress.begin();
     clear(simulation.contacts);
     if (simulation.bodies.load != nullptr) {
         forget_impulses(simulation.bodies);
@@ -87,13 +93,18 @@ StepReport World<Real>::step(float dt_s) {
         if (plan.surface_tension < simulation.settings.surface_tension) {
             mark(report, Clamped::surface_tension);
         }
-        for (std::int32_t k = 0; k < plan.substeps; ++k) {
-            substep(simulation, plan, report);
-        }
         report.substeps = plan.substeps;
         report.dt_s = static_cast<float>(dt);
+        state.plan = plan;
+        state.substeps_left = plan.substeps;
     }
-    state_->stepped_s = report.dt_s;
+    state.stepped_s = report.dt_s;
+}
+
+template <class Real>
+void end(detail::WorldState<Real>& state) {
+    Simulation<Real>& simulation = state.simulation;
+    StepReport& report = *state.report;
     finish(simulation.contacts);
     report.contacts_missed = simulation.contacts.missed;
     if (report.particles_slowed > 0) {
@@ -106,12 +117,69 @@ StepReport World<Real>::step(float dt_s) {
         mark(report, Clamped::not_finite);
     }
     report.particles = simulation.particles.count;
-    report.max_speed_mps = state_->def.cell_m * static_cast<float>(simulation.max_speed);
+    report.max_speed_mps = state.def.cell_m * static_cast<float>(simulation.max_speed);
+    state.stepping = false;
+}
+
+/// Goes on with a step until it is done or the work is. True: it is done.
+template <class Real>
+bool go_on(detail::WorldState<Real>& state, std::int32_t work) {
+    Progress& progress = state.progress;
+    while (state.substeps_left > 0 && work > 0) {
+        progress.resume(work);
+        substep(state.simulation, state.plan, Work(progress), *state.report);
+        work = progress.left();
+        if (progress.complete()) {
+            progress.begin();
+            --state.substeps_left;
+        }
+    }
+    if (state.substeps_left > 0) {
+        return false;
+    }
+    end(state);
+    return true;
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::begin_step(float dt_s, StepReport* report) {
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
+    }
+    if (report == nullptr) {
+        return Status::output_missing;
+    }
+    begin(*state_, dt_s, *report);
+    return Status::ok;
+}
+
+template <class Real>
+bool World<Real>::advance(std::int32_t work) {
+    return state_ == nullptr || !state_->stepping || go_on(*state_, maximum(work, 1));
+}
+
+template <class Real>
+StepReport World<Real>::step(float dt_s) {
+    StepReport report;
+    if (state_ == nullptr) {
+        mark(report, Clamped::not_initialised);
+        return report;
+    }
+    while (!advance(kMostWork)) {
+    }
+    begin(*state_, dt_s, report);
+    while (!advance(kMostWork)) {
+    }
     return report;
 }
 
 #define WEIR_INSTANTIATE(Real)                                \
     template Status World<Real>::set_gravity(Vec2f);          \
+    template Status World<Real>::begin_step(float, StepReport*); \
+    template bool World<Real>::advance(std::int32_t);         \
     template StepReport World<Real>::step(float);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)

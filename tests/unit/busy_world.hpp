@@ -2,7 +2,7 @@
 // gravity turns. The same seed does the same to any world of the same definition.
 #pragma once
 
-#include <cmath>
+#include <type_traits>
 
 #include "test_world.hpp"
 
@@ -78,6 +78,15 @@ inline WorldDef busy_def(std::int32_t kind) {
         default: break;
     }
     return def;
+}
+
+/// Packed fixed point knows neither surface tension nor a second liquid nor thin walls.
+template <class Real>
+bool busy_kind_is_borne(std::int32_t kind) {
+    const WorldDef def = busy_def(kind);
+    return !std::is_same_v<Real, SmallFixed> ||
+           (def.surface_tension_m3ps2 == 0.0F && !def.capacity.second_liquid &&
+            def.capacity.wall_edges == 0);
 }
 
 /// Corners on grid lines: bodies share edges, and nodes are as far from one as from the other.

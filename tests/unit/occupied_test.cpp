@@ -76,14 +76,14 @@ TEST(OccupiedPart, EndsBeyondTheFurthestParticleAndNeverCutsASeam) {
     const GridShape tank{40, 30, 42};
     const Particles<float> all{position, velocity, 5, 5};
     Borders<float> borders;
-    GridShape part = occupied_part(tank, borders, all);
+    GridShape part = occupied_part<float>(tank, borders, furthest_of(all, {}));
     EXPECT_GE(part.nx, 7 + 3);
     EXPECT_LT(part.nx, 7 + 8);
     EXPECT_GE(part.ny, 9 + 3);
     EXPECT_LT(part.ny, 9 + 8);
     EXPECT_EQ(part.stride, tank.stride);
     borders.wrap_x = borders.wrap_y = true;
-    part = occupied_part(tank, borders, all);
+    part = occupied_part<float>(tank, borders, furthest_of(all, {}));
     EXPECT_EQ(part.nx, 40);
     EXPECT_EQ(part.ny, 30);
 }

@@ -92,7 +92,7 @@ inline constexpr std::size_t world_alignment = 16;
 /// Room for records whose types are private; checked by static_assert where they are defined.
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
-    sizeof(Real) == 4 ? (sizeof(void*) == 4 ? 688 : 1024) : 1152;
+    sizeof(Real) == 4 ? (sizeof(void*) == 4 ? 800 : 1056) : 1280;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;

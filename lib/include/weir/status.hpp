@@ -44,6 +44,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     memory_misaligned,
     memory_too_small,
     not_initialised,
+    step_in_progress,
     // bodies
     no_free_body,
     no_free_vertex,

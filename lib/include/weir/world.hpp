@@ -72,8 +72,21 @@ public:
 
     Status set_gravity(Vec2f gravity_mps2);
 
-    /// Simulates dt seconds. Never fails: see StepReport for what was clamped.
+    /// Simulates dt seconds. Never fails: see StepReport for what was clamped. A step that was
+    /// begun is finished first.
     StepReport step(float dt_s);
+
+    /// The same in slices: begins a step, which `advance` carries out. However it is cut, the
+    /// result is `step`'s, to the bit. Until it is done nothing else may change the world: such
+    /// calls answer `Status::step_in_progress` and change nothing. Views may be looked at, and
+    /// show the liquid on its way; `restore` drops the step.
+    /// @param report filled while the step goes on; must live until it is done.
+    Status begin_step(float dt_s, StepReport* report);
+    /// Goes on with the step for that much work: a unit is a cell or a particle that one loop
+    /// looks at. The slice ends with the first loop item that reaches it: a row of cells, the
+    /// tank's border, a block of 32 particles or all the moving bodies' nodes, whichever comes.
+    /// At least one is done. True: the step is done, or there is none.
+    bool advance(std::int32_t work);
 
     /// Where the particles are, in cells: multiply by `cell_m`. Valid until the next call that
     /// adds, removes or steps. Empty before init.
