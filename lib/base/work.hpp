@@ -31,29 +31,7 @@ public:
 
     /// What may be done of the next loop, so many items of such a cost: none if it is done, or has
     /// to wait. At least one item is done as long as anything is left to spend.
-    Part next(std::int32_t items, std::int32_t cost) {
-        if (at_++ != done_ || left_ <= 0) {
-            return {};
-        }
-        const std::int32_t first = position_;
-        const std::int64_t all = static_cast<std::int64_t>(items - first) * cost;
-        if (all <= left_) {
-            left_ -= static_cast<std::int32_t>(all);
-            position_ = 0;
-            ++done_;
-            return {first, items};
-        }
-        const std::int32_t fitting = left_ / cost;
-        const std::int32_t count = fitting > 0 ? fitting : 1;
-        left_ -= fitting > 0 ? fitting * cost : left_;
-        position_ = first + count;
-        if (position_ == items) {
-            position_ = 0;
-            ++done_;
-        }
-        return {first, first + count};
-    }
-
+    Part next(std::int32_t items, std::int32_t cost);
     /// What turned out to cost more than was said.
     void spend(std::int32_t cost) { left_ -= cost < left_ ? cost : left_; }
 
@@ -73,10 +51,8 @@ public:
     Work() = default;
     explicit Work(Progress& progress) : progress_(&progress) {}
 
-    Part take(std::int32_t items, std::int32_t cost) const {
-        return progress_ != nullptr ? progress_->next(items, cost) : Part{0, items};
-    }
-    bool once(std::int32_t cost) const { return !take(1, cost).empty(); }
+    Part take(std::int32_t items, std::int32_t cost) const;
+    bool once(std::int32_t cost) const;
     void spend(std::int32_t cost) const {
         if (progress_ != nullptr) {
             progress_->spend(cost);

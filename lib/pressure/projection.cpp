@@ -325,10 +325,12 @@ void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<
     if (work.once(1)) {
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
     }
-    const bool mixed = grid.inverse_density_u != nullptr;
-    const auto solver = walls.active ? (mixed ? solve<true, true, Real> : solve<true, false, Real>)
-                                     : (mixed ? solve<false, true, Real>
-                                              : solve<false, false, Real>);
+    auto solver = walls.active ? solve<true, false, Real> : solve<false, false, Real>;
+    if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
+        if (grid.inverse_density_u != nullptr) {
+            solver = walls.active ? solve<true, true, Real> : solve<false, true, Real>;
+        }
+    }
     solver(borders, walls, sweeps, coupled, grid, fields, work);
 }
 

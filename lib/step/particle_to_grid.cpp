@@ -116,9 +116,11 @@ template <class Real>
 void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
                       Real second_density, StaggeredGrid<Real>& grid,
                       const ThinWalls<Real>* thin, Work work) {
-    if (particles.kind != nullptr) {
-        scatter_two_liquids(particles, borders, second_density, grid, thin, work);
-        return;
+    if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
+        if (particles.kind != nullptr) {
+            scatter_two_liquids(particles, borders, second_density, grid, thin, work);
+            return;
+        }
     }
     bool in_lanes = false;
     if constexpr (kHasLanes<Real>) {

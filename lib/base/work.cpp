@@ -1,0 +1,36 @@
+#include "base/work.hpp"
+
+// Not inline: stages ask from some sixty places, and small boards have little room for code.
+
+namespace weir {
+
+Part Progress::next(std::int32_t items, std::int32_t cost) {
+    if (at_++ != done_ || left_ <= 0) {
+        return {};
+    }
+    const std::int32_t first = position_;
+    const std::int64_t all = static_cast<std::int64_t>(items - first) * cost;
+    if (all <= left_) {
+        left_ -= static_cast<std::int32_t>(all);
+        position_ = 0;
+        ++done_;
+        return {first, items};
+    }
+    const std::int32_t fitting = left_ / cost;
+    const std::int32_t count = fitting > 0 ? fitting : 1;
+    left_ -= fitting > 0 ? fitting * cost : left_;
+    position_ = first + count;
+    if (position_ == items) {
+        position_ = 0;
+        ++done_;
+    }
+    return {first, first + count};
+}
+
+Part Work::take(std::int32_t items, std::int32_t cost) const {
+    return progress_ != nullptr ? progress_->next(items, cost) : Part{0, items};
+}
+
+bool Work::once(std::int32_t cost) const { return !take(1, cost).empty(); }
+
+}  // namespace weir
