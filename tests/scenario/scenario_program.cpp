@@ -12,6 +12,12 @@
 #ifndef WEIR_SCENARIO_BYTES
 #define WEIR_SCENARIO_BYTES 98304
 #endif
+#ifndef WEIR_SCENARIO_FLOAT
+#define WEIR_SCENARIO_FLOAT 1
+#endif
+#ifndef WEIR_SCENARIO_FIXED
+#define WEIR_SCENARIO_FIXED 1
+#endif
 
 namespace {
 
@@ -108,9 +114,14 @@ int main() {
     port::argument("steps", text, sizeof text);
     const std::int32_t most = number(text, 1'000'000);
     port::argument("scene", text, sizeof text);
-    bool ok = run_all<float>(text, most);
-    ok = run_all<weir::Fixed>(text, most) && ok;
-    ok = run_all<weir::SmallFixed>(text, most) && ok;
+    bool ok = true;
+    if constexpr (WEIR_SCENARIO_FLOAT != 0) {
+        ok = run_all<float>(text, most);
+    }
+    if constexpr (WEIR_SCENARIO_FIXED != 0) {
+        ok = run_all<weir::Fixed>(text, most) && ok;
+        ok = run_all<weir::SmallFixed>(text, most) && ok;
+    }
     if (g_facts && port::stack_bytes() != 0) {
         port::print("stack ", port::stack_high_water(), " of ", port::stack_bytes(), ", code ",
                     port::code_bytes(), ", ram ", port::ram_bytes(), " bytes\n");
