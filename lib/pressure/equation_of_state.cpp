@@ -6,7 +6,7 @@ namespace {
 
 /// Bulk viscosity in units of sound speed × cell.
 template <class Real>
-constexpr Real kBulkViscosity = Real(0.2);
+constexpr Real kBulkViscosity = Real(0.3);
 
 }  // namespace
 

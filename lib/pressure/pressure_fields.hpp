@@ -45,7 +45,9 @@ struct PressureFields {
     CoarseGrid<Real> coarse;
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
-    Real gravity_change = Real(1);     ///< strength of gravity now over then, at most 1
+    /// At most 1. Projection: strength of gravity now over that which `pressure` was solved for.
+    /// Equation of state: speed of sound in use over that asked for.
+    Real change = Real(1);
     Solve<Real> solve = {};
 };
 

@@ -89,6 +89,9 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     } else {
         equation_of_state(settings.borders, walls, plan.dt_s, plan.sound_speed,
                           simulation.grid, simulation.pressure, work);
+        if (settings.sound_speed > Real(0)) {
+            simulation.pressure.change = plan.sound_speed / settings.sound_speed;
+        }
     }
 }
 

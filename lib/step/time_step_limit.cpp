@@ -11,6 +11,11 @@ constexpr Real kRootOfGravityWay = Real(0.346410162);
 template <class Real>
 constexpr Real kSoundCfl = Real(0.4);
 
+/// Sound that steps were too long for stiffens again by so much a step: at once, it would release
+/// more than it took.
+template <class Real>
+constexpr Real kSoundRecovery = Real(1.0625);
+
 /// ν dt, cells²: the limit of the five-point formula.
 template <class Real>
 constexpr Real kDiffusion = Real(0.25);
@@ -69,7 +74,8 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     const Real fall = dt_s * (square_root(gravity) / kRootOfGravityWay<Real>);
     std::int32_t wanted = maximum(at_least(reach, most), at_least(fall, most));
     SubstepPlan<Real> plan;
-    plan.sound_speed = settings.sound_speed;
+    plan.sound_speed =
+        settings.sound_speed * minimum(Real(1), kSoundRecovery<Real> * simulation.pressure.change);
     if (settings.pressure == Pressure::equation_of_state) {
         const Real waves = (settings.sound_speed + speed) * dt_s / kSoundCfl<Real>;
         wanted = maximum(wanted, at_least(waves, most));

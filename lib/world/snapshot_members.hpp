@@ -55,7 +55,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             free_bodies, body_diagonal, contacts, expected, gathered, furthest,
                             max_speed, ticks] = simulation;
     auto& [pressure, divergence, inverse_diagonal, density, level, coarse, on_surface, last_dt,
-           gravity_change, solve] = pressure_fields;
+           change, solve] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,
                             vertex_capacity, vertices_used] = bodies;
@@ -66,7 +66,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     any_member(stream, settings.gravity);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);
-    stream.member(gravity_change, Real(0), Real(1));
+    stream.member(change, Real(0), Real(1));
     stream.member(on_surface, false, true);
     stream.member(pending, 0U, 0xFFFFFFFFU);
     Extents extents;

@@ -371,7 +371,7 @@ std::uint64_t World<Real>::state_hash() const {
     }
     hash_field(hash, simulation.pressure.pressure, simulation.layers.shape);
     hash.add(simulation.pressure.last_dt);
-    const Real numbers[] = {simulation.pressure.gravity_change, simulation.max_speed,
+    const Real numbers[] = {simulation.pressure.change, simulation.max_speed,
                             simulation.settings.gravity.x, simulation.settings.gravity.y};
     for (const Real number : numbers) {
         hash.add(number);

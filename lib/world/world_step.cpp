@@ -55,8 +55,8 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
     // The pressure that a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
     const Real now = length(gravity);
-    if (now < before) {
-        simulation.pressure.gravity_change = simulation.pressure.gravity_change * (now / before);
+    if (now < before && simulation.settings.pressure == Pressure::projection) {
+        simulation.pressure.change = simulation.pressure.change * (now / before);
     }
     simulation.settings.gravity = gravity;
     return Status::ok;

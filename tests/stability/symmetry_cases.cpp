@@ -81,28 +81,37 @@ double difference(Tank<Real>& plain, Tank<Real>& other, const Placement& placeme
     return most;
 }
 
+/// What the arithmetic promises after 10 and after 60 steps; 0: nothing.
+struct Agreement {
+    double after_ten = 0.0;
+    double after_sixty = 0.0;
+};
+
 template <class Real>
 void compare(Report& report, const Scheme& scheme, const char* what, const Placement& placement,
-             double bound) {
+             const Agreement& promised) {
     const weir::WorldDef def = tank_def(scheme, placement.width, 120, 132, 2, 11);
     Tank<Real> plain(def);
     Tank<Real> other(def);
     build(plain, Placement{});
     build(other, placement);
-    double after_ten = 0.0;
+    const std::string name = label<Real>("S13", scheme) + "." + what;
+    const auto look = [&](const char* when, double bound) {
+        const double differs = difference(plain, other, placement);
+        if (bound > 0.0) {
+            report.at_most(name + when, differs, "cells", bound);
+        } else {
+            report.figure(name + when, differs, "cells");
+        }
+    };
     for (int k = 1; k <= 60; ++k) {
         plain.step(scheme.dt_s());
         other.step(scheme.dt_s());
-        after_ten = k == 10 ? difference(plain, other, placement) : after_ten;
+        if (k == 10) {
+            look(".difference_after_10", promised.after_ten);
+        }
     }
-    const std::string name = label<Real>("S13", scheme) + "." + what;
-    report.figure(name + ".difference_after_10", after_ten, "cells");
-    const double after_sixty = difference(plain, other, placement);
-    if (bound > 0.0) {
-        report.at_most(name + ".difference_after_60", after_sixty, "cells", bound);
-    } else {
-        report.figure(name + ".difference_after_60", after_sixty, "cells");
-    }
+    look(".difference_after_60", promised.after_sixty);
 }
 
 struct Run {
@@ -157,21 +166,24 @@ void repeat(Report& report, const Scheme& scheme, std::int32_t steps) {
 
 }  // namespace
 
-// Red-black sweeps start with the cells whose i + j is even. A shift by an odd number of cells
-// changes their order, and so what is left after a fixed number of sweeps; an even one does not.
-// A mirror image keeps the order if the tank is an odd number of cells wide.
+// The projection knows cells by their colour, even or odd, and by the coarse cell, 4 × 4, that they
+// are in: what its sweeps leave is the same where both are. The equation of state knows no place
+// and no side. Then in double what rounding makes different stays below 1e-8. A splash multiplies
+// it a thousandfold in 50 steps, though, and in float it is 1e-5 after ten: the same to the eye, not
+// particle by particle for ever.
 void moved_scene(Report& report, const Effort&) {
     each_scheme(false, true, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
         const bool wide = sizeof(Real) == sizeof(double);
-        const double bound = wide ? 1.0e-8 : 0.05;
-        compare<Real>(report, scheme, "shifted_4_2", {4, 2, false, 41}, bound);
-        compare<Real>(report, scheme, "shifted_3_5", {3, 5, false, 41}, bound);
-        compare<Real>(report, scheme, "shifted_5_2_odd", {5, 2, false, 41},
-                      scheme.elastic() ? bound : 0.0);
-        compare<Real>(report, scheme, "mirrored", {0, 0, true, 41}, bound);
-        compare<Real>(report, scheme, "mirrored_even_width", {0, 0, true, 42},
-                      scheme.elastic() ? bound : 0.0);
+        const Agreement same = wide ? Agreement{1.0e-11, 1.0e-8}
+                                    : Agreement{1.0e-3, scheme.elastic() ? 0.05 : 0.0};
+        const Agreement other = scheme.elastic() ? same : Agreement{};
+        compare<Real>(report, scheme, "shifted_4_4", {4, 4, false, 41}, same);
+        compare<Real>(report, scheme, "shifted_back_4_12", {-4, 12, false, 41}, same);
+        compare<Real>(report, scheme, "shifted_3_5", {3, 5, false, 41}, other);
+        compare<Real>(report, scheme, "shifted_5_2_odd", {5, 2, false, 41}, other);
+        compare<Real>(report, scheme, "mirrored", {0, 0, true, 41}, other);
+        compare<Real>(report, scheme, "mirrored_even_width", {0, 0, true, 42}, other);
     });
 }
 

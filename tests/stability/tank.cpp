@@ -139,6 +139,29 @@ void Tank<Real>::set_gravity(Vec2f gravity_mps2) {
     energy_from_now();
 }
 
+/// ½ c² (density − 1)² for each particle that a cell's room holds.
+template <class Real>
+void Tank<Real>::count_compression() {
+    world_.step(1.0e-8F);
+    const auto density = world_.density();
+    const auto solid = world_.signed_distance();
+    const auto sound = static_cast<double>(def_.sound_speed_mps / def_.cell_m);
+    for (std::int32_t j = 0; j < density.rows; ++j) {
+        for (std::int32_t i = 0; i < density.columns; ++i) {
+            double room = 1.0;
+            if (tally_.solids) {
+                const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j),
+                                        solid.at(i + 1, j + 1), solid.at(i, j + 1)};
+                room = static_cast<double>(weir::open_area(corner));
+            }
+            const double over = std::max(0.0, static_cast<double>(density.at(i, j)) - 1.0);
+            if (over > 1.0e-4) {  // rounding is none
+                put_in_ += 0.5 * sound * sound * over * over * room * def_.particles_per_cell;
+            }
+        }
+    }
+}
+
 /// What a report says must fit what was asked, what is there, and itself.
 template <class Real>
 bool Tank<Real>::consistent(const StepReport& r, float dt_s, double fastest) const {
@@ -159,6 +182,8 @@ bool Tank<Real>::consistent(const StepReport& r, float dt_s, double fastest) con
 template <class Real>
 StepReport Tank<Real>::step(float dt_s) {
     const StepReport report = world_.step(dt_s);
+    expected_ -= report.particles_removed_stuck;
+    tally_.removed += report.particles_removed_stuck;
     const auto x = world_.particle_positions();
     const auto v = world_.particle_velocities();
     const auto width = static_cast<Real>(world_.cells_x());

@@ -38,7 +38,8 @@ struct Tally {
     std::int64_t substeps = 0;
     std::int64_t not_finite = 0;
     std::int64_t outside = 0;
-    std::int64_t lost = 0;
+    std::int64_t lost = 0;          ///< steps after which particles are missing, not by report
+    std::int64_t removed = 0;       ///< particles that the report says had no way out of a solid
     std::int64_t reset = 0;
     std::int64_t slowed = 0;
     std::int64_t inconsistent = 0;  ///< steps whose report contradicts the state or itself
@@ -83,6 +84,9 @@ public:
     void set_gravity(weir::Vec2f gravity_mps2);
     /// What is put in is what is there now.
     void energy_from_now() { put_in_ = energy(); }
+    /// Counts as put in what the equation of state holds in cells that are fuller than at rest:
+    /// where a solid cuts the lattice some are. Takes a step so short that nothing moves.
+    void count_compression();
 
     weir::StepReport step(float dt_s);
     void run(std::int32_t steps, float dt_s);
