@@ -2,7 +2,7 @@
 // + − × are the plain ones, so that a loop in lanes gives the plain loop's bits.
 #pragma once
 
-#include <cstdint>
+#include "math/scalar.hpp"
 
 #if (defined(__SSE2__) || defined(__ARM_NEON)) && !defined(WEIR_PLAIN_LOOPS) && \
     (defined(__clang__) || __GNUC__ >= 12)
@@ -60,6 +60,15 @@ inline bool all_true(LaneMask mask) {
     return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
 #endif
 }
+inline bool any_true(LaneMask mask) {
+#if defined(__SSE2__)
+    Lanes signs;
+    __builtin_memcpy(&signs, &mask, sizeof signs);
+    return __builtin_ia32_movmskps(signs) != 0;
+#else
+    return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+#endif
+}
 /// Whether any lane has its sign set; a negative zero may count as one.
 inline bool any_negative(Lanes a) {
 #if defined(__SSE2__)
@@ -70,6 +79,15 @@ inline bool any_negative(Lanes a) {
 }
 inline Lanes maximum(Lanes a, Lanes b) {
     return a < b ? b : a;
+}
+inline Lanes minimum(Lanes a, Lanes b) {
+    return b < a ? b : a;
+}
+inline Lanes clamp(Lanes value, Lanes low, Lanes high) {
+    return value < low ? low : (high < value ? high : value);
+}
+inline Lanes square_root(Lanes a) {
+    return Lanes{square_root(a[0]), square_root(a[1]), square_root(a[2]), square_root(a[3])};
 }
 inline Lanes absolute(Lanes a) {
     LaneMask bits;

@@ -3,6 +3,7 @@
 #include "pressure/coarse_correction.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/relax_packed.hpp"
+#include "pressure/system.hpp"
 
 namespace weir {
 
@@ -15,91 +16,11 @@ constexpr std::int32_t kColdStart = 8;
 template <class Real>
 constexpr Real kRelaxation = Real(1.4);
 
-/// One face of a cell: how much it adds to the diagonal.
-template <class Real>
-inline Real face_coefficient(Real weight, Real open, Real level, SameAs<Real> neighbour_level) {
-    return neighbour_level > Real(0) ? weight
-                                     : weight / liquid_fraction(level, neighbour_level, open);
-}
-
-/// What the pressure on the surface adds to a liquid cell's equation beyond what the sweeps read
-/// from the air cell itself.
-template <class Real>
-inline Real surface_share(Real weight, Real open, Real level, std::int32_t neighbour,
-                          const PressureFields<Real>& fields) {
-    const Real air = fields.level[neighbour];
-    return air > Real(0) ? Real(0)
-                         : weight * fields.pressure[neighbour] *
-                               (Real(1) / liquid_fraction(level, air, open) - Real(1));
-}
-
 /// Rows low … high hold all the liquid; no other needs to be swept.
 struct Rows {
     std::int32_t low = 0;
     std::int32_t high = -1;
 };
-
-template <bool Solids, bool Mixed, class Real>
-void build(const FaceWeights<Solids, Mixed, Real>& weights, const Part& part,
-           PressureFields<Real>& fields) {
-    const Walls<Real>& walls = weights.walls;
-    const GridShape& s = weights.grid.shape;
-    const Real rescale = fields.solve.rescale;
-    Solve<Real> system = fields.solve;
-    for (std::int32_t j = part.first; j < part.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
-            const Real level = fields.level[c];
-            fields.inverse_diagonal[c] = Real(0);
-            if (!(level > Real(0))) {
-                fields.pressure[c] = fields.on_surface ? fields.pressure[c] : Real(0);
-                continue;
-            }
-            const std::int32_t up = c + s.stride;
-            const std::int32_t down = c - s.stride;
-            const Faces<Real> w = weights.around(i, j);
-            const Faces<Real> open{weights.open_u(c), weights.open_u(c + 1), weights.open_v(c),
-                                   weights.open_v(up)};
-            const Real diagonal =
-                (face_coefficient(w.left, open.left, level, fields.level[c - 1]) +
-                 face_coefficient(w.right, open.right, level, fields.level[c + 1])) +
-                (face_coefficient(w.lower, open.lower, level, fields.level[down]) +
-                 face_coefficient(w.upper, open.upper, level, fields.level[up]));
-            if (!(diagonal > Real(0))) {
-                fields.pressure[c] = Real(0);
-                continue;
-            }
-            const bool wide = !Solids || untouched(walls, c, up);
-            Real divergence = weights.outflow(i, j);
-            if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
-                divergence += wall_flow(s, walls, i, j);
-            }
-            if (fields.on_surface) {
-                divergence -= (surface_share(w.left, open.left, level, c - 1, fields) +
-                               surface_share(w.right, open.right, level, c + 1, fields)) +
-                              (surface_share(w.lower, open.lower, level, down, fields) +
-                               surface_share(w.upper, open.upper, level, up, fields));
-            }
-            fields.divergence[c] = divergence;
-            // The sign tells `relax` which cells a wall touches.
-            const Real sign = Real(wide ? 1 : -1);
-            if constexpr (Stored<Real>::shares_momentum) {
-                fields.inverse_diagonal[c] = sign * diagonal;  // relax_packed.hpp
-            } else {
-                fields.inverse_diagonal[c] = sign / diagonal;
-            }
-            // A number that is none would stay for ever: the solve starts from the last pressure.
-            const Real scaled = fields.pressure[c] * rescale;
-            const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);
-            fields.pressure[c] = start;
-            system.first_row = minimum(system.first_row, j);
-            system.last_row = j;
-            system.wanted = system.wanted - product(start, divergence);
-            system.there = system.there + product(start * diagonal, start);
-        }
-    }
-    fields.solve = system;
-}
 
 /// How much of the old pressure p to start from: eighths, or all. `wanted`: pᵀb, `there`: pᵀAp.
 template <class Real>
@@ -131,7 +52,14 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     Product<Real> there = solve.there;
     for (std::int32_t at = weighed.first; at < weighed.end; ++at) {
         const std::int32_t j = solve.first_row + at;
-        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
+        const std::int32_t end = s.index(s.nx, j);
+        for (std::int32_t c = s.index(0, j); c < end; ++c) {
+            if constexpr (kHasLanes<Real> && !Mixed) {
+                c = weigh_lanes(fields, s.stride, c, end, there);
+                if (c == end) {
+                    break;
+                }
+            }
             const Real inverse = fields.inverse_diagonal[c];
             if (inverse != Real(0)) {
                 there = there - product(p[c], weights.weighted(p, c, inverse));
@@ -197,6 +125,14 @@ void project(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
     const ShareOf<Real>* open_v = Solids ? weights.walls.open_v : nullptr;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
+            if constexpr (kHasLanes<Real> && !Mixed) {
+                if (weights.has_left(i) && weights.has_lower(j)) {
+                    i += accelerate_lanes(fields, open_u, open_v, s, i, j, grid);
+                    if (i == s.nx) {
+                        break;
+                    }
+                }
+            }
             const std::int32_t c = s.index(i, j);
             if (weights.has_left(i)) {
                 accelerate(grid.u, c, c - 1, weights.light_u(c), open_u, fields);

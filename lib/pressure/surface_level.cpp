@@ -1,5 +1,7 @@
 #include "pressure/surface_level.hpp"
 
+#include "pressure/surface_lanes.hpp"
+
 namespace weir {
 
 namespace {
@@ -36,8 +38,14 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
     const ThinWalls<Real>* thin = walls.thin;
     const Real per_face = Real(1) / (Real(4) * rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
+        std::int32_t c = s.index(0, j);
+        const std::int32_t end = s.index(s.nx, j);
+        if constexpr (kHasLanes<Real>) {
+            c = thin != nullptr ? c
+                                : density_row(grid, walls.active ? walls.full_density : nullptr,
+                                              kLeastFullDensity<Real>, per_face, c, end, fields);
+        }
+        for (; c < end; ++c) {
             const Real mass = thin != nullptr && (thin->mark[c] & kTouching) != 0
                                   ? seen_mass(grid, *thin, c)
                                   : (grid.mass_u[c] + grid.mass_u[c + 1]) +
@@ -85,6 +93,29 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
     return open > Real(0) && covered >= share * open;
 }
 
+/// Air cells that liquid surrounds are taken as filled.
+template <class Real>
+void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
+                  const Part& rows, LevelOf<Real>* level) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        for (std::int32_t i = 0; i < s.nx;) {
+            std::int32_t end = s.nx;
+            if constexpr (kHasLanes<Real>) {
+                if (i + 4 <= s.nx) {
+                    end = i + 4;
+                    i = any_beside_liquid(level, s.stride, s.index(i, j)) ? i : end;
+                }
+            }
+            for (; i < end; ++i) {
+                const std::int32_t c = s.index(i, j);
+                if (level[c] <= Real(0) && surrounded(s, borders, walls, level, i, j)) {
+                    level[c] = kFilledLevel<Real>;
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
 
 // Seen from a flat surface at height s over the centre, the mean of the four face masses is
@@ -115,16 +146,7 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.level);
     }
-    const Part rows = work.take(s.ny, s.nx);
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
-            if (fields.level[c] <= Real(0) &&
-                surrounded(s, borders, walls, fields.level, i, j)) {
-                fields.level[c] = kFilledLevel<Real>;
-            }
-        }
-    }
+    fill_dimples(s, borders, walls, work.take(s.ny, s.nx), fields.level);
     if (work.once(s.border())) {
         mirror_cells(borders, s, fields.level);
     }

@@ -1,6 +1,7 @@
 #include "pressure/volume_correction.hpp"
 
 #include "pressure/patches.hpp"
+#include "pressure/volume_lanes.hpp"
 
 namespace weir {
 
@@ -67,7 +68,15 @@ Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
     std::int32_t count = 0;
     bool open = !Solids;
     for (std::int32_t y = 0; y < patch.height; ++y) {
-        for (std::int32_t x = 0; x < patch.width; ++x) {
+        std::int32_t x = 0;
+        if constexpr (kHasLanes<Real>) {
+            if (patch.width == kCoarseEdge) {
+                const std::int32_t c = s.index(patch.i, patch.j + y);
+                add_row_of_patch(f, walls.full_density, kCellWindow<Real>, c, sum, count, open);
+                x = kCoarseEdge;
+            }
+        }
+        for (; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
             open = open || walls.full_density[c] > Real(0);
             if (f.level[c] > Real(0)) {
@@ -112,6 +121,15 @@ void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     rises(fields.coarse.correction, patch.q, 1, along_x);
     rises(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
     for (std::int32_t y = 0; y < patch.height; ++y) {
+        if constexpr (kHasLanes<Real>) {
+            if (patch.width == kCoarseEdge) {
+                const std::int32_t c = s.index(patch.i, patch.j + y);
+                drift_row(e, s.stride, speed, along_x, along_y[y], Solids ? &walls : nullptr,
+                          patch.i > 0 || borders.wrap_x, patch.j + y > 0 || borders.wrap_y, c,
+                          grid);
+                continue;
+            }
+        }
         for (std::int32_t x = 0; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
             const bool has_left = patch.i + x > 0 || borders.wrap_x;
@@ -133,8 +151,14 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     const GridShape& big = fields.coarse.shape;
     const Part cells = work.take(s.ny, s.nx);
     for (std::int32_t j = cells.first; j < cells.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
+        std::int32_t c = s.index(0, j);
+        const std::int32_t end = s.index(s.nx, j);
+        if constexpr (kHasLanes<Real>) {
+            const ExcessLimits limits{kSurfaceSlack<Real>, kSubsurfaceSlack<Real>, kWindow<Real>,
+                                      fields.on_surface};
+            c = excess_lanes(fields, s.stride, limits, c, end);
+        }
+        for (; c < end; ++c) {
             fields.divergence[c] = excess(s, fields, c);
         }
     }

@@ -1,6 +1,7 @@
 #include "step/grid_to_particle.hpp"
 
 #include "grid/diffuse.hpp"
+#include "step/face_lanes.hpp"
 #include "step/tank_walls.hpp"
 #include "step/transfer_lanes.hpp"
 
@@ -66,19 +67,33 @@ void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real
         const bool on_seam = (back == 1 ? i : j) == 0;
         return face - back + (on_seam ? back * (back == 1 ? s.nx : s.ny) : 0);
     };
+    const auto one = [&](std::int32_t i, std::int32_t j) {
+        const std::int32_t face = s.index(i, j);
+        const std::int32_t along = back == 1 ? s.stride : 1;
+        if (!deep(face) || !deep(before(face, i, j)) || !deep(face + back) ||
+            !deep(face - along) || !deep(face + along) || beside_thin_wall(face)) {
+            return;
+        }
+        const Real around = (field[face - 1] + field[face + 1]) +
+                            (field[face - s.stride] + field[face + s.stride]);
+        const Range<Real> range = range_around<Real>(field, face, s.stride);
+        out[face] = clamp(field[face] - kSmoothing<Real> * (around - Real(4) * field[face]),
+                          range.low, range.high);
+    };
     for (std::int32_t j = maximum(first_j, rows.first); j < rows.end; ++j) {
-        for (std::int32_t i = first_i; i < s.nx; ++i) {
-            const std::int32_t face = s.index(i, j);
-            const std::int32_t along = back == 1 ? s.stride : 1;
-            if (!deep(face) || !deep(before(face, i, j)) || !deep(face + back) ||
-                !deep(face - along) || !deep(face + along) || beside_thin_wall(face)) {
-                continue;
+        std::int32_t i = first_i;
+        if constexpr (kHasLanes<Real>) {
+            for (; back == 1 && i < 1; ++i) {
+                one(i, j);
             }
-            const Real around = (field[face - 1] + field[face + 1]) +
-                                (field[face - s.stride] + field[face + s.stride]);
-            const Range<Real> range = range_around<Real>(field, face, s.stride);
-            out[face] = clamp(field[face] - kSmoothing<Real> * (around - Real(4) * field[face]),
-                              range.low, range.high);
+            if (thin == nullptr && (back == 1 || j > 0)) {
+                const std::int32_t face = s.index(i, j);
+                i += sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, face,
+                                   s.index(s.nx, j), out) - face;
+            }
+        }
+        for (; i < s.nx; ++i) {
+            one(i, j);
         }
     }
 }
@@ -104,7 +119,14 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
     }
     const Real pic_ratio = Real(1) - flip_ratio;
     const Part blended = work.take(s.ny + 2, s.stride);
-    for (std::int32_t face = blended.first * s.stride; face < blended.end * s.stride; ++face) {
+    const std::int32_t end = blended.end * s.stride;
+    std::int32_t face = blended.first * s.stride;
+    if constexpr (kHasLanes<Real>) {
+        const std::int32_t first = face;
+        face = blend_lanes(grid.u, sharp_u, pic_ratio, first, end, grid.mass_u);
+        blend_lanes(grid.v, sharp_v, pic_ratio, first, end, grid.mass_v);
+    }
+    for (; face < end; ++face) {
         grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
         grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
     }

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "pressure/projection.hpp"
+#include "step/face_lanes.hpp"
 
 namespace weir {
 
@@ -26,7 +27,11 @@ inline Part faces_of(const GridShape& s, const Part& rows) {
 template <class Real>
 void update(const Real* momentum, VelocityOf<Real>* mass, const Part& faces, Real gained,
             VelocityOf<Real>* velocity) {
-    for (std::int32_t face = faces.first; face < faces.end; ++face) {
+    std::int32_t face = faces.first;
+    if constexpr (kHasLanes<Real>) {
+        face = velocity_lanes(momentum, mass, gained, face, faces.end, velocity);
+    }
+    for (; face < faces.end; ++face) {
         const Real m = mass[face];
         const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
         mass[face] = before;
@@ -95,33 +100,43 @@ void extrapolate_component(const Component<Real>& component, const PressureField
         const Real rise = pressure_rise(fields, face - back, face, open);
         return component.light != nullptr ? Real(component.light[face]) * rise : rise;
     };
-    for (std::int32_t j = maximum(component.first_j, rows.first); j < rows.end; ++j) {
-        for (std::int32_t i = component.first_i; i < s.nx; ++i) {
-            const std::int32_t face = s.index(i, j);
-            if (wet(face) || empty(face)) {
-                continue;
+    const auto one = [&](std::int32_t i, std::int32_t j) {
+        const std::int32_t face = s.index(i, j);
+        if (wet(face) || empty(face)) {
+            return;
+        }
+        Real sum = Real(0);
+        Real count = Real(0);
+        const auto look = [&](bool exists, std::int32_t neighbour) {
+            const bool open = component.open == nullptr || component.open[neighbour] > Real(0);
+            if (exists && open && wet(neighbour) &&
+                (component.thin == nullptr ||
+                 !separated(*component.thin, s, face, neighbour, back == 1))) {
+                sum += velocity_itself ? Real(component.velocity[neighbour]) : -gained(neighbour);
+                count += Real(1);
             }
-            Real sum = Real(0);
-            Real count = Real(0);
-            const auto look = [&](bool exists, std::int32_t neighbour) {
-                const bool open =
-                    component.open == nullptr || component.open[neighbour] > Real(0);
-                if (exists && open && wet(neighbour) &&
-                    (component.thin == nullptr ||
-                     !separated(*component.thin, s, face, neighbour, back == 1))) {
-                    sum += velocity_itself ? Real(component.velocity[neighbour])
-                                           : -gained(neighbour);
-                    count += Real(1);
+        };
+        look(i > component.first_i, face - 1);
+        look(i + 1 < s.nx, face + 1);
+        look(j > component.first_j, face - s.stride);
+        look(j + 1 < s.ny, face + s.stride);
+        if (count > Real(0)) {
+            const Real mean = sum / count;
+            component.velocity[face] =
+                velocity_itself ? mean : Real(component.velocity[face]) + mean;
+        }
+    };
+    for (std::int32_t j = maximum(component.first_j, rows.first); j < rows.end; ++j) {
+        for (std::int32_t i = component.first_i; i < s.nx;) {
+            std::int32_t end = s.nx;
+            if constexpr (kHasLanes<Real>) {
+                if (i + 4 <= s.nx) {
+                    end = i + 4;
+                    i = any_in_spray(level, back, s.index(i, j)) ? i : end;
                 }
-            };
-            look(i > component.first_i, face - 1);
-            look(i + 1 < s.nx, face + 1);
-            look(j > component.first_j, face - s.stride);
-            look(j + 1 < s.ny, face + s.stride);
-            if (count > Real(0)) {
-                const Real mean = sum / count;
-                component.velocity[face] =
-                    velocity_itself ? mean : Real(component.velocity[face]) + mean;
+            }
+            for (; i < end; ++i) {
+                one(i, j);
             }
         }
     }

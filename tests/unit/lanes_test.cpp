@@ -1,4 +1,4 @@
-// Both transfers in lanes against the plain loops: the same bits, whatever the particles do.
+// Loops in lanes against the plain loops: the same bits, whatever the particles do.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "pressure/surface_lanes.hpp"
+#include "pressure/surface_level.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/particle_to_grid.hpp"
 #include "step/transfer_lanes.hpp"
@@ -100,6 +102,22 @@ TEST_P(GatherInLanes, HasThePlainLoopsBits) {
         EXPECT_EQ(result[0].max_speed, result[1].max_speed);
     }
 }
+#if WEIR_HAS_LANES
+TEST(Lanes, LevelHasThePlainFormulasBits) {
+    for (std::int32_t k = -40; k < 4096; k += 4) {
+        Lanes density{};
+        for (std::int32_t lane = 0; lane < 4; ++lane) {
+            density[lane] = static_cast<float>(k + lane) / 3900.0F;
+        }
+        const Lanes level = level_of_density(density);
+        for (std::int32_t lane = 0; lane < 4; ++lane) {
+            const float plain = level_of_density<float>(density[lane]);
+            EXPECT_EQ(plain, level[lane]) << "density " << density[lane];
+        }
+    }
+}
+#endif
+
 INSTANTIATE_TEST_SUITE_P(WallsAndSeams, GatherInLanes, testing::Bool());
 
 }  // namespace

@@ -1,0 +1,139 @@
+// The equations of the projection: diagonal, right-hand side and where the solve starts, of every
+// liquid cell.
+#pragma once
+
+#include "pressure/face_weights.hpp"
+#include "pressure/projection.hpp"
+#include "pressure/relax_packed.hpp"
+#include "pressure/system_lanes.hpp"
+
+namespace weir {
+
+/// One face of a cell: how much it adds to the diagonal.
+template <class Real>
+inline Real face_coefficient(Real weight, Real open, Real level, SameAs<Real> neighbour_level) {
+    return neighbour_level > Real(0) ? weight
+                                     : weight / liquid_fraction(level, neighbour_level, open);
+}
+
+/// What the pressure on the surface adds to a liquid cell's equation beyond what the sweeps read
+/// from the air cell itself.
+template <class Real>
+inline Real surface_share(Real weight, Real open, Real level, std::int32_t neighbour,
+                          const PressureFields<Real>& fields) {
+    const Real air = fields.level[neighbour];
+    return air > Real(0) ? Real(0)
+                         : weight * fields.pressure[neighbour] *
+                               (Real(1) / liquid_fraction(level, air, open) - Real(1));
+}
+
+/// The equation of one cell, and where its solve starts. Adds to the sums of the system.
+template <bool Solids, bool Mixed, class Real>
+void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
+                PressureFields<Real>& fields, Solve<Real>& system) {
+    const Walls<Real>& walls = weights.walls;
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t c = s.index(i, j);
+    const Real level = fields.level[c];
+    fields.inverse_diagonal[c] = Real(0);
+    if (!(level > Real(0))) {
+        fields.pressure[c] = fields.on_surface ? fields.pressure[c] : Real(0);
+        return;
+    }
+    const std::int32_t up = c + s.stride;
+    const std::int32_t down = c - s.stride;
+    const Faces<Real> w = weights.around(i, j);
+    const Faces<Real> open{weights.open_u(c), weights.open_u(c + 1), weights.open_v(c),
+                           weights.open_v(up)};
+    const Real diagonal = (face_coefficient(w.left, open.left, level, fields.level[c - 1]) +
+                           face_coefficient(w.right, open.right, level, fields.level[c + 1])) +
+                          (face_coefficient(w.lower, open.lower, level, fields.level[down]) +
+                           face_coefficient(w.upper, open.upper, level, fields.level[up]));
+    if (!(diagonal > Real(0))) {
+        fields.pressure[c] = Real(0);
+        return;
+    }
+    const bool wide = !Solids || untouched(walls, c, up);
+    Real divergence = weights.outflow(i, j);
+    if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
+        divergence += wall_flow(s, walls, i, j);
+    }
+    if (fields.on_surface) {
+        divergence -= (surface_share(w.left, open.left, level, c - 1, fields) +
+                       surface_share(w.right, open.right, level, c + 1, fields)) +
+                      (surface_share(w.lower, open.lower, level, down, fields) +
+                       surface_share(w.upper, open.upper, level, up, fields));
+    }
+    fields.divergence[c] = divergence;
+    // The sign tells `relax` which cells a wall touches.
+    const Real sign = Real(wide ? 1 : -1);
+    if constexpr (Stored<Real>::shares_momentum) {
+        fields.inverse_diagonal[c] = sign * diagonal;  // relax_packed.hpp
+    } else {
+        fields.inverse_diagonal[c] = sign / diagonal;
+    }
+    // A number that is none would stay for ever: the solve starts from the last pressure.
+    const Real scaled = fields.pressure[c] * system.rescale;
+    const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);
+    fields.pressure[c] = start;
+    system.first_row = minimum(system.first_row, j);
+    system.last_row = j;
+    system.wanted = system.wanted - product(start, divergence);
+    system.there = system.there + product(start * diagonal, start);
+}
+
+/// Cells i … i + 3 in one, if they are alike. False: to be done one by one.
+template <bool Solids, bool Mixed, class Real>
+bool build_alike([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weights,
+                 [[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j,
+                 [[maybe_unused]] PressureFields<Real>& fields,
+                 [[maybe_unused]] Solve<Real>& system) {
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real> && !Mixed) {
+        const Walls<Real>& walls = weights.walls;
+        const GridShape& s = weights.grid.shape;
+        const std::int32_t c = s.index(i, j);
+        const Around around = around_four(fields.level, s.stride, c, false);
+        if (around == Around::air && !fields.on_surface) {
+            store_lanes(fields.inverse_diagonal + c, all_lanes(0.0F));
+            store_lanes(fields.pressure + c, all_lanes(0.0F));
+            return true;
+        }
+        const bool inner = weights.has_left(i) && weights.has_right(i + 3) &&
+                           weights.has_lower(j) && weights.has_upper(j);
+        if (around != Around::liquid || !inner ||
+            (Solids && (!four_untouched(walls, s.stride, c, !walls.moving) ||
+                        (walls.moving && walls.thin != nullptr)))) {
+            return false;
+        }
+        if (!build_four(weights.grid, system.rescale, c, fields, system)) {
+            return false;
+        }
+        system.first_row = minimum(system.first_row, j);
+        system.last_row = j;
+        return true;
+    }
+#endif
+    return false;
+}
+
+template <bool Solids, bool Mixed, class Real>
+void build(const FaceWeights<Solids, Mixed, Real>& weights, const Part& part,
+           PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
+    Solve<Real> system = fields.solve;
+    for (std::int32_t j = part.first; j < part.end; ++j) {
+        for (std::int32_t i = 0; i < s.nx;) {
+            const std::int32_t end = kHasLanes<Real> ? minimum(i + 4, s.nx) : s.nx;
+            if (kHasLanes<Real> && i + 4 == end && build_alike(weights, i, j, fields, system)) {
+                i = end;
+            }
+            for (; i < end; ++i) {
+                build_cell(weights, i, j, fields, system);
+            }
+        }
+    }
+    fields.solve = system;
+}
+
+}  // namespace weir
