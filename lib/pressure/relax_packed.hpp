@@ -12,14 +12,15 @@ namespace weir {
 inline constexpr std::int32_t kMostPressureRaw = 1 << 28;
 inline constexpr std::int32_t kMostResidualRaw = 1 << 21;
 
-/// A pressure to start from.
+/// A pressure to start from. In a tank without a surface that a body presses on it would grow
+/// without end, and no fixed-point number could hold the sum of four.
 template <class Real>
 inline Real bounded(Real pressure) {
-    if constexpr (Stored<Real>::shares_momentum) {
-        return Real::of_raw(clamp(pressure.raw, -kMostPressureRaw, kMostPressureRaw));
-    } else {
-        return pressure;
-    }
+    return pressure;
+}
+template <class S>
+inline FixedPoint<16, S> bounded(FixedPoint<16, S> pressure) {
+    return FixedPoint<16, S>::of_raw(clamp(pressure.raw, -kMostPressureRaw, kMostPressureRaw));
 }
 
 /// share × pressure; share is 0 … 1 in 1/128ths.

@@ -30,6 +30,12 @@ constexpr Real kPatchGain = Real(1);
 template <class Real>
 constexpr Real kSubsurfaceSlack = Real(0.03);
 
+/// A patch with that many liquid cells that are too dense by this in the mean has not the room for
+/// its liquid. (Of a cell no more than kCellWindow counts.)
+template <class Real>
+constexpr Real kOverfull = Real(0.15);
+constexpr std::int32_t kLeastOverfull = 8;
+
 /// Excess of a patch that a solid fills: no drift towards it, nor from it.
 template <class Real>
 constexpr Real kSolidPatch = Real(2);
@@ -60,10 +66,11 @@ inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32
     return clamp(e, -kWindow<Real>, kWindow<Real>);
 }
 
-/// Mean excess of a patch's liquid cells; 0 in air.
+/// Mean excess of a patch's liquid cells; 0 in air. `overfull` grows by the patch's liquid cells if
+/// they have not the room for what is in them.
 template <bool Solids, class Real>
 Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
-             const PressureFields<Real>& f) {
+             const PressureFields<Real>& f, std::int32_t& overfull) {
     Real sum = Real(0);
     std::int32_t count = 0;
     bool open = !Solids;
@@ -88,7 +95,9 @@ Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
     if (count == 0) {
         return open ? Real(0) : kSolidPatch<Real>;
     }
-    return clamp(part_of(sum, count), -kPatchWindow<Real>, kPatchWindow<Real>);
+    const Real mean = part_of(sum, count);
+    overfull += count >= kLeastOverfull && mean >= kOverfull<Real> ? count : 0;
+    return clamp(mean, -kPatchWindow<Real>, kPatchWindow<Real>);
 }
 
 /// By how much the mean excess rises from one patch to the next, times the gain between them.
@@ -146,7 +155,8 @@ void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 
 template <bool Solids, class Real>
 void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
-             PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work) {
+             PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
+             Work work) {
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
     const Part cells = work.take(s.ny, s.nx);
@@ -168,7 +178,7 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     // Drops under surface tension are small and keep together without.
     for_each_patch(s, big, work, [&](const Patch& patch) {
         fields.coarse.correction[patch.q] =
-            fields.on_surface ? Real(0) : average<Solids>(s, walls, patch, fields);
+            fields.on_surface ? Real(0) : average<Solids>(s, walls, patch, fields, overfull);
     });
     if (work.once(big.border())) {
         mirror_cells(borders, big, fields.coarse.correction);
@@ -183,19 +193,22 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
-                       Work work) {
+                       std::int32_t& overfull, Work work) {
+    if (work.once(1)) {
+        overfull = 0;
+    }
     const auto stage = walls.active ? correct<true, Real> : correct<false, Real>;
-    stage(borders, walls, gain / dt_s, fields, grid, work);
+    stage(borders, walls, gain / dt_s, fields, grid, overfull, work);
 }
 
-template void volume_correction(const Borders<float>&, const Walls<float>&, float, float,
-                                PressureFields<float>&, StaggeredGrid<float>&, Work);
-template void volume_correction(const Borders<double>&, const Walls<double>&, double, double,
-                                PressureFields<double>&, StaggeredGrid<double>&, Work);
-template void volume_correction(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
-                                PressureFields<Fixed>&, StaggeredGrid<Fixed>&, Work);
-template void volume_correction(const Borders<SmallFixed>&, const Walls<SmallFixed>&,
-                                Seconds<SmallFixed>, SmallFixed, PressureFields<SmallFixed>&,
-                                StaggeredGrid<SmallFixed>&, Work);
+#define WEIR_INSTANTIATE(Real)                                                            \
+    template void volume_correction(const Borders<Real>&, const Walls<Real>&,             \
+                                    Seconds<Real>, Real, PressureFields<Real>&,           \
+                                    StaggeredGrid<Real>&, std::int32_t&, Work);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

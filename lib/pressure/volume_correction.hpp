@@ -12,9 +12,11 @@ namespace weir {
 /// liquid that has splashed loses a third of its volume. Local: each face looks at its two cells.
 /// `divergence` is used as scratch. Called after blend_change: only the advecting velocity sees
 /// the drift.
+/// `overfull`: liquid cells in patches of 4 × 4 that hold far more than they have room for, which
+/// no drift cures; 0 with surface tension.
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
-                       Work work = {});
+                       std::int32_t& overfull, Work work = {});
 
 }  // namespace weir

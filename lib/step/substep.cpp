@@ -277,7 +277,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
                  work);
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
         volume_correction(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
-                          simulation.pressure, grid, work);
+                          simulation.pressure, grid, report.cells_overfull, work);
     }
     clock.charge(Stage::volume);
 

@@ -28,6 +28,9 @@ constexpr Problem kProblems[] = {
     {"torture", "particles thrown at random polygons", solids::torture},
     {"thin", "walls thinner than a cell hold a column of liquid", solids::thin_walls},
     // Moving bodies.
+    {"R12", "a floating box: draft, and heave", solids::floating_box},
+    {"R13a", "a jet on a plate: force", solids::jet_on_plate},
+    {"piston", "a body that compresses a full tank", solids::piston},
     // Still water.
     {"R4c", "still water between inclined walls", solids::still_water},
     {"R6b", "sloshing between inclined walls", solids::sloshing},
