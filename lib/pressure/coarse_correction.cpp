@@ -1,7 +1,5 @@
 #include "pressure/coarse_correction.hpp"
 
-#include <cstring>
-
 #include "pressure/coarse_seams.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
@@ -22,7 +20,9 @@ Real over_relaxation(std::int32_t rows) {
 
 template <class Real>
 void clear(Real* field, const GridShape& shape) {
-    std::memset(field, 0, static_cast<std::size_t>(shape.size()) * sizeof(Real));
+    for (std::int32_t q = 0; q < shape.size(); ++q) {
+        field[q] = Real(0);
+    }
 }
 
 /// What `residual` holds during the set-up: 0 for an empty patch, 1 for a full one, and this.

@@ -1,7 +1,7 @@
 #include "solid/collide.hpp"
 
 #include "solid/body_force.hpp"
-#include "solid/contour_hit.hpp"
+#include "solid/first_entry.hpp"
 #include "solid/reflect.hpp"
 #include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
@@ -47,25 +47,32 @@ Vec2<Real> carried(const Scene<Real>& scene, const Body<Real>& body, Vec2<Real> 
                : x;
 }
 
-/// Gives the particle its velocity after a blow at `x`, and the body its due.
+/// Gives the particle its velocity after a blow of a body at `x`, and the body its due.
 template <class Real>
-void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
-            Vec2<Real> normal) {
+void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
+          Vec2<Real> after) {
     Particles<Real>& particles = scene.particles;
-    const Body<Real>& body = scene.walls.body[slot];
     const Vec2<Real> before = particles.velocity[k];
-    const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
-    const Vec2<Real> after = reflect(body.surface, surface, before, normal);
     particles.velocity[k] = after;
     const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
     if (scene.contacts.capacity > 0) {
-        record_blow(scene.contacts, body, slot, kind, x, before - after);
+        record_blow(scene.contacts, scene.walls.body[slot], slot, kind, x, before - after);
     }
     if (scene.walls.load != nullptr) {
         receive_blow(scene.walls, slot, kind, x, before - after);
     }
     scene.result.max_speed =
         maximum(scene.result.max_speed, maximum(absolute(after.x), absolute(after.y)));
+}
+
+/// The surface of a body answers a particle that hits it at `x`.
+template <class Real>
+void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
+            Vec2<Real> normal) {
+    const Body<Real>& body = scene.walls.body[slot];
+    const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
+    const Vec2<Real> before = scene.particles.velocity[k];
+    blow(scene, k, slot, x, reflect(body.surface, surface, before, normal));
 }
 
 /// Blows that are to be answered once it is clear that the particle can stay where they put it.
@@ -119,47 +126,6 @@ bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at, Vec2<Real> 
     return true;
 }
 
-/// First place behind a contour on a path that begins in the open, and the last one before it.
-template <class Real>
-struct Entry {
-    bool found = false;
-    Vec2<Real> place;
-    Standing<Real> at;
-};
-
-template <class Real>
-Entry<Real> first_entry(const Scene<Real>& scene, Vec2<Real> from, Vec2<Real> to) {
-    constexpr Real kSamples = Real(4);  // a cell
-    constexpr std::int32_t kMostSamples = 16;
-    constexpr std::int32_t kHalvings = 8;
-    const Vec2<Real> way = to - from;
-    const Real longest = maximum(absolute(way.x), absolute(way.y));
-    const std::int32_t samples = longest * kSamples < static_cast<Real>(kMostSamples)
-                                     ? ceil_to_int(longest * kSamples)
-                                     : kMostSamples;
-    Entry<Real> entry;
-    Real outside = Real(0);
-    Real inside = Real(0);
-    for (std::int32_t k = 1; k <= samples && !entry.found; ++k) {
-        outside = inside;
-        inside = static_cast<Real>(k) / static_cast<Real>(samples);
-        entry.at = standing(scene.shape, scene.walls, from + inside * way);
-        entry.found = entry.at.inside;
-    }
-    for (std::int32_t k = 0; k < kHalvings && entry.found; ++k) {
-        const Real middle = Real(0.5) * (outside + inside);
-        const Standing<Real> at = standing(scene.shape, scene.walls, from + middle * way);
-        if (at.inside) {
-            inside = middle;
-            entry.at = at;
-        } else {
-            outside = middle;
-        }
-    }
-    entry.place = from + outside * way;
-    return entry;
-}
-
 /// In a notch the velocity that a blow leaves may lead into the solid again. Then there is no way
 /// on, and what is left of it goes, too: it would grow without end while the particle stays.
 template <class Real>
@@ -191,7 +157,7 @@ bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<R
         if (!in_tank(scene.shape, from) || standing(scene.shape, scene.walls, from).inside) {
             return false;
         }
-        entry = first_entry(scene, from, x);
+        entry = first_entry(scene.shape, scene.walls, from, x);
         if (!entry.found) {
             return true;
         }
@@ -229,7 +195,7 @@ bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real>
     ++scene.result.reflected;
     if (distance > kFastestWayOut<Real>) {
         scene.particles.position[k] = from + kFastestWayOut<Real> * normal;
-        scene.particles.velocity[k] = velocity_at(body, from);
+        blow(scene, k, slot, from, Vec2<Real>(velocity_at(body, from)));
         ++scene.result.stuck;
     } else {
         scene.particles.position[k] = place;

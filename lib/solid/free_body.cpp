@@ -198,11 +198,12 @@ bool limit(Face<Real> fastest, Face<Real> radius, Twist<Real>& twist) {
     }
     const Number speed = maximum(absolute(twist.velocity.x), absolute(twist.velocity.y)) +
                          absolute(twist.spin) * radius;
-    if (!(speed > fastest)) {
+    const Number spin = clamp(twist.spin, -Number(kMaxAngle), Number(kMaxAngle));
+    if (!(speed > fastest) && spin == twist.spin) {
         return false;
     }
-    const Number share = fastest / speed;
-    twist = {share * twist.velocity, share * twist.spin};
+    const Number share = speed > fastest ? fastest / speed : Number(1);
+    twist = {share * twist.velocity, share * spin};
     return true;
 }
 

@@ -22,9 +22,6 @@ struct Believed<FixedPoint<F, S>> {
     static constexpr FixedPoint<F, S> furthest_vertex = high;
 };
 
-template <class Real>
-inline constexpr Real kLargestAngleKept = Real(1.0e4);  ///< rad
-
 /// How much of the blocks there is.
 struct Extents {
     std::int32_t particles = 0;
@@ -38,6 +35,11 @@ void any_member(Stream& stream, Real& value) {
 template <class Real, class Stream>
 void positive_member(Stream& stream, Real& value) {
     stream.member(value, Real{}, Believed<Real>::high);
+}
+/// An angle or a spin.
+template <class Real, class Stream>
+void angle_member(Stream& stream, Real& value) {
+    stream.member(value, Real(-kMaxAngle), Real(kMaxAngle));
 }
 template <class Real, class Stream>
 void any_member(Stream& stream, Vec2<Real>& vector) {
@@ -87,8 +89,8 @@ void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) 
     stream.member(generation, 0, 0xFFFF);
     any_member(stream, position);
     any_member(stream, velocity);
-    stream.member(angle, -kLargestAngleKept<Real>, kLargestAngleKept<Real>);
-    any_member(stream, spin);
+    angle_member(stream, angle);
+    angle_member(stream, spin);
     stream.member(restitution, Real(0), Real(1));
     positive_member(stream, friction);
     any_member(stream, conveyor);
@@ -97,7 +99,7 @@ void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) 
     stream.member(moved, false, true);
     stream.member(open, false, true);
     any_member(stream, met_position);
-    stream.member(met_angle, -kLargestAngleKept<Real>, kLargestAngleKept<Real>);
+    angle_member(stream, met_angle);
     constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);
     const std::int32_t places = stream.member(room, 0, most_places);
     const std::int32_t count = stream.member(vertex_count, 0, places);

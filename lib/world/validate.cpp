@@ -12,8 +12,6 @@ bool perfect_square_up_to_16(std::int32_t value) {
     return value == 1 || value == 4 || value == 9 || value == 16;
 }
 
-constexpr float kLargestAngle = 1.0e4F;
-
 Status check_gravity(Vec2f gravity) {
     if (!is_finite(gravity)) {
         return Status::gravity_not_finite;
@@ -221,8 +219,8 @@ Status check_motion(const Motion& motion, float cell_m, const Reach& reach) {
     const float fastest = reach.speed * cell_m;
     const bool in_range = within(motion.velocity_mps.x, -fastest, fastest) &&
                           within(motion.velocity_mps.y, -fastest, fastest) &&
-                          within(motion.angle_rad, -kLargestAngle, kLargestAngle) &&
-                          within(motion.spin_radps, -kLargestAngle, kLargestAngle);
+                          within(motion.angle_rad, -kMaxAngle, kMaxAngle) &&
+                          within(motion.spin_radps, -kMaxAngle, kMaxAngle);
     return in_range ? Status::ok : Status::motion_out_of_range;
 }
 

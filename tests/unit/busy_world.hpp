@@ -142,7 +142,10 @@ void move_body(World<Real>& world, Dice& dice, std::int32_t slot) {
     motion.position_m = {motion.position_m.x + way.x, motion.position_m.y + way.y};
     motion.spin_radps = spin;
     const Status moved = world.set_motion(id, motion);
-    EXPECT_TRUE(moved == Status::ok || moved == Status::body_is_static) << status_text(moved);
+    // A body may have flown away by itself, further than a call may put it.
+    EXPECT_TRUE(moved == Status::ok || moved == Status::body_is_static ||
+                moved == Status::position_out_of_range || moved == Status::motion_out_of_range)
+        << status_text(moved);
 }
 
 /// One thing happens, or none.

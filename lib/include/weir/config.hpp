@@ -20,6 +20,8 @@ inline constexpr std::int32_t kMaxBodyVertices = 16 * 1024;
 inline constexpr float kMaxGravity = 1000.0F;
 /// Faster liquid or bodies than this are refused, cells/s.
 inline constexpr float kMaxSpeed = 1.0e6F;
+/// Angles of bodies beyond this are refused, rad; faster spin too, rad/s.
+inline constexpr float kMaxAngle = 1.0e4F;
 
 /// What fixed point bears: cells along an axis, speeds in cells/s, gravity in cells/s², places of
 /// bodies in cells from the tank's origin. Beyond it set-up calls refuse, and gravity is limited.
