@@ -88,10 +88,9 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
             dt_s * (square_root(settings.surface_tension) / kRootOfCapillary<Real>);
         wanted = maximum(wanted, at_least(ripples, most));
     }
-    plan.too_few = wanted > most;
     plan.substeps = minimum(wanted, most);
     plan.dt_s = part_of(dt_s, plan.substeps);
-    if (settings.pressure == Pressure::equation_of_state && plan.too_few) {
+    if (settings.pressure == Pressure::equation_of_state && wanted > most) {
         plan.sound_speed = minimum(plan.sound_speed, kSoundCfl<Real> / plan.dt_s);
     }
     plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);

@@ -12,7 +12,6 @@ struct SubstepPlan {
     Real sound_speed = Real(0);  ///< cells/s, softened if max_substeps is too few for it
     Real viscosity = Real(0);    ///< cells²/s, lowered likewise
     Real surface_tension = Real(0);  ///< cells³/s², lowered likewise
-    bool too_few = false;        ///< max_substeps was less than the limits asked for
 };
 
 /// Substeps so that no particle travels further than cfl cells (Courant, Friedrichs & Lewy 1928),

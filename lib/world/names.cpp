@@ -49,6 +49,9 @@ const char* init_text(Status status) {
             return "two liquids: choose Pressure::projection";
         case Status::conveyor_out_of_range:
             return "conveyor_mps: choose at most kMaxSpeed cells a second";
+        case Status::sleep_out_of_range:
+            return "sleep: choose speed_mps 0 … kMaxSpeed cells a second, after_s 0.1 … 1000, "
+                   "gravity_mps2 0 … kMaxGravity";
         case Status::periodic_with_bodies:
             return "periodic worlds hold no bodies: set capacity.bodies = 0";
         case Status::periodic_needs_even_cells:

@@ -9,7 +9,7 @@ namespace weir {
 
 inline constexpr std::uint32_t kSnapshotMagic = 0x52494557;  // "WEIR"
 /// Raised with every change of what is written. A changed `layout` shows by itself.
-inline constexpr std::uint32_t kSnapshotVersion = 1;
+inline constexpr std::uint32_t kSnapshotVersion = 2;
 inline constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 
 /// Which arithmetic wrote the numbers: how it writes 1.5.
@@ -33,11 +33,13 @@ inline void add_surface(Hash& hash, const Surface& surface) {
 inline std::uint64_t fingerprint(const WorldDef& def) {
     const auto& [capacity, cell_m, gravity, particles_per_cell, pressure, contour, sweeps, cfl,
                  max_substeps, flip_ratio, volume_gain, sound_speed, viscosity, surface_tension,
-                 second_density, walls, periodic_x, periodic_y, ticks] = def;
+                 second_density, walls, sleep, periodic_x, periodic_y, ticks] = def;
     const auto& [bottom, right, top, left] = walls;
+    const auto& [still_speed, still_after, still_gravity] = sleep;
     Hash hash;
     const float numbers[] = {cell_m,      gravity.x,   gravity.y, cfl,             flip_ratio,
-                             volume_gain, sound_speed, viscosity, surface_tension, second_density};
+                             volume_gain, sound_speed, viscosity, surface_tension, second_density,
+                             still_speed, still_after, still_gravity};
     for (const float number : numbers) {
         hash.add(number);
     }

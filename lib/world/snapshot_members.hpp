@@ -51,8 +51,8 @@ void any_member(Stream& stream, Vec2<Real>& vector) {
 /// gravity changes by a call. Walls are drawn again from the bodies.
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
-    auto& [simulation, def, cells_per_m, stepped_s, tag, pending, stepping, substeps_left, plan,
-           progress, report] = state;
+    auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, still_s, still_gravity, pending,
+           substeps_left, plan, progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers,
                             free_bodies, body_diagonal, contacts, expected, gathered, furthest,
                             max_speed, ticks] = simulation;
@@ -70,6 +70,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     positive_member(stream, last_dt);
     stream.member(change, Real(0), Real(1));
     stream.member(on_surface, false, true);
+    stream.member(still_s, 0.0F, def.sleep.after_s);
+    any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);
     Extents extents;
     extents.particles = stream.member(count, 0, capacity);

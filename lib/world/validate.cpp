@@ -90,6 +90,13 @@ Status check_borders(const WorldDef& def) {
     return odd ? Status::periodic_needs_even_cells : Status::ok;
 }
 
+Status check_sleep(const WorldDef& def) {
+    const bool in_range = within(def.sleep.speed_mps, 0.0F, kMaxSpeed * def.cell_m) &&
+                          within(def.sleep.after_s, 0.1F, 1000.0F) &&
+                          within(def.sleep.gravity_mps2, 0.0F, kMaxGravity);
+    return in_range ? Status::ok : Status::sleep_out_of_range;
+}
+
 /// What the arithmetic does not bear.
 Status check_reach(const WorldDef& def, const Reach& reach) {
     if (def.capacity.cells_x > reach.cells || def.capacity.cells_y > reach.cells) {
@@ -191,6 +198,10 @@ Status check_world(const WorldDef& def, const Reach& reach) {
     const Status borders = check_borders(def);
     if (borders != Status::ok) {
         return borders;
+    }
+    const Status sleep = check_sleep(def);
+    if (sleep != Status::ok) {
+        return sleep;
     }
     const Status numerics = check_numerics(def);
     return numerics != Status::ok ? numerics : check_reach(def, reach);

@@ -1,11 +1,10 @@
-// The world's life: memory, views of the grid, hash. Liquid is in world_liquid.cpp, bodies in
+// The world's life: memory and views of the grid. Liquid is in world_liquid.cpp, bodies in
 // world_bodies.cpp, the step in world_step.cpp.
 #include "weir/world.hpp"
 
 #include <cstring>
 #include <new>
 
-#include "base/hash.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
 
@@ -202,53 +201,6 @@ std::uint16_t tag_of(const void* memory) {
     return static_cast<std::uint16_t>((address / world_alignment * 0x9E3779B97F4A7C15ULL) >> 48U);
 }
 
-template <class Real>
-void hash_field(Hash& hash, const Real* field, const GridShape& s) {
-    for (std::int32_t j = 0; j < s.ny; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            hash.add(field[s.index(i, j)]);
-        }
-    }
-}
-
-template <class Real>
-void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        const Body<Real>& body = table.body[slot];
-        hash.add(static_cast<std::uint32_t>(body.generation));
-        hash.add(static_cast<std::uint32_t>(body.kind));
-        if (body.kind == BodyKind::free) {
-            continue;
-        }
-        const Real numbers[] = {body.position.x, body.position.y, body.velocity.x, body.velocity.y,
-                                body.angle,      body.spin,       body.surface.restitution,
-                                body.surface.friction, body.surface.conveyor};
-        for (const Real number : numbers) {
-            hash.add(number);
-        }
-        hash.add(static_cast<std::uint32_t>(body.surface.no_slip));
-        if (body.open) {
-            hash.add(std::uint32_t{1});
-        }
-        for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
-            hash.add(table.outline(body).end_of(ring));
-        }
-        if (table.load != nullptr && table.load[slot].is_free()) {
-            const BodyLoad<Real>& load = table.load[slot];
-            const Face<Real> weights[] = {load.inverse_mass, load.inverse_inertia,
-                                          load.blows.linear.x, load.blows.linear.y,
-                                          load.blows.angular, load.blow_mass};
-            for (const Face<Real> weight : weights) {
-                hash.add(weight);
-            }
-        }
-        for (std::int32_t k = 0; k < body.vertex_count; ++k) {
-            hash.add(table.local[body.first_vertex + k].x);
-            hash.add(table.local[body.first_vertex + k].y);
-        }
-    }
-}
-
 }  // namespace
 
 template <class Real>
@@ -266,6 +218,7 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     state_ = new (memory) State();
     state_->def = def;
     state_->tag = tag_of(memory);
+    state_->still_gravity_mps2 = def.gravity_mps2;
     state_->cells_per_m = Face<Real>(1) / static_cast<Face<Real>>(def.cell_m);
     Simulation<Real>& simulation = state_->simulation;
     carve(Carver(memory, plan), def.capacity, simulation);
@@ -351,35 +304,6 @@ std::int32_t World<Real>::cells_y() const {
     return state_ == nullptr ? 0 : state_->def.capacity.cells_y;
 }
 
-template <class Real>
-std::uint64_t World<Real>::state_hash() const {
-    if (state_ == nullptr) {
-        return 0;
-    }
-    const Simulation<Real>& simulation = state_->simulation;
-    Hash hash;
-    const Particles<Real>& particles = simulation.particles;
-    hash.add(particles.count);
-    for (std::int32_t k = 0; k < particles.count; ++k) {
-        hash.add(particles.position[k].x);
-        hash.add(particles.position[k].y);
-        hash.add(particles.velocity[k].x);
-        hash.add(particles.velocity[k].y);
-        if (particles.kind != nullptr) {
-            hash.add(static_cast<std::uint32_t>(particles.kind[k]));
-        }
-    }
-    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape);
-    hash.add(simulation.pressure.last_dt);
-    const Real numbers[] = {simulation.pressure.change, simulation.max_speed,
-                            simulation.settings.gravity.x, simulation.settings.gravity.y};
-    for (const Real number : numbers) {
-        hash.add(number);
-    }
-    hash_bodies(hash, simulation.bodies);
-    return hash.value();
-}
-
 #define WEIR_INSTANTIATE(Real)                                                       \
     template Status World<Real>::init(const WorldDef&, void*, std::size_t);          \
     template FieldView<Real> World<Real>::pressure() const;                          \
@@ -389,8 +313,7 @@ std::uint64_t World<Real>::state_hash() const {
     template View<Contact> World<Real>::contacts() const;                            \
     template float World<Real>::cell_m() const;                                      \
     template std::int32_t World<Real>::cells_x() const;                              \
-    template std::int32_t World<Real>::cells_y() const;                              \
-    template std::uint64_t World<Real>::state_hash() const;
+    template std::int32_t World<Real>::cells_y() const;
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -3,6 +3,7 @@
 
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/moments.hpp"
+#include "world/sleep.hpp"
 #include "world/validate.hpp"
 
 namespace weir {
@@ -135,6 +136,7 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
         merge_moving(layers, table);
     }
     *id = {static_cast<std::uint16_t>(slot), body.generation, state.tag};
+    wake(state);
     return Status::ok;
 }
 
@@ -175,12 +177,18 @@ Status World<Real>::set_motion(BodyId id, const Motion& motion) {
         return valid;
     }
     const Vec2<Real> position = body.position;
+    const Vec2<Real> velocity = body.velocity;
     const Real angle = body.angle;
+    const Real spin = body.spin;
     set_pose(*state_, motion, body);
     set_velocity(*state_, motion, body);
     if (position.x != body.position.x || position.y != body.position.y || angle != body.angle) {
         body.moved = true;
         place(state_->simulation.bodies, body);
+        wake(*state_);
+    }
+    if (velocity.x != body.velocity.x || velocity.y != body.velocity.y || spin != body.spin) {
+        wake(*state_);
     }
     return Status::ok;
 }
@@ -238,6 +246,7 @@ Status World<Real>::remove_body(BodyId id) {
     }
     layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
     layers.walls.active = table.used > 0;
+    wake(*state_);
     return Status::ok;
 }
 

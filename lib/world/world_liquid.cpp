@@ -2,6 +2,7 @@
 #include "fluid/seeding.hpp"
 #include "solid/collide.hpp"
 #include "weir/world.hpp"
+#include "world/sleep.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
 
@@ -95,6 +96,7 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
         return Status::no_free_particle;
     }
     each_seed([&](Vec2<Real> at) { particles.add(at, {}, kind); });
+    wake(*state_);
     if (added != nullptr) {
         *added = seeds;
     }
@@ -126,6 +128,7 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
     const Vec2<Real> velocity =
         convert<Real>(state_->cells_per_m * convert<Face<Real>>(velocity_mps));
     simulation.particles.add(inside, velocity, kind);
+    wake(*state_);
     simulation.max_speed = maximum(simulation.max_speed,
                                    maximum(absolute(velocity.x), absolute(velocity.y)));
     return Status::ok;
@@ -142,6 +145,7 @@ Status World<Real>::remove_particle(std::int32_t index) {
         return Status::no_such_particle;
     }
     particles.remove(index);
+    wake(*state_);
     return Status::ok;
 }
 

@@ -13,8 +13,10 @@ struct WorldState {
     Face<Real> cells_per_m = Face<Real>(0);
     float stepped_s = 0.0F;        ///< in the last step
     std::uint16_t tag = 0;         ///< this world's own, in the names of its bodies
-    std::uint32_t pending = 0;     ///< Clamped bits that the next report shall carry
     bool stepping = false;         ///< a step was begun and is not yet done
+    float still_s = 0.0F;          ///< for so long nothing has moved, at most Sleep::after_s
+    Vec2f still_gravity_mps2;      ///< in that time
+    std::uint32_t pending = 0;     ///< Clamped bits that the next report shall carry
     std::int32_t substeps_left = 0;
     SubstepPlan<Real> plan;        ///< of that step
     Progress progress;             ///< in its present substep

@@ -1,6 +1,7 @@
 // The step: make the input sane, plan the substeps, run them, report.
 #include "step/substep.hpp"
 #include "step/time_step_limit.hpp"
+#include "world/sleep.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
 
@@ -49,13 +50,15 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
     if (limited.x != gravity_mps2.x || limited.y != gravity_mps2.y) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
     }
+    wake_by_gravity(*state_, limited);
     Simulation<Real>& simulation = state_->simulation;
     const Vec2<Real> gravity =
         convert<Real>(state_->cells_per_m * convert<Face<Real>>(limited));
     // The pressure that a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
     const Real now = length(gravity);
-    if (now < before && simulation.settings.pressure == Pressure::projection) {
+    if (now < before && simulation.settings.pressure == Pressure::projection &&
+        !is_asleep(*state_)) {
         simulation.pressure.change = simulation.pressure.change * (now / before);
     }
     simulation.settings.gravity = gravity;
@@ -78,10 +81,14 @@ void begin(detail::WorldState<Real>& state, float dt_s, StepReport& report) {
     state.substeps_left = 0;
     state.progress.begin();
     clear(simulation.contacts);
+    const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s, report);
+    if (is_asleep(state)) {  // forces stay those of the last step that was made
+        report.dt_s = static_cast<float>(dt);
+        return;
+    }
     if (simulation.bodies.load != nullptr) {
         forget_impulses(simulation.bodies);
     }
-    const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s, report);
     if (dt > Seconds<Real>{}) {
         const SubstepPlan<Real> plan = plan_substeps(simulation, dt);
         if (plan.sound_speed < simulation.settings.sound_speed) {
@@ -118,6 +125,10 @@ void end(detail::WorldState<Real>& state) {
     }
     report.particles = simulation.particles.count;
     report.max_speed_mps = state.def.cell_m * static_cast<float>(simulation.max_speed);
+    if (may_sleep(state)) {
+        watch_rest(state, report);
+        report.asleep = is_asleep(state);
+    }
     state.stepping = false;
 }
 

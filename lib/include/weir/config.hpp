@@ -92,6 +92,18 @@ constexpr TankWalls every_wall(const Surface& surface) {
     return {surface, surface, surface, surface};
 }
 
+/// When a world may stop: once nothing in it was faster for that long, its steps do nothing, at
+/// next to no cost, until gravity, a body or a particle is changed. `StepReport::asleep` tells.
+struct Sleep {
+    /// Of any particle along an axis, and of any free body, m/s; 0 (never sleeps) … kMaxSpeed
+    /// cells/s. Water without viscosity is long in calming down: try 0.02 √(gh), h the depth.
+    float speed_mps = 0.0F;
+    /// s; 0.1 … 1000. Longer than half a period of the tank's waves: at its highest a wave stands.
+    float after_s = 1.0F;
+    /// Gravity may change by this and wake nobody, each part; 0 … kMaxGravity. A sensor's noise.
+    float gravity_mps2 = 0.0F;
+};
+
 /// Everything that `World::init` wants to know. The defaults work for water in a tank.
 struct WorldDef {
     Capacity capacity;
@@ -137,6 +149,8 @@ struct WorldDef {
     float second_density_ratio = 1.0F;
 
     TankWalls walls;
+
+    Sleep sleep;
 
     /// What leaves the tank on one side enters it on the other. Such a world holds no bodies, and
     /// an even number of cells along that axis.

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "weir/config.hpp"
 #include "weir/storage.hpp"
@@ -92,7 +93,9 @@ inline constexpr std::size_t world_alignment = 16;
 /// Room for records whose types are private; checked by static_assert where they are defined.
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
-    sizeof(Real) == 4 ? (sizeof(void*) == 4 ? 800 : 1056) : 1280;
+    sizeof(Real) == 4
+        ? (sizeof(void*) == 4 ? 800 : 1056) + (std::is_floating_point_v<Real> ? 0 : 16)
+        : 1280;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;

@@ -37,9 +37,11 @@ enum class Clamped : std::uint32_t {
 
 struct StepReport {
     std::uint64_t ticks[kStageCount] = {};  ///< per stage, over all substeps; 0: no counter
-    std::int32_t substeps = 0;
+    std::int32_t substeps = 0;        ///< 0 while asleep
     std::uint32_t clamped = 0;        ///< set of Clamped bits
-    float dt_s = 0.0F;                ///< time that was simulated
+    /// Nothing moves, and steps do nothing until something is changed: a device may sleep.
+    bool asleep = false;
+    float dt_s = 0.0F;                ///< time that was simulated, or slept
     float max_speed_mps = 0.0F;       ///< of any particle, at the end
     std::int32_t particles = 0;       ///< alive at the end
     std::int32_t nodes_rasterized = 0;  ///< contour nodes computed anew; 0 if nothing moved

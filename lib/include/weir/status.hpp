@@ -34,6 +34,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     density_ratio_out_of_range,
     second_liquid_needs_projection,
     conveyor_out_of_range,
+    sleep_out_of_range,
     periodic_with_bodies,
     periodic_needs_even_cells,
     unknown_option,

@@ -1,0 +1,65 @@
+// Sleep: a world in which nothing has moved for a while stands still, and its steps do nothing,
+// until something changes. Nothing is rounded off on the way: it wakes as it fell asleep.
+#pragma once
+
+#include "world/world_state.hpp"
+
+namespace weir {
+
+template <class Real>
+bool may_sleep(const detail::WorldState<Real>& state) {
+    return state.def.sleep.speed_mps > 0.0F;
+}
+
+template <class Real>
+bool is_asleep(const detail::WorldState<Real>& state) {
+    return may_sleep(state) && state.still_s >= state.def.sleep.after_s;
+}
+
+/// Whatever the caller changed: the time at rest counts from anew.
+template <class Real>
+void wake(detail::WorldState<Real>& state) {
+    state.still_s = 0.0F;
+}
+
+/// A gravity that is not that of the time at rest, within what a sensor's noise may be.
+template <class Real>
+void wake_by_gravity(detail::WorldState<Real>& state, Vec2f gravity_mps2) {
+    const Vec2f off = gravity_mps2 - state.still_gravity_mps2;
+    const float most = state.def.sleep.gravity_mps2;
+    if (absolute(off.x) > most || absolute(off.y) > most) {
+        state.still_gravity_mps2 = gravity_mps2;
+        wake(state);
+    }
+}
+
+/// Whether no point of any body is faster than that, cells/s. What moves as told is never at rest.
+template <class Real>
+bool bodies_rest(const BodyTable<Real>& table, Real speed) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        const bool yields = table.load != nullptr && table.load[slot].is_free();
+        const Real reach = maximum(absolute(body.velocity.x), absolute(body.velocity.y)) +
+                           absolute(body.spin) * body.radius;
+        if (body.kind == BodyKind::moving && reach > (yields ? speed : Real(0))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// After a step: counts the time for which nothing was faster than `Sleep::speed_mps`. What is on
+/// its way out of a solid moves without a speed of its own.
+template <class Real>
+void watch_rest(detail::WorldState<Real>& state, const StepReport& report) {
+    const Sleep& sleep = state.def.sleep;
+    const Simulation<Real>& simulation = state.simulation;
+    const Real speed = static_cast<Real>(state.cells_per_m * static_cast<Face<Real>>(
+                                                                 sleep.speed_mps));
+    const bool at_rest = report.particles_stuck == 0 && report.particles_removed_stuck == 0 &&
+                         report.particles_reset == 0 && simulation.max_speed <= speed &&
+                         bodies_rest(simulation.bodies, speed);
+    state.still_s = at_rest ? minimum(state.still_s + report.dt_s, sleep.after_s) : 0.0F;
+}
+
+}  // namespace weir

@@ -1,0 +1,97 @@
+// The hash of all that decides the future.
+#include "base/hash.hpp"
+#include "world/sleep.hpp"
+
+namespace weir {
+
+namespace {
+
+template <class Real>
+void hash_field(Hash& hash, const Real* field, const GridShape& s) {
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            hash.add(field[s.index(i, j)]);
+        }
+    }
+}
+
+template <class Real>
+void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        hash.add(static_cast<std::uint32_t>(body.generation));
+        hash.add(static_cast<std::uint32_t>(body.kind));
+        if (body.kind == BodyKind::free) {
+            continue;
+        }
+        const Real numbers[] = {body.position.x, body.position.y, body.velocity.x, body.velocity.y,
+                                body.angle,      body.spin,       body.surface.restitution,
+                                body.surface.friction, body.surface.conveyor};
+        for (const Real number : numbers) {
+            hash.add(number);
+        }
+        hash.add(static_cast<std::uint32_t>(body.surface.no_slip));
+        if (body.open) {
+            hash.add(std::uint32_t{1});
+        }
+        for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
+            hash.add(table.outline(body).end_of(ring));
+        }
+        if (table.load != nullptr && table.load[slot].is_free()) {
+            const BodyLoad<Real>& load = table.load[slot];
+            const Face<Real> weights[] = {load.inverse_mass, load.inverse_inertia,
+                                          load.blows.linear.x, load.blows.linear.y,
+                                          load.blows.angular, load.blow_mass};
+            for (const Face<Real> weight : weights) {
+                hash.add(weight);
+            }
+        }
+        for (std::int32_t k = 0; k < body.vertex_count; ++k) {
+            hash.add(table.local[body.first_vertex + k].x);
+            hash.add(table.local[body.first_vertex + k].y);
+        }
+    }
+}
+
+}  // namespace
+
+template <class Real>
+std::uint64_t World<Real>::state_hash() const {
+    if (state_ == nullptr) {
+        return 0;
+    }
+    const Simulation<Real>& simulation = state_->simulation;
+    Hash hash;
+    const Particles<Real>& particles = simulation.particles;
+    hash.add(particles.count);
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        hash.add(particles.position[k].x);
+        hash.add(particles.position[k].y);
+        hash.add(particles.velocity[k].x);
+        hash.add(particles.velocity[k].y);
+        if (particles.kind != nullptr) {
+            hash.add(static_cast<std::uint32_t>(particles.kind[k]));
+        }
+    }
+    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape);
+    hash.add(simulation.pressure.last_dt);
+    const Real numbers[] = {simulation.pressure.change, simulation.max_speed,
+                            simulation.settings.gravity.x, simulation.settings.gravity.y};
+    for (const Real number : numbers) {
+        hash.add(number);
+    }
+    if (may_sleep(*state_)) {
+        hash.add(state_->still_s);
+        hash.add(state_->still_gravity_mps2.x);
+        hash.add(state_->still_gravity_mps2.y);
+    }
+    hash_bodies(hash, simulation.bodies);
+    return hash.value();
+}
+
+template std::uint64_t World<float>::state_hash() const;
+template std::uint64_t World<double>::state_hash() const;
+template std::uint64_t World<Fixed>::state_hash() const;
+template std::uint64_t World<SmallFixed>::state_hash() const;
+
+}  // namespace weir
