@@ -97,7 +97,8 @@ inline FixedPoint<F, S>& operator-=(FixedPoint<F, S>& a, FixedPoint<F, S> b) {
 
 #define WEIR_COMPARE(op)                                                  \
     template <int F, class S>                                             \
-    constexpr bool operator op(FixedPoint<F, S> a, FixedPoint<F, S> b) {  \
+    [[gnu::always_inline]] constexpr bool operator op(FixedPoint<F, S> a, \
+                                                      FixedPoint<F, S> b) { \
         return a.raw op b.raw;                                            \
     }
 WEIR_COMPARE(==)

@@ -53,6 +53,10 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     for (std::int32_t at = weighed.first; at < weighed.end; ++at) {
         const std::int32_t j = solve.first_row + at;
         const std::int32_t end = s.index(s.nx, j);
+        if constexpr (Stored<Real>::coarse) {
+            weigh_packed<Solids>(fields, weights.walls, s.stride, s.index(0, j), end, solve);
+            continue;
+        }
         for (std::int32_t c = s.index(0, j); c < end; ++c) {
             if constexpr (kHasLanes<Real> && !Mixed) {
                 c = weigh_lanes(fields, s.stride, c, end, there);
@@ -66,9 +70,11 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
             }
         }
     }
-    solve.there = there;
+    if constexpr (!Stored<Real>::coarse) {
+        solve.there = there;
+    }
     if (work.once(1)) {
-        solve.share = share_of_start<Real>(solve.wanted, there);
+        solve.share = share_of_start<Real>(solve.wanted, solve.there);
     }
     const bool nearer = solve.share == Real(1);  // than no pressure at all
     const Part scaled = work.take(nearer ? 0 : depth, s.nx);
@@ -110,6 +116,14 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
 template <class Real>
 inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32_t before,
                        Real light, const ShareOf<Real>* open, const PressureFields<Real>& fields) {
+    if constexpr (Stored<Real>::coarse) {
+        const std::int32_t share = open != nullptr ? open[face].raw : 128;
+        if (share > 0 && (fields.level[before].raw > 0 || fields.level[face].raw > 0)) {
+            const Real rise = pressure_rise(fields, before, face, Real::of_raw(share * 512));
+            velocity[face].raw = short_of(velocity[face].raw - rounded_shift(rise.raw, 9));
+        }
+        return;
+    }
     const Real through = open != nullptr ? Real(open[face]) : Real(1);
     const bool liquid = fields.level[before] > Real(0) || fields.level[face] > Real(0);
     if (liquid && through > Real(0)) {
@@ -205,7 +219,12 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
            PressureFields<Real>& fields, Work work) {
     const GridShape& s = grid.shape;
     const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
-    build(weights, work.take(s.ny, s.nx), fields);
+    const Part built = work.take(s.ny, s.nx);
+    if constexpr (Stored<Real>::coarse) {
+        build_packed<Solids>(weights, built, fields);
+    } else {
+        build(weights, built, fields);
+    }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.pressure);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid/borders.hpp"
+#include "math/packed_arithmetic.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/free_body.hpp"
 
@@ -31,11 +32,33 @@ inline Real liquid_fraction(Real level_liquid, Real level_air, Real open) {
     return maximum(least, level_liquid / (level_liquid - level_air));
 }
 
+/// What a face adds to the diagonal of a liquid cell beside air, in 128ths as `weight` and `open`:
+/// weight over liquid fraction, in whole numbers; levels in 64ths.
+inline std::int32_t packed_coefficient(std::int32_t weight, std::int32_t open,
+                                       std::int32_t level_liquid, std::int32_t level_air) {
+    const std::int32_t least = maximum(6, 128 - 4 * open);
+    const std::int32_t both = level_liquid - level_air;
+    const bool limited = level_liquid * 128 <= least * both;
+    return static_cast<std::int32_t>(
+        static_cast<std::uint32_t>(weight * (limited ? 128 : both)) /
+        static_cast<std::uint32_t>(limited ? least : level_liquid));
+}
+
 /// From one cell to the next, of which at least one is liquid: what the face between them loses in
 /// velocity, times its density. `open`: open fraction of the face.
 template <class Real>
 inline Real pressure_rise(const PressureFields<Real>& fields, std::int32_t before,
                           std::int32_t after, Real open) {
+    if constexpr (Stored<Real>::coarse) {
+        const std::int32_t a = fields.level[before].raw;
+        const std::int32_t b = fields.level[after].raw;
+        const std::int32_t whole = fields.pressure[after].raw - fields.pressure[before].raw;
+        return Real::of_raw(a > 0 && b > 0
+                                ? whole
+                                : scaled(packed_coefficient(128, open.raw >> 9, maximum(a, b),
+                                                            minimum(a, b)),
+                                         whole));
+    }
     const Real level_before = fields.level[before];
     const Real level_after = fields.level[after];
     const Real difference = fields.pressure[after] - fields.pressure[before];

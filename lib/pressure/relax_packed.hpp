@@ -2,6 +2,7 @@
 // products of 32 bits, but for cells with a diagonal or a weight in between.
 #pragma once
 
+#include "math/packed_arithmetic.hpp"
 #include "pressure/face_weights.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
@@ -23,23 +24,26 @@ inline FixedPoint<16, S> bounded(FixedPoint<16, S> pressure) {
     return FixedPoint<16, S>::of_raw(clamp(pressure.raw, -kMostPressureRaw, kMostPressureRaw));
 }
 
-/// share × pressure; share is 0 … 1 in 1/128ths.
-inline std::int32_t shared(std::int32_t share, std::int32_t pressure) {
-    if (share == 128) {
-        return pressure;
-    }
-    return share == 0 ? 0 : static_cast<std::int32_t>(std::int64_t{pressure} * share / 128);
-}
-
-/// Diagonal, in 1/128ths, × pressure.
-inline std::int32_t scaled(std::int32_t diagonal, std::int32_t pressure) {
+/// Diagonal, in 128ths, × pressure.
+inline std::int32_t times_diagonal(std::int32_t diagonal, std::int32_t pressure) {
     if (diagonal == 512) {
         return 4 * pressure;
     }
-    if (diagonal == 384) {
-        return 3 * pressure;
+    return diagonal == 384 ? 3 * pressure : scaled(diagonal, pressure);
+}
+
+/// Sum over a cell's neighbours, each with its face. `kept`: its diagonal, negative at walls.
+template <bool Solids, class Real>
+inline std::int32_t neighbours(const Real* p, const Walls<Real>& walls, std::int32_t c,
+                               std::int32_t stride, std::int32_t kept) {
+    const std::int32_t up = c + stride;
+    const std::int32_t down = c - stride;
+    if (!Solids || kept > 0) {
+        return (p[c - 1].raw + p[c + 1].raw) + (p[down].raw + p[up].raw);
     }
-    return fixed::saturate(std::int64_t{pressure} * diagonal / 128);
+    return (scaled(walls.open_u[c].raw, p[c - 1].raw) +
+            scaled(walls.open_u[c + 1].raw, p[c + 1].raw)) +
+           (scaled(walls.open_v[c].raw, p[down].raw) + scaled(walls.open_v[up].raw, p[up].raw));
 }
 
 /// Relaxes cells c, c + 2 … before `end`: p += ω (Σ p − divergence − n p) / n. The factor ω / n may
@@ -50,32 +54,97 @@ void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& wal
     Real* p = fields.pressure;
     const std::int32_t step = omega.raw >> 1;  // ω in 1/2^15ths, so that ω / n has 8 bits
     const std::int32_t step_of_4 = step / 512;
+    const std::int32_t step_of_3 = step / 384;
     for (; c < end; c += 2) {
         const std::int32_t kept = fields.inverse_diagonal[c].raw;
         if (kept == 0) {
             continue;
         }
-        const std::int32_t up = c + stride;
-        const std::int32_t down = c - stride;
         const std::int32_t here = p[c].raw;
         const std::int32_t diagonal = kept < 0 ? -kept : kept;
-        std::int32_t sum;
-        if (!Solids || kept > 0) {
-            sum = (p[c - 1].raw + p[c + 1].raw) + (p[down].raw + p[up].raw);
-        } else {
-            sum = (shared(walls.open_u[c].raw, p[c - 1].raw) +
-                   shared(walls.open_u[c + 1].raw, p[c + 1].raw)) +
-                  (shared(walls.open_v[c].raw, p[down].raw) +
-                   shared(walls.open_v[up].raw, p[up].raw));
-        }
+        const std::int32_t sum = neighbours<Solids>(p, walls, c, stride, kept);
         const std::int32_t flow = std::int32_t{fields.divergence[c].raw} * 512;
         const std::int32_t residual =
-            clamp(fixed::subtract(sum - flow, scaled(diagonal, here)), -kMostResidualRaw,
+            clamp(fixed::subtract(sum - flow, times_diagonal(diagonal, here)), -kMostResidualRaw,
                   kMostResidualRaw);
         const std::int32_t factor =
-            diagonal == 512 ? step_of_4 : minimum(step / diagonal, std::int32_t{511});
+            diagonal == 512 ? step_of_4
+                            : (diagonal == 384 ? step_of_3 : minimum(step / diagonal, 511));
         const std::int32_t change = (residual * factor + 128) >> 8;
         p[c].raw = clamp(here + change, -kMostPressureRaw, kMostPressureRaw);
+    }
+}
+
+/// Puts up the equations of some rows: flow out of each cell, its diagonal, pressure to start from.
+template <bool Solids, class Weights, class Fields>
+void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
+    using Real = SmallFixed;
+    const Walls<Real>& walls = weights.walls;
+    const StaggeredGrid<Real>& grid = weights.grid;
+    const GridShape& s = grid.shape;
+    const auto share = [](bool inside, const ShareOf<Real>* open, std::int32_t face) {
+        return !inside ? 0 : (Solids ? static_cast<std::int32_t>(open[face].raw) : 128);
+    };
+    const Real rescale = fields.solve.rescale;
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            const std::int32_t level = fields.level[c].raw;
+            const Real last = fields.pressure[c];
+            fields.inverse_diagonal[c].raw = 0;
+            fields.pressure[c].raw = 0;
+            if (level <= 0) {
+                continue;
+            }
+            const std::int32_t up = c + s.stride;
+            const Faces<std::int32_t> w{share(weights.has_left(i), walls.open_u, c),
+                                        share(weights.has_right(i), walls.open_u, c + 1),
+                                        share(weights.has_lower(j), walls.open_v, c),
+                                        share(weights.has_upper(j), walls.open_v, up)};
+            const auto part = [&](std::int32_t weight, std::int32_t neighbour) {
+                const std::int32_t there = fields.level[neighbour].raw;
+                return there > 0 || weight == 0
+                           ? weight
+                           : packed_coefficient(weight, weight, level, there);
+            };
+            const std::int32_t diagonal = (part(w.left, c - 1) + part(w.right, c + 1)) +
+                                          (part(w.lower, c - s.stride) + part(w.upper, up));
+            if (diagonal == 0) {
+                continue;
+            }
+            const bool wide = !Solids || untouched(walls, c, up);
+            const std::int32_t along_x = w.right * grid.u[c + 1].raw - w.left * grid.u[c].raw;
+            const std::int32_t along_y = w.upper * grid.v[up].raw - w.lower * grid.v[c].raw;
+            std::int32_t flow = rounded_shift(along_x + along_y, 7);
+            if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
+                flow += rounded_shift(wall_flow(s, walls, i, j).raw, 9);
+            }
+            fields.divergence[c].raw = short_of(flow);
+            fields.inverse_diagonal[c].raw = short_of(wide ? diagonal : -diagonal);
+            fields.pressure[c] = bounded(rescale.raw == 1 << 16 ? last : last * rescale);
+            fields.solve.first_row = minimum(fields.solve.first_row, j);
+            fields.solve.last_row = j;
+        }
+    }
+}
+
+/// Sums pᵀb and pᵀAp over the cells of some rows, in the same unit and as fine as 32-bit products
+/// allow: eighths are asked for.
+template <bool Solids, class Real>
+void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, std::int32_t stride,
+                  std::int32_t first, std::int32_t end, Solve<Real>& solve) {
+    for (std::int32_t c = first; c < end; ++c) {
+        const std::int32_t kept = fields.inverse_diagonal[c].raw;
+        if (kept == 0) {
+            continue;
+        }
+        const std::int32_t here = fields.pressure[c].raw;
+        const std::int32_t pull =
+            fixed::subtract(times_diagonal(kept < 0 ? -kept : kept, here),
+                            neighbours<Solids>(fields.pressure, walls, c, stride, kept));
+        const std::int32_t p = short_of(rounded_shift(here, 10));
+        solve.wanted.raw -= p * fields.divergence[c].raw;
+        solve.there.raw += p * short_of(rounded_shift(clamp(pull, -(1 << 24), 1 << 24), 9));
     }
 }
 

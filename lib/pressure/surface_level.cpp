@@ -1,5 +1,6 @@
 #include "pressure/surface_level.hpp"
 
+#include "pressure/level_packed.hpp"
 #include "pressure/surface_lanes.hpp"
 
 namespace weir {
@@ -36,7 +37,7 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
                         Real rest_count, const Part& rows, PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
     const ThinWalls<Real>* thin = walls.thin;
-    const Real per_face = Real(1) / (Real(4) * rest_count);
+    const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t c = s.index(0, j);
         const std::int32_t end = s.index(s.nx, j);
@@ -108,6 +109,9 @@ void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<
             }
             for (; i < end; ++i) {
                 const std::int32_t c = s.index(i, j);
+                if (Stored<Real>::coarse && !beside_liquid(level, s.stride, c)) {
+                    continue;
+                }
                 if (level[c] <= Real(0) && surrounded(s, borders, walls, level, i, j)) {
                     level[c] = kFilledLevel<Real>;
                 }
@@ -142,7 +146,12 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
                    const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
                    Work work) {
     const GridShape& s = grid.shape;
-    density_from_faces(grid, walls, rest_count, work.take(s.ny, s.nx), fields);
+    const Part cells = work.take(s.ny, s.nx);
+    if constexpr (Stored<Real>::coarse) {
+        packed_density(grid, walls, static_cast<std::int32_t>(rest_count), cells, fields);
+    } else {
+        density_from_faces(grid, walls, rest_count, cells, fields);
+    }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.level);
     }

@@ -67,11 +67,7 @@ void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
     fields.divergence[c] = divergence;
     // The sign tells `relax` which cells a wall touches.
     const Real sign = Real(wide ? 1 : -1);
-    if constexpr (Stored<Real>::shares_momentum) {
-        fields.inverse_diagonal[c] = sign * diagonal;  // relax_packed.hpp
-    } else {
-        fields.inverse_diagonal[c] = sign / diagonal;
-    }
+    fields.inverse_diagonal[c] = sign / diagonal;
     // A number that is none would stay for ever: the solve starts from the last pressure.
     const Real scaled = fields.pressure[c] * system.rescale;
     const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);

@@ -2,6 +2,7 @@
 
 #include "pressure/patches.hpp"
 #include "pressure/volume_lanes.hpp"
+#include "pressure/volume_packed.hpp"
 
 namespace weir {
 
@@ -196,6 +197,11 @@ void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, S
                        std::int32_t& overfull, Work work) {
     if (work.once(1)) {
         overfull = 0;
+    }
+    if constexpr (Stored<Real>::coarse) {
+        const auto stage = walls.active ? correct_packed<true> : correct_packed<false>;
+        stage(borders, walls, gain / dt_s, fields, grid, overfull, work);
+        return;
     }
     const auto stage = walls.active ? correct<true, Real> : correct<false, Real>;
     stage(borders, walls, gain / dt_s, fields, grid, overfull, work);

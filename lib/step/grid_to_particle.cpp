@@ -1,9 +1,11 @@
 #include "step/grid_to_particle.hpp"
 
 #include "grid/diffuse.hpp"
+#include "step/blend_packed.hpp"
 #include "step/face_lanes.hpp"
 #include "step/tank_walls.hpp"
 #include "step/transfer_lanes.hpp"
+#include "step/transfer_packed.hpp"
 
 namespace weir {
 
@@ -103,6 +105,10 @@ void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real
 template <class Real>
 void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
                   StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin, Work work) {
+    if constexpr (Stored<Real>::coarse) {
+        blend_packed(borders, flip_ratio, fields, grid, work);
+        return;
+    }
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
@@ -180,7 +186,11 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
             return gather_in_lanes(grid, transfer, particles);
         }
     }
-    return gather(grid, transfer, particles);
+    if constexpr (Stored<Real>::coarse) {
+        return gather_packed(grid, transfer, particles);
+    } else {
+        return gather(grid, transfer, particles);
+    }
 }
 
 #define WEIR_INSTANTIATE(Real)                                                          \

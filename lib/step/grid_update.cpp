@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "math/packed_arithmetic.hpp"
 #include "pressure/projection.hpp"
 #include "step/face_lanes.hpp"
 
@@ -36,6 +37,27 @@ void update(const Real* momentum, VelocityOf<Real>* mass, const Part& faces, Rea
         const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
         mass[face] = before;
         velocity[face] = m > Real(0) ? before + gained : Real(0);
+    }
+}
+
+/// The same in whole numbers: masses are 256ths of a particle, momenta 2^−17.
+void update_packed(const SmallFixed* momentum, VelocityOf<SmallFixed>* mass, const Part& faces,
+                   SmallFixed gained, VelocityOf<SmallFixed>* velocity) {
+    const std::int32_t faster = VelocityOf<SmallFixed>(gained).raw;
+    for (std::int32_t face = faces.first; face < faces.end; ++face) {
+        const std::int32_t m = mass[face].raw;
+        if (m == 0) {
+            velocity[face].raw = 0;
+            continue;
+        }
+        SmallFixed sum;
+        __builtin_memcpy(&sum, momentum + face, sizeof sum);
+        const std::uint32_t divisor = static_cast<std::uint32_t>(m) * 4U;
+        const auto size = static_cast<std::int32_t>(
+            (fixed::magnitude(sum.raw) + divisor / 2U) / divisor);
+        const std::int32_t before = sum.raw < 0 ? -size : size;
+        mass[face].raw = short_of(before);
+        velocity[face].raw = short_of(before + faster);
     }
 }
 
@@ -151,7 +173,10 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
     // One component after the other: packed velocities take the place of momenta.
     const Part on_u = faces_of(s, work.take(s.ny + 1, s.stride));
     const Part on_v = faces_of(s, work.take(s.ny + 1, s.stride));
-    if (grid.inverse_density_u != nullptr) {
+    if constexpr (Stored<Real>::coarse) {
+        update_packed(grid.momentum_u(), grid.mass_u, on_u, gravity.x * dt_s, grid.u);
+        update_packed(grid.momentum_v(), grid.mass_v, on_v, gravity.y * dt_s, grid.v);
+    } else if (grid.inverse_density_u != nullptr) {
         update_mixed(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, on_u,
                      gravity.x * dt_s, grid.u);
         update_mixed(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, on_v,

@@ -4,6 +4,7 @@
 
 #include "step/thin_transfer.hpp"
 #include "step/transfer_lanes.hpp"
+#include "step/transfer_packed.hpp"
 
 namespace weir {
 
@@ -100,6 +101,10 @@ void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& g
     if (thin != nullptr) {
         scatter_past_walls(particles.part(part.first, part.end - part.first), *thin, Real(1),
                            grid);
+        return;
+    }
+    if constexpr (Stored<Real>::coarse) {
+        scatter_packed(particles.part(part.first, part.end - part.first), grid);
         return;
     }
     for (std::int32_t k = part.first; k < part.end; ++k) {

@@ -63,16 +63,9 @@ inline void wrap_around(Real& x, Real size) {
     }
 }
 
-/// Limits the new velocity v, moves x with the velocity `along` and meets the walls of a tank of
-/// that size.
+/// Who has come to the walls of a tank of that size stays in it.
 template <class Real>
-inline void advect(Vec2<Real> size, const Transfer<Real>& transfer, Vec2<Real> along,
-                   Vec2<Real>& x, Vec2<Real>& v, TransferResult<Real>& result) {
-    TransferResult<Real> unused;
-    v = limited(v, transfer.limit, result);
-    result.far += absolute(along.x) <= transfer.near && absolute(along.y) <= transfer.near ? 0 : 1;
-    x = x + transfer.dt_s * limited(along, transfer.limit, unused);
-    const Borders<Real>& b = transfer.borders;
+inline void meet_tank(Vec2<Real> size, const Borders<Real>& b, Vec2<Real>& x, Vec2<Real>& v) {
     if (b.wrap_x) {
         wrap_around(x.x, size.x);
     } else {
@@ -83,6 +76,18 @@ inline void advect(Vec2<Real> size, const Transfer<Real>& transfer, Vec2<Real> a
     } else {
         keep_inside(x.y, v.y, v.x, size.y, b.bottom, b.top, Real(1));
     }
+}
+
+/// Limits the new velocity v, moves x with the velocity `along` and meets the walls of a tank of
+/// that size.
+template <class Real>
+inline void advect(Vec2<Real> size, const Transfer<Real>& transfer, Vec2<Real> along,
+                   Vec2<Real>& x, Vec2<Real>& v, TransferResult<Real>& result) {
+    TransferResult<Real> unused;
+    v = limited(v, transfer.limit, result);
+    result.far += absolute(along.x) <= transfer.near && absolute(along.y) <= transfer.near ? 0 : 1;
+    x = x + transfer.dt_s * limited(along, transfer.limit, unused);
+    meet_tank(size, transfer.borders, x, v);
     result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
 }
 

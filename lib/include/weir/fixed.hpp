@@ -21,7 +21,7 @@ struct FixedPoint {
     static constexpr int fraction = Fraction;
 
     constexpr FixedPoint() = default;
-    static constexpr FixedPoint of_raw(std::int32_t bits) {
+    [[gnu::always_inline]] static constexpr FixedPoint of_raw(std::int32_t bits) {
         FixedPoint value;
         value.raw = bits;
         return value;
@@ -30,10 +30,11 @@ struct FixedPoint {
     static constexpr FixedPoint least() { return of_raw(-0x7FFFFFFF - 1); }
 
     template <class Whole, std::enable_if_t<std::is_integral<Whole>::value, int> = 0>
-    constexpr explicit FixedPoint(Whole value) : raw(of_whole(static_cast<std::int64_t>(value))) {}
+    [[gnu::always_inline]] constexpr explicit FixedPoint(Whole value)
+        : raw(of_whole(static_cast<std::int64_t>(value))) {}
 
     /// Meant for constants: costs double arithmetic where the compiler cannot fold it.
-    constexpr explicit FixedPoint(double value) {
+    [[gnu::always_inline]] constexpr explicit FixedPoint(double value) {
         const double scaled = value * static_cast<double>(1U << static_cast<unsigned>(Fraction));
         if (scaled >= 2147483647.0) {
             raw = most().raw;
@@ -59,14 +60,14 @@ struct FixedPoint {
         return static_cast<float>(raw) / static_cast<float>(1U << static_cast<unsigned>(Fraction));
     }
     /// Towards zero, as a float does.
-    constexpr explicit operator std::int32_t() const {
+    [[gnu::always_inline]] constexpr explicit operator std::int32_t() const {
         return raw >= 0 ? raw >> Fraction
                         : -static_cast<std::int32_t>((0U - static_cast<std::uint32_t>(raw)) >>
                                                      static_cast<unsigned>(Fraction));
     }
 
 private:
-    static constexpr std::int32_t of_whole(std::int64_t value) {
+    [[gnu::always_inline]] static constexpr std::int32_t of_whole(std::int64_t value) {
         constexpr std::int64_t kLimit = std::int64_t{1} << (31 - Fraction);
         if (value >= kLimit) {
             return most().raw;

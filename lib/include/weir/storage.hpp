@@ -13,7 +13,7 @@ struct Packed {
     Bits raw = 0;
 
     constexpr Packed() = default;
-    static constexpr Packed of_raw(Bits bits) {
+    [[gnu::always_inline]] static constexpr Packed of_raw(Bits bits) {
         Packed value;
         value.raw = bits;
         return value;
@@ -24,7 +24,7 @@ struct Packed {
     template <class Number, std::enable_if_t<std::is_arithmetic<Number>::value, int> = 0>
     constexpr explicit Packed(Number value) : Packed(SmallFixed(value)) {}
 
-    constexpr operator SmallFixed() const {  // NOLINT
+    [[gnu::always_inline]] constexpr operator SmallFixed() const {  // NOLINT
         return SmallFixed::of_raw(static_cast<std::int32_t>(raw) * (1 << kShift));
     }
     constexpr explicit operator float() const {
@@ -76,6 +76,7 @@ struct Stored {
     /// stage's scratch the upper ones.
     static constexpr bool shares_momentum = false;
     static constexpr bool coarse = false;  ///< places are known to 1/256 of a cell
+    static constexpr int particle_mass = 1;  ///< on faces: 2 saves a bit of a velocity's format
 };
 
 /// 8 bytes a particle and 18 a cell (25 with static solids, 28 with moving ones): positions to
@@ -92,6 +93,7 @@ struct Stored<SmallFixed> {
     using Slot = ShortSlot;
     static constexpr bool shares_momentum = true;
     static constexpr bool coarse = true;
+    static constexpr int particle_mass = 2;
 };
 
 template <class Real>

@@ -1,0 +1,27 @@
+// Whole-number arithmetic that the packed stages share: products of 32 bits, shifts, no division.
+#pragma once
+
+#include "math/scalar.hpp"
+
+namespace weir {
+
+/// value · 2^−shift, rounded to nearest, ties away from zero: mirrored scenes stay mirrored.
+inline std::int32_t rounded_shift(std::int32_t value, int shift) {
+    return (value + (1 << (shift - 1)) + (value >> 31)) >> shift;
+}
+
+/// As a 16-bit number.
+inline std::int16_t short_of(std::int32_t value) {
+    return static_cast<std::int16_t>(clamp(value, -0x8000, 0x7FFF));
+}
+
+/// Factor, in 128ths, times value; |factor| < 2^15. In two halves where the product is too long.
+inline std::int32_t scaled(std::int32_t factor, std::int32_t value) {
+    const std::int32_t high = value >> 14;
+    const std::int32_t low = value & 0x3FFF;
+    const std::int32_t most = 0x7FFFFFFF >> 7;
+    const std::int32_t part = clamp(high * factor, -most, most - 0x4000);
+    return part * 128 + ((low * factor) >> 7);
+}
+
+}  // namespace weir

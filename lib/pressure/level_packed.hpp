@@ -1,0 +1,56 @@
+// Density and surface level in whole numbers: levels from a table.
+#pragma once
+
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// Depth of the surface below a cell's centre, in 64ths, at densities of 0 … 128/256.
+inline constexpr std::int8_t kDepth[] = {
+    96, 85, 80, 76, 73, 71, 68, 66, 64, 62, 61, 59, 58, 57, 55, 54, 53, 52, 51, 51, 50, 49, 48,
+    47, 46, 46, 45, 44, 44, 43, 42, 42, 41, 40, 40, 39, 38, 38, 37, 37, 36, 36, 35, 35, 34, 34,
+    33, 33, 32, 32, 31, 31, 30, 30, 29, 29, 28, 28, 27, 27, 26, 26, 25, 25, 24, 24, 24, 23, 23,
+    22, 22, 21, 21, 21, 20, 20, 19, 19, 18, 18, 18, 17, 17, 16, 16, 16, 15, 15, 14, 14, 14, 13,
+    13, 12, 12, 12, 11, 11, 11, 10, 10, 9, 9, 9, 8, 8, 8, 7, 7, 7, 6, 6, 5, 5, 5, 4, 4, 4, 3, 3,
+    3, 2, 2, 2, 1, 1, 1, 0, 0,
+};
+
+/// `density` in 256ths.
+inline std::int8_t packed_level(std::int32_t density) {
+    return static_cast<std::int8_t>(density <= 128 ? -kDepth[density]
+                                                   : kDepth[256 - minimum(density, 256)]);
+}
+
+/// Density and level of the cells of some rows. There are no thin walls.
+inline void packed_density(const StaggeredGrid<SmallFixed>& grid, const Walls<SmallFixed>& walls,
+                    std::int32_t rest_count, const Part& rows,
+                    PressureFields<SmallFixed>& fields) {
+    const GridShape& s = grid.shape;
+    const ShareOf<SmallFixed>* full = walls.active ? walls.full_density : nullptr;
+    // Mass of a face is in 256ths of a particle, four faces a cell.
+    const std::uint32_t per_face = 0x4000U / static_cast<std::uint32_t>(rest_count);
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
+            const auto mass = static_cast<std::uint32_t>(
+                (grid.mass_u[c].raw + grid.mass_u[c + 1].raw) +
+                (grid.mass_v[c].raw + grid.mass_v[c + s.stride].raw));
+            auto density = static_cast<std::int32_t>((mass * per_face + 0x8000U) >> 16U);
+            if (full != nullptr && full[c].raw < 128 && density > 0) {
+                density = full[c].raw < 3 ? 0 : density * 128 / full[c].raw;
+            }
+            fields.density[c].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
+            fields.level[c].raw = packed_level(density);
+        }
+    }
+}
+
+/// Most air cells are far from any liquid.
+template <class Level>
+inline bool beside_liquid(const Level* level, std::int32_t stride, std::int32_t c) {
+    const Level none = Level(0);
+    return level[c - 1] > none || level[c + 1] > none || level[c - stride] > none ||
+           level[c + stride] > none;
+}
+
+}  // namespace weir

@@ -1,0 +1,141 @@
+// The volume stage in whole numbers, as volume_correction.cpp says it: excess of a cell in 128ths,
+// its mean over a patch in 2048ths.
+#pragma once
+
+#include "grid/borders.hpp"
+#include "math/packed_arithmetic.hpp"
+#include "pressure/patches.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+namespace packed {
+
+inline constexpr std::int32_t kWindow = 128;
+inline constexpr std::int32_t kSurfaceSlack = 26;
+inline constexpr std::int32_t kCellWindow = 26;
+inline constexpr std::int32_t kPatchWindow = 61;
+inline constexpr std::int32_t kSubsurfaceSlack = 4;
+inline constexpr std::int32_t kSolidPatch = 0x1000;
+/// Liquid cells of a patch and their mean from which on they are too full.
+inline constexpr std::int32_t kLeastOverfull = 8;
+inline constexpr std::int32_t kOverfull = 307;
+
+inline std::int16_t excess(std::int32_t stride, const PressureFields<SmallFixed>& f,
+                           std::int32_t c) {
+    std::int32_t e = f.density[c].raw - 128;
+    const auto level = [&](std::int32_t at) { return static_cast<std::int32_t>(f.level[at].raw); };
+    const std::int32_t lowest = minimum(minimum(level(c - 1), level(c + 1)),
+                                        minimum(level(c - stride), level(c + stride)));
+    if (level(c) <= 0 || lowest <= 0) {
+        return static_cast<std::int16_t>(clamp(e - kSurfaceSlack, 0, kWindow));
+    }
+    if (lowest < 32) {
+        e += ((32 - lowest) * (32 - lowest) + 128) >> 8;
+        e -= clamp(e, -kSubsurfaceSlack, kSubsurfaceSlack);
+    }
+    return static_cast<std::int16_t>(clamp(e, -kWindow, kWindow));
+}
+
+template <bool Solids>
+std::int32_t average(const GridShape& s, const Walls<SmallFixed>& walls, const Patch& patch,
+                     const PressureFields<SmallFixed>& f, std::int32_t& overfull) {
+    std::int32_t sum = 0;
+    std::int32_t count = 0;
+    bool open = !Solids;
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        for (std::int32_t x = 0; x < patch.width; ++x) {
+            const std::int32_t c = s.index(patch.i + x, patch.j + y);
+            open = open || walls.full_density[c].raw > 0;
+            if (f.level[c].raw > 0) {
+                sum += clamp<std::int32_t>(f.divergence[c].raw, -kCellWindow, kCellWindow);
+                count += 1;
+            }
+        }
+    }
+    if (count == 0) {
+        return open ? 0 : kSolidPatch;
+    }
+    overfull += count >= kLeastOverfull && 16 * sum >= kOverfull * count ? count : 0;
+    return clamp(16 * sum / count, -kPatchWindow, kPatchWindow);
+}
+
+inline std::int32_t rise(std::int32_t from, std::int32_t to) {
+    return from == kSolidPatch || to == kSolidPatch ? 0 : to - from;
+}
+
+/// Between which two patches' centres a face lies, as `rises` says.
+inline void rises_between(const SmallFixed* excess, std::int32_t q, std::int32_t step,
+                  std::int32_t* on_face) {
+    const std::int32_t before = rise(excess[q - step].raw, excess[q].raw);
+    const std::int32_t after = rise(excess[q].raw, excess[q + step].raw);
+    on_face[0] = before;
+    on_face[1] = before;
+    on_face[2] = (before + after) / 2;
+    on_face[3] = after;
+}
+
+/// `speed`: 128ths of a cell a second.
+template <bool Solids>
+void drift(const Borders<SmallFixed>& borders, const Walls<SmallFixed>& walls, std::int32_t speed,
+           const PressureFields<SmallFixed>& fields, const Patch& patch,
+           StaggeredGrid<SmallFixed>& grid) {
+    const GridShape& s = grid.shape;
+    std::int32_t along_x[kCoarseEdge];
+    std::int32_t along_y[kCoarseEdge];
+    rises_between(fields.coarse.correction, patch.q, 1, along_x);
+    rises_between(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
+    const auto push = [&](VelocityOf<SmallFixed>& velocity, std::int32_t c, std::int32_t before,
+                          std::int32_t along) {
+        const std::int32_t more =
+            16 * (fields.divergence[c].raw - fields.divergence[before].raw) + along;
+        if (more != 0) {
+            velocity.raw = short_of(velocity.raw - rounded_shift(speed * more, 11));
+        }
+    };
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        for (std::int32_t x = 0; x < patch.width; ++x) {
+            const std::int32_t c = s.index(patch.i + x, patch.j + y);
+            const bool has_left = patch.i + x > 0 || borders.wrap_x;
+            const bool has_lower = patch.j + y > 0 || borders.wrap_y;
+            if (has_left && (!Solids || walls.open_u[c].raw > 0)) {
+                push(grid.u[c], c, c - 1, along_x[x]);
+            }
+            if (has_lower && (!Solids || walls.open_v[c].raw > 0)) {
+                push(grid.v[c], c, c - s.stride, along_y[y]);
+            }
+        }
+    }
+}
+
+}  // namespace packed
+
+template <bool Solids>
+void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>& walls,
+                    SmallFixed gain_per_s, PressureFields<SmallFixed>& fields,
+                    StaggeredGrid<SmallFixed>& grid, std::int32_t& overfull, Work work) {
+    const GridShape& s = grid.shape;
+    const GridShape& big = fields.coarse.shape;
+    const std::int32_t speed = clamp(gain_per_s.raw >> 9, 0, 1 << 17);
+    const Part cells = work.take(s.ny, s.nx);
+    for (std::int32_t j = cells.first; j < cells.end; ++j) {
+        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
+            fields.divergence[c].raw = packed::excess(s.stride, fields, c);
+        }
+    }
+    if (work.once(s.border())) {
+        extend_cells(borders, s, fields.divergence);
+    }
+    for_each_patch(s, big, work, [&](const Patch& patch) {
+        fields.coarse.correction[patch.q].raw =
+            packed::average<Solids>(s, walls, patch, fields, overfull);
+    });
+    if (work.once(big.border())) {
+        mirror_cells(borders, big, fields.coarse.correction);
+    }
+    for_each_patch(s, big, work, [&](const Patch& patch) {
+        packed::drift<Solids>(borders, walls, speed, fields, patch, grid);
+    });
+}
+
+}  // namespace weir
