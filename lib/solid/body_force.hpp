@@ -69,17 +69,23 @@ template <class Real>
 void press_on_bodies(const GridShape& shape, Walls<Real>& walls, BodyTable<Real>& table,
                      const PressedCells<Real>& cells);
 
-/// A blow at a point of the tank: the velocity that a particle lost there.
+/// What a body takes at a point of the tank: the velocity that a mass of liquid lost there.
 template <class Real>
-inline void receive_blow(const Walls<Real>& walls, std::uint16_t slot, Liquid kind,
-                         Vec2<Real> point, Vec2<Real> lost) {
-    const Face<Real> mass = walls.particle_mass[kind == Liquid::second ? 1 : 0];
+inline void receive(const Walls<Real>& walls, std::uint16_t slot, Face<Real> mass,
+                    Vec2<Real> point, Vec2<Real> lost) {
     const Vec2<Face<Real>> impulse = mass * convert<Face<Real>>(lost);
     BodyLoad<Real>& load = walls.load[slot];
     const Vec2<Face<Real>> arm = convert<Face<Real>>(point) - load.at;
     load.received.add(impulse, arm);
     load.blows.add(impulse, arm);
     load.blow_mass += mass;
+}
+
+/// A blow: the velocity that a particle lost.
+template <class Real>
+inline void receive_blow(const Walls<Real>& walls, std::uint16_t slot, Liquid kind,
+                         Vec2<Real> point, Vec2<Real> lost) {
+    receive(walls, slot, walls.particle_mass[kind == Liquid::second ? 1 : 0], point, lost);
 }
 
 /// Before a step.

@@ -20,6 +20,7 @@ struct Walls {
     bool active = false;
     bool moving = false;                ///< a body has a velocity or a spin
     bool binary = false;                ///< Contour::mid_edge
+    bool sticking = false;              ///< the liquid is viscous, and a body without slip
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
     SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell
@@ -83,6 +84,13 @@ inline Vec2<Real> wall_velocity(const Walls<Real>& walls, std::int32_t a, std::i
                                 Vec2<Real> point) {
     const std::uint16_t slot = nearest_body(walls, a, b);
     return slot == kNoBody ? Vec2<Real>{} : velocity_at(walls.body[slot], point);
+}
+
+/// Slot of the nearest body if viscous liquid sticks to it, or kNoBody.
+template <class Real>
+inline std::uint16_t sticking_body(const Walls<Real>& walls, std::int32_t a, std::int32_t b) {
+    const std::uint16_t slot = nearest_body(walls, a, b);
+    return slot != kNoBody && walls.body[slot].surface.no_slip ? slot : kNoBody;
 }
 
 /// Whether a contour or a thin wall is in a cell or at its faces.

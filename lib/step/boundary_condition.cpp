@@ -1,6 +1,7 @@
 #include "step/boundary_condition.hpp"
 
 #include "fluid/particles.hpp"
+#include "solid/reflect.hpp"
 
 namespace weir {
 
@@ -30,15 +31,35 @@ struct Mirror {
     Vec2<Real> point;      ///< in the liquid
     Vec2<Real> wall;       ///< velocity of the wall there
     Real ratio = Real(0);  ///< depth of the face over distance of the mirror point
+    bool sticks = false;   ///< the wall's own velocity on the wall, not slip
+    bool open = false;     ///< the face: what it has along the normal is the liquid's
+};
+
+/// A face between two nodes.
+template <class Real>
+struct Edge {
+    Vec2<Real> centre;
+    std::int32_t a;
+    std::int32_t b;
 };
 
 template <class Real>
-Mirror<Real> mirror_of(const GridShape& s, Vec2<Real> face, Real distance, Vec2<Real> gradient) {
+Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& edge,
+                       Real distance, Vec2<Real> gradient) {
     Mirror<Real> mirror;
+    const Vec2<Real> face = edge.centre;
     mirror.face = face;
     const Real steepness = length(gradient);
     mirror.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : Vec2<Real>{};
-    const Real depth = -distance;
+    mirror.wall = wall_velocity(walls, edge.a, edge.b, face);
+    const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
+    if (slot != kNoBody) {
+        mirror.sticks = true;
+        const Body<Real>& body = walls.body[slot];
+        const Vec2<Real> on_wall = face - distance * mirror.normal;
+        mirror.wall = surface_velocity(body.surface, velocity_at(body, on_wall), mirror.normal);
+    }
+    const Real depth = mirror.sticks ? -distance : -minimum(distance, Real(0));
     const Real reach = maximum(depth, kLeastReach<Real>);
     const Vec2<Real> point = face + (depth + reach) * mirror.normal;
     mirror.point = within_tank(s, point);
@@ -69,21 +90,44 @@ Vec2<Real> at_point(const Velocity<Real>& grid, Vec2<Real> point) {
             interpolate(grid.v, s.stride, stencil_v(s, point))};
 }
 
+/// What is at the face itself, along the wall's normal and in its frame.
+template <class Real>
+Real own_towards(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    const Vec2<Real> own = at_point(grid, within_tank(grid.shape, mirror.face)) - mirror.wall;
+    return dot(own, mirror.normal);
+}
+
+/// Where the liquid sticks: along the wall linear from the wall to the liquid at the mirror point.
+template <class Real>
+Vec2<Real> stuck(const Mirror<Real>& mirror, Vec2<Real> liquid, Real towards) {
+    const Vec2<Real> relative = liquid - mirror.wall;
+    const Real across = dot(relative, mirror.normal);
+    const Vec2<Real> along = relative - across * mirror.normal;
+    return (mirror.wall - mirror.ratio * along) + towards * mirror.normal;
+}
+
 /// Velocity that a face in a solid takes: mirrored about the wall, in the wall's frame.
 template <class Real>
 Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const Vec2<Real> liquid = at_point(grid, mirror.point);
     const Real normal_part = dot(liquid - mirror.wall, mirror.normal);
+    if (mirror.sticks) {
+        return stuck(mirror, liquid, mirror.open ? own_towards(grid, mirror)
+                                                       : -mirror.ratio * normal_part);
+    }
     return liquid - (normal_part * (Real(1) + mirror.ratio)) * mirror.normal;
 }
 
 /// Velocity before the step that goes with it. Towards the wall: what was there, so that the change
 /// stops it. Along the wall: the liquid's, so that the change is the liquid's, or what was there if
-/// that was faster, so that the change brakes.
+/// that was faster, so that the change brakes; mirrored, too, where the liquid sticks.
 template <class Real>
 Vec2<Real> before(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const Vec2<Real> own = at_point(grid, within_tank(grid.shape, mirror.face)) - mirror.wall;
     const Vec2<Real> liquid = at_point(grid, mirror.point) - mirror.wall;
+    if (mirror.sticks) {
+        return stuck(mirror, liquid + mirror.wall, own_towards(grid, mirror));
+    }
+    const Vec2<Real> own = at_point(grid, within_tank(grid.shape, mirror.face)) - mirror.wall;
     const Real towards = dot(own, mirror.normal);
     const Real liquid_towards = dot(liquid, mirror.normal);
     const Vec2<Real> along = own - towards * mirror.normal;
@@ -100,6 +144,22 @@ struct Field {
     Vec2<Real> (*value)(const Velocity<Real>&, const Mirror<Real>&);
 };
 
+/// Where the liquid sticks, faces nearer to the wall than this are interpolated between the wall
+/// and the liquid a cell out: the pressure came after viscosity had bound them to the wall.
+template <class Real>
+constexpr Real kBoundLayer = Real(0.5);
+
+/// Whether a face takes what is mirrored: it is closed, or bound to the wall. Between two nodes.
+template <class Real>
+bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_t a,
+                 std::int32_t b) {
+    if (open > Real(0)) {
+        return walls.sticking && distance < kBoundLayer<Real> &&
+               sticking_body(walls, a, b) != kNoBody;
+    }
+    return !(distance < kDeepest<Real>);
+}
+
 template <class Real>
 Real mirror_u(const Walls<Real>& walls, const Field<Real>& field, std::int32_t i,
               std::int32_t j) {
@@ -108,14 +168,14 @@ Real mirror_u(const Walls<Real>& walls, const Field<Real>& field, std::int32_t i
     const std::int32_t high = low + s.stride;
     const DistanceOf<Real>* d = walls.distance;
     const Real distance = Real(0.5) * (d[low] + d[high]);
-    if (walls.open_u[low] > Real(0) || distance < kDeepest<Real>) {
+    if (!is_mirrored<Real>(walls, walls.open_u[low], distance, low, high)) {
         return field.velocity.u[low];
     }
     const Vec2<Real> gradient{
         Real(0.25) * ((d[low + 1] + d[high + 1]) - (d[low - 1] + d[high - 1])), d[high] - d[low]};
     const Vec2<Real> face{static_cast<Real>(i), static_cast<Real>(j) + Real(0.5)};
-    Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
-    mirror.wall = wall_velocity(walls, low, high, face);
+    Mirror<Real> mirror = mirror_of(s, walls, {face, low, high}, distance, gradient);
+    mirror.open = walls.open_u[low] > Real(0);
     return near_liquid(s, field.level, mirror.point) ? field.value(field.velocity, mirror).x
                                                      : field.velocity.u[low];
 }
@@ -128,15 +188,15 @@ Real mirror_v(const Walls<Real>& walls, const Field<Real>& field, std::int32_t i
     const std::int32_t right = left + 1;
     const DistanceOf<Real>* d = walls.distance;
     const Real distance = Real(0.5) * (d[left] + d[right]);
-    if (walls.open_v[left] > Real(0) || distance < kDeepest<Real>) {
+    if (!is_mirrored<Real>(walls, walls.open_v[left], distance, left, right)) {
         return field.velocity.v[left];
     }
     const Vec2<Real> gradient{d[right] - d[left],
                               Real(0.25) * ((d[left + s.stride] + d[right + s.stride]) -
                                             (d[left - s.stride] + d[right - s.stride]))};
     const Vec2<Real> face{static_cast<Real>(i) + Real(0.5), static_cast<Real>(j)};
-    Mirror<Real> mirror = mirror_of(s, face, minimum(distance, Real(0)), gradient);
-    mirror.wall = wall_velocity(walls, left, right, face);
+    Mirror<Real> mirror = mirror_of(s, walls, {face, left, right}, distance, gradient);
+    mirror.open = walls.open_v[left] > Real(0);
     return near_liquid(s, field.level, mirror.point) ? field.value(field.velocity, mirror).y
                                                      : field.velocity.v[left];
 }

@@ -53,10 +53,13 @@ private:
 
 /// Moving bodies go where their velocities take them.
 template <class Real>
-void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s) {
+void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, bool viscous, Seconds<Real> dt_s) {
     walls.moving = false;
+    walls.sticking = false;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         Body<Real>& body = table.body[slot];
+        walls.sticking = walls.sticking ||
+                         (viscous && body.kind != BodyKind::free && body.surface.no_slip);
         if (body.kind != BodyKind::moving ||
             (table.load != nullptr && table.load[slot].is_free())) {
             continue;
@@ -239,7 +242,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
 
     if (walls.active) {
         if (work.once(simulation.bodies.vertices_used + 1)) {
-            move_bodies(simulation.bodies, walls, dt_s);
+            move_bodies(simulation.bodies, walls, plan.viscosity > Real(0), dt_s);
         }
         if (work.once(simulation.bodies.capacity)) {
             const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);

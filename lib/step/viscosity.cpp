@@ -1,6 +1,7 @@
 #include "step/viscosity.hpp"
 
 #include "grid/diffuse.hpp"
+#include "step/no_slip.hpp"
 
 namespace weir {
 
@@ -9,6 +10,9 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
                       PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
                       Work work) {
     const GridShape& s = grid.shape;
+    if (walls.sticking) {
+        centre_at_walls(walls, fields, grid, work);
+    }
     if (work.once(2 * s.border())) {
         extend_velocity(borders, s, grid.u, grid.v);
         mirror_cells(borders, s, fields.density);
@@ -21,6 +25,9 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
     const Part rows = work.take(s.ny, s.nx);
     diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, fields.divergence, grid.u);
     diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, fields.inverse_diagonal, grid.v);
+    if (walls.sticking && work.once(s.size())) {
+        diffuse_to_walls(walls, fields, amount, grid);
+    }
     if (work.once(s.border())) {
         extend_velocity(borders, s, grid.u, grid.v);
     }

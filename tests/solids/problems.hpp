@@ -23,6 +23,7 @@ void torture(Report& report, const Effort& effort);
 void thin_walls(Report& report, const Effort& effort);
 
 // Moving bodies.
+void couette(Report& report, const Effort& effort);       // R10
 void floating_box(Report& report, const Effort& effort);  // R12
 void jet_on_plate(Report& report, const Effort& effort);  // R13a
 void piston(Report& report, const Effort& effort);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "math/vec2.hpp"
 #include "solid/reflect.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
@@ -94,6 +95,57 @@ TEST(Surface, BodiesRubAndCarry) {
         EXPECT_NEAR(v.x * def.cell_m, carried[k].x, 1e-3F) << "side " << k;
         EXPECT_NEAR(v.y * def.cell_m, carried[k].y, 1e-3F) << "side " << k;
     }
+}
+
+/// Speed of the liquid on a slab, turned against the grid, whose surface runs along itself, in a
+/// tank that is full; and what the slab gets.
+template <class Real>
+float speed_above_a_belt(bool no_slip, bool viscous, float* drag) {
+    WorldDef def = small_def();
+    def.gravity_mps2 = {0, 0};
+    def.capacity.particles = 1024;
+    def.capacity.two_way = true;
+    def.viscosity_m2ps = viscous ? 2e-3F : 0.0F;
+    TestWorld<Real> world{def};
+    const Ring slab = rectangle(0.6F, 0.12F);
+    BodyDef belt = body_of(slab, {0.16F, 0.05F}, 0.1F);
+    belt.surface.no_slip = no_slip;
+    belt.surface.conveyor_mps = -0.1F;  // to the right on its upper side
+    BodyId id;
+    EXPECT_EQ(world->add_static_body(belt, &id), Status::ok);
+    EXPECT_EQ(world->fill({{0, 0}, {0.32F, 0.32F}}), Status::ok);
+    for (int k = 0; k < 60; ++k) {
+        world->step(1.0F / 60.0F);
+    }
+    BodyForce force;
+    EXPECT_EQ(world->force(id, &force), Status::ok);
+    *drag = force.impulse_m3ps.x;
+    float sum = 0;
+    int count = 0;
+    for (std::int32_t k = 0; k < world->particle_positions().size; ++k) {
+        const Vec2<float> x = convert<float>(world->particle_positions()[k]);
+        const float height = x.y - (5.54F + 0.1F * (x.x - 8.0F));
+        if (height < 1.0F && x.x > 5.0F && x.x < 11.0F) {
+            sum += convert<float>(world->particle_velocities()[k]).x * def.cell_m;
+            ++count;
+        }
+    }
+    return sum / static_cast<float>(count);
+}
+
+TEST(Surface, ViscousLiquidSticksToBodies) {
+    float drag = 0;
+    EXPECT_LT(std::fabs(speed_above_a_belt<float>(false, true, &drag)), 0.005F);
+    EXPECT_NEAR(drag, 0.0F, 1e-6F);
+    EXPECT_GT(speed_above_a_belt<float>(true, true, &drag), 0.05F);
+    EXPECT_LT(drag, -1e-5F) << "the liquid holds the belt back";
+    EXPECT_GT(speed_above_a_belt<Fixed>(true, true, &drag), 0.05F);
+}
+
+TEST(Surface, WithoutViscosityNothingSticks) {
+    float drag = 0;
+    const float slips = speed_above_a_belt<float>(false, false, &drag);
+    EXPECT_EQ(speed_above_a_belt<float>(true, false, &drag), slips);
 }
 
 }  // namespace

@@ -1,0 +1,237 @@
+#include "step/no_slip.hpp"
+
+#include "grid/diffuse.hpp"
+#include "solid/body_force.hpp"
+#include "solid/reflect.hpp"
+
+namespace weir {
+
+namespace {
+
+/// Distance to a wall is counted as at least this share of a cell.
+template <class Real>
+constexpr Real kLeastWay = Real(0.05);
+
+/// One component's faces: their nodes, and the way to the next face across them.
+template <class Real>
+struct Axis {
+    const GridShape& s;
+    const Walls<Real>& walls;
+    bool is_u;
+
+    std::int32_t other_node() const { return is_u ? s.stride : 1; }
+    Vec2<Real> centre(std::int32_t i, std::int32_t j) const {
+        const Vec2<Real> corner{static_cast<Real>(i), static_cast<Real>(j)};
+        constexpr Real kHalf = Real(0.5);
+        return corner + (is_u ? Vec2<Real>{Real(0), kHalf} : Vec2<Real>{kHalf, Real(0)});
+    }
+    /// Faces beyond the tank's sides are images of those before them.
+    bool in_tank(std::int32_t i, std::int32_t j) const {
+        return is_u ? j >= 0 && j < s.ny : i >= 0 && i < s.nx;
+    }
+    Real of(Vec2<Real> v) const { return is_u ? v.x : v.y; }
+    Real distance(std::int32_t face) const {
+        const DistanceOf<Real>* d = walls.distance;
+        return Real(0.5) * (Real(d[face]) + Real(d[face + other_node()]));
+    }
+    Vec2<Real> gradient(std::int32_t face) const {
+        const DistanceOf<Real>* d = walls.distance + face;
+        const std::int32_t t = s.stride;
+        return is_u ? Vec2<Real>{Real(0.25) * ((d[1] + d[t + 1]) - (d[-1] + d[t - 1])),
+                                 d[t] - d[0]}
+                    : Vec2<Real>{d[1] - d[0], Real(0.25) * ((d[t] + d[t + 1]) -
+                                                            (d[-t] + d[1 - t]))};
+    }
+    Vec2<Real> normal(std::int32_t face) const {
+        const Vec2<Real> along = gradient(face);
+        const Real steepness = length(along);
+        return steepness > Real(0) ? (Real(1) / steepness) * along : Vec2<Real>{};
+    }
+    std::uint16_t sticking(std::int32_t face) const {
+        return sticking_body(walls, face, face + other_node());
+    }
+    Vec2<Real> wall(std::uint16_t slot, Vec2<Real> place, Vec2<Real> n) const {
+        const Body<Real>& body = walls.body[slot];
+        return surface_velocity(body.surface, velocity_at(body, place), n);
+    }
+};
+
+/// Calls visit(i, j, face) for the faces of a component that are no wall of the tank.
+template <class Real, class Visit>
+void for_each_face(const Axis<Real>& axis, Visit visit) {
+    const GridShape& s = axis.s;
+    for (std::int32_t j = axis.is_u ? 0 : 1; j < s.ny; ++j) {
+        for (std::int32_t i = axis.is_u ? 1 : 0; i < s.nx; ++i) {
+            visit(i, j, s.index(i, j));
+        }
+    }
+}
+
+/// Of the velocity at a face as scattered, the share that belongs to the face's own distance:
+/// d over the mean distance of what the kernel holds on the wall's open side.
+template <class Real>
+Real share_at(Real d) {
+    if (d <= Real(0)) {
+        return Real(0);
+    }
+    const Real square = d * d;
+    const Real mass = (Real(0.5) + d) - Real(0.5) * square;
+    const Real lever =
+        (Real(1.0 / 6.0) - Real(0.5) * square) + Real(1.0 / 3.0) * (square * d);
+    return d / (d + lever / mass);
+}
+
+/// Mean of the other component's four faces around a face, of those that are not closed.
+template <class Real>
+Real across_at(const Axis<Real>& axis, std::int32_t face, const VelocityOf<Real>* other) {
+    const std::int32_t back = axis.is_u ? 1 : axis.s.stride;
+    const std::int32_t up = axis.is_u ? axis.s.stride : 1;
+    const ShareOf<Real>* open = axis.is_u ? axis.walls.open_v : axis.walls.open_u;
+    Real sum = Real(0);
+    std::int32_t count = 0;
+    const std::int32_t around[] = {face, face - back, face + up, face + up - back};
+    for (const std::int32_t at : around) {
+        if (open[at] > Real(0)) {
+            sum += Real(other[at]);
+            ++count;
+        }
+    }
+    return count > 0 ? part_of(sum, count) : Real(0);
+}
+
+template <class Real>
+void centre_component(const Axis<Real>& axis, const VelocityOf<Real>* own,
+                      const VelocityOf<Real>* other, VelocityOf<Real>* velocity,
+                      VelocityOf<Real>* before) {
+    const ShareOf<Real>* open = axis.is_u ? axis.walls.open_u : axis.walls.open_v;
+    for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
+        if (!(open[face] > Real(0))) {
+            return;
+        }
+        const Real d = axis.distance(face);
+        const std::uint16_t slot = d < Real(1) ? axis.sticking(face) : kNoBody;
+        if (slot == kNoBody) {
+            return;
+        }
+        const Vec2<Real> n = axis.normal(face);
+        const Vec2<Real> tangent{-n.y, n.x};
+        const Real here = own[face];
+        const Real there = across_at(axis, face, other);
+        const Vec2<Real> liquid = axis.is_u ? Vec2<Real>{here, there} : Vec2<Real>{there, here};
+        const Vec2<Real> on_wall = axis.centre(i, j) - d * n;
+        const Real slip = dot(liquid - axis.wall(slot, on_wall, n), tangent);
+        const Real less = ((Real(1) - share_at(d)) * slip) * axis.of(tangent);
+        velocity[face] = Real(velocity[face]) - less;
+        before[face] = here - less;
+    });
+}
+
+/// How the walls around a face pull it.
+template <class Real>
+struct Pull {
+    Real weight = Real(0);       ///< Σ 1/θ
+    Real towards = Real(0);      ///< Σ u_wall/θ
+    Real liquid = Real(0);       ///< Σ of what faces in the liquid pull
+    std::uint16_t slot = kNoBody;
+};
+
+template <class Real>
+Pull<Real> pull_on(const Axis<Real>& axis, const FaceShare<Real>& share,
+                   const VelocityOf<Real>* field, std::int32_t i, std::int32_t j, Real d) {
+    const std::int32_t face = axis.s.index(i, j);
+    const Real own = share.at(face);
+    const Real here = field[face];
+    Pull<Real> pull;
+    const auto look = [&](std::int32_t di, std::int32_t dj) {
+        const std::int32_t neighbour = axis.s.index(i + di, j + dj);
+        const Real beyond = axis.in_tank(i + di, j + dj) ? axis.distance(neighbour) : Real(1);
+        if (beyond > Real(0)) {
+            const Real other = share.at(neighbour);
+            const Real difference = Real(field[neighbour]) - here;
+            pull.liquid += other < own ? difference * (other / own) : difference;
+            return;
+        }
+        const std::uint16_t slot = axis.sticking(neighbour);
+        if (slot == kNoBody) {
+            return;
+        }
+        const Real theta = maximum(d / (d - beyond), kLeastWay<Real>);
+        const Vec2<Real> way{static_cast<Real>(di), static_cast<Real>(dj)};
+        const Vec2<Real> place = axis.centre(i, j) + theta * way;
+        const Real stiff = Real(1) / theta;
+        pull.weight += stiff;
+        pull.towards += stiff * axis.of(axis.wall(slot, place, axis.normal(neighbour)));
+        pull.slot = slot;
+    };
+    look(-1, 0);
+    look(1, 0);
+    look(0, -1);
+    look(0, 1);
+    return pull;
+}
+
+template <class Real>
+void diffuse_component(const Axis<Real>& axis, const FaceShare<Real>& share, Real amount,
+                       const VelocityOf<Real>* field, VelocityOf<Real>* out) {
+    for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
+        const Real d = axis.distance(face);
+        if (!(d < kBand<Real>) || axis.sticking(face) == kNoBody) {
+            return;
+        }
+        if (d <= Real(0) || !(share.at(face) > Real(0))) {
+            out[face] = field[face];
+            return;
+        }
+        const Pull<Real> pull = pull_on(axis, share, field, i, j, d);
+        const Real unbound = Real(field[face]) + amount * pull.liquid;
+        const Real bound = (unbound + amount * pull.towards) /
+                           (Real(1) + amount * pull.weight);
+        out[face] = bound;
+        if (axis.walls.load != nullptr && pull.slot != kNoBody) {
+            const Real lost = unbound - bound;
+            receive(axis.walls, pull.slot, static_cast<Face<Real>>(share.at(face)),
+                    axis.centre(i, j),
+                    axis.is_u ? Vec2<Real>{lost, Real(0)} : Vec2<Real>{Real(0), lost});
+        }
+    });
+}
+
+}  // namespace
+
+template <class Real>
+void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
+                     StaggeredGrid<Real>& grid, Work work) {
+    const GridShape& s = grid.shape;
+    const Part copied = work.take(s.ny + 2, s.stride);
+    copy_rows(s, copied, grid.mass_u, fields.divergence);
+    copy_rows(s, copied, grid.mass_v, fields.inverse_diagonal);
+    if (work.once(s.size())) {
+        centre_component<Real>({s, walls, true}, fields.divergence, fields.inverse_diagonal,
+                               grid.u, grid.mass_u);
+        centre_component<Real>({s, walls, false}, fields.inverse_diagonal, fields.divergence,
+                               grid.v, grid.mass_v);
+    }
+}
+
+template <class Real>
+void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fields, Real amount,
+                      StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    const FaceShare<Real> on_u{fields.density, nullptr, 1};
+    const FaceShare<Real> on_v{fields.density, nullptr, s.stride};
+    diffuse_component<Real>({s, walls, true}, on_u, amount, fields.divergence, grid.u);
+    diffuse_component<Real>({s, walls, false}, on_v, amount, fields.inverse_diagonal, grid.v);
+}
+
+#define WEIR_INSTANTIATE(Real)                                                             \
+    template void centre_at_walls(const Walls<Real>&, PressureFields<Real>&,               \
+                                  StaggeredGrid<Real>&, Work);                             \
+    template void diffuse_to_walls(const Walls<Real>&, const PressureFields<Real>&, Real,  \
+                                   StaggeredGrid<Real>&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+WEIR_INSTANTIATE(SmallFixed)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir

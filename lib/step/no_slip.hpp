@@ -1,0 +1,27 @@
+// Stage: grid update, where viscous liquid sticks to bodies. Absent if none of them holds it.
+#pragma once
+
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// What a wall without slip takes out of the scatter: the particles that a face reads stand on its
+/// open side only, so their mean place is further from the wall than the face. The velocity along
+/// the wall, which grows from the wall's own in proportion to the distance, is set back to where
+/// the face is; faces inside the wall have the wall's. The tank's walls do the same by images.
+/// After `grid_update`. The fields' divergence and inverse diagonal are the scratch.
+/// Cost: a look at each cell, about 60 operations for each face within a cell of such a wall.
+template <class Real>
+void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
+                     StaggeredGrid<Real>& grid, Work work = {});
+
+/// Viscosity beside walls without slip, over what `diffuse` did there: a neighbour beyond the wall
+/// pulls with the wall's velocity at the wall's distance θ, (u_wall − u)/θ (Gibou, Fedkiw, Cheng &
+/// Kang 2002), the wall's part implicitly, so that no θ is too small. What the walls pull the
+/// bodies receive. Reads the velocity before `diffuse` from the fields' scratch.
+template <class Real>
+void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fields, Real amount,
+                      StaggeredGrid<Real>& grid);
+
+}  // namespace weir

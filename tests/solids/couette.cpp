@@ -1,0 +1,175 @@
+// R10 with walls that are bodies without slip: viscous liquid between a body at rest and one that
+// moves. Worlds with bodies are closed, so the plane channel is one whose ends are shut: far from
+// them the liquid that the moving wall drags along flows back below, u/U = 3y² − 2y (Poiseuille and
+// Couette, no net flow). Between a disc that turns and a ring flow goes round: u = Ar + B/r.
+#include <cmath>
+
+#include "math/vec2.hpp"
+#include "problems.hpp"
+#include "tank.hpp"
+
+namespace solids {
+
+namespace {
+
+using Vec2d = weir::Vec2<double>;
+
+constexpr double kCell = 1.0 / 64.0;
+constexpr double kReynolds = 10.0;
+
+/// Of a gap of so many cells whose wall goes a gap a second.
+weir::WorldDef definition(int gap, int cells_x, int cells_y) {
+    weir::WorldDef def;
+    def.cell_m = static_cast<float>(kCell);
+    def.gravity_mps2 = {};
+    def.capacity.cells_x = cells_x;
+    def.capacity.cells_y = cells_y;
+    def.capacity.particles = 4 * cells_x * cells_y;
+    def.capacity.bodies = 2;
+    def.capacity.vertices = 2048;
+    def.capacity.two_way = true;
+    def.viscosity_m2ps = static_cast<float>(gap * kCell * gap * kCell / kReynolds);
+    return def;
+}
+
+weir::BodyDef sticky(const Ring& ring, double x, double y) {
+    weir::BodyDef body = body_of(ring, x * kCell, y * kCell);
+    body.surface.no_slip = true;
+    return body;
+}
+
+/// Root of the mean square difference to a flow, over that of the flow; where `counts` says so.
+template <class Flow, class Counts>
+double difference(Tank<float>& tank, Flow flow, Counts counts) {
+    double wrong = 0.0;
+    double all = 0.0;
+    for (int k = 0; k < tank->particle_positions().size; ++k) {
+        const Vec2d x = weir::convert<double>(tank->particle_positions()[k]);
+        const Vec2d v = weir::convert<double>(tank->particle_velocities()[k]);
+        if (counts(x)) {
+            const Vec2d exact = flow(x);
+            wrong += weir::dot(v - exact, v - exact);
+            all += weir::dot(exact, exact);
+        }
+    }
+    return 100.0 * std::sqrt(wrong / all);
+}
+
+void simulate(Tank<float>& tank, double seconds) {
+    for (double time = 0.0; time < seconds;) {
+        time += static_cast<double>(tank->step(1.0F / 60.0F).dt_s);
+    }
+}
+
+/// In the middle of a channel whose bottom is at `floor`.
+double plane_error(Tank<float>& tank, int gap, double floor) {
+    const auto flow = [&](Vec2d x) {
+        const double y = (x.y - floor) / gap;
+        return Vec2d{gap * (3.0 * y * y - 2.0 * y), 0.0};
+    };
+    return difference(tank, flow, [&](Vec2d x) { return std::abs(x.x - 2.0 * gap) < 0.5 * gap; });
+}
+
+/// The same flow as `plane` between walls of the tank, for what the rest of the scheme leaves.
+double plane_of_tank_walls(int gap) {
+    weir::WorldDef def = definition(gap, 4 * gap, gap);
+    def.walls.bottom.no_slip = true;
+    def.walls.top.no_slip = true;
+    def.walls.top.conveyor_mps = static_cast<float>(-gap * kCell);
+    Tank<float> tank(def);
+    require(tank->fill({{0.0F, 0.0F},
+                        {static_cast<float>(4.0 * gap * kCell), static_cast<float>(gap * kCell)}}));
+    simulate(tank, 0.4 * kReynolds);
+    return plane_error(tank, gap, 0.0);
+}
+
+void plane(Report& report, int gap) {
+    const double length = 4.0 * gap;
+    const double floor = 2.37;  // not on the grid's lines
+    const double ceiling = floor + gap;
+    Tank<float> tank(definition(gap, 4 * gap, gap + 6));
+    const Ring still = rectangle(1.5 * length * kCell, 8.0 * kCell);
+    const Ring belt = rectangle(5.0 * length * kCell, 8.0 * kCell);
+    weir::BodyId id;
+    require(tank->add_static_body(sticky(still, 0.5 * length, floor - 4.0), &id));
+    weir::BodyDef moving = sticky(belt, -1.0 * length, ceiling + 4.0);
+    moving.motion.velocity_mps = {static_cast<float>(gap * kCell), 0.0F};
+    require(tank->add_moving_body(moving, &id));
+    require(tank->fill({{0.0F, static_cast<float>(floor * kCell)},
+                        {static_cast<float>(length * kCell), static_cast<float>(ceiling * kCell)}}));
+    simulate(tank, 0.4 * kReynolds);
+    const std::string n = std::to_string(gap);
+    report.at_most("R10.plane.velocity_error." + n, plane_error(tank, gap, floor), "%",
+                   gap > 16 ? 0.2 : 0.8);
+    report.figure("R10.plane.the_same_between_tank_walls." + n, plane_of_tank_walls(gap), "%");
+}
+
+Ring circle(double radius, int corners) {
+    Ring ring;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2.0 * M_PI * k / corners;
+        ring.push_back({static_cast<float>(radius * kCell * std::cos(angle)),
+                        static_cast<float>(radius * kCell * std::sin(angle))});
+    }
+    return ring;
+}
+
+void annulus(Report& report, int gap) {
+    const double inner = 0.5 * gap;
+    const double outer = inner + gap;
+    const int side = static_cast<int>(2.0 * outer) + 8;
+    const Vec2d centre{0.5 * side + 0.21, 0.5 * side - 0.13};
+    Tank<float> tank(definition(gap, side, side));
+    const Ring disc = circle(inner, 256);
+    const Ring hole = circle(outer, 512);
+    const Ring frame = rectangle(2.0 * side * kCell, 2.0 * side * kCell);
+    const weir::View<weir::Vec2f> holes[] = {
+        {hole.data(), static_cast<std::int32_t>(hole.size())}};
+    weir::BodyId id;
+    weir::BodyDef ring = sticky(frame, centre.x, centre.y);
+    ring.holes = {holes, 1};
+    require(tank->add_static_body(ring, &id));
+    weir::BodyDef turning = sticky(disc, centre.x, centre.y);
+    const double spin = gap / inner;
+    turning.motion.spin_radps = static_cast<float>(spin);
+    require(tank->add_moving_body(turning, &id));
+    const auto room = static_cast<float>(side * kCell);
+    require(tank->fill({{0.0F, 0.0F}, {room, room}}));
+    simulate(tank, 1.0 * kReynolds);
+    const double wide = outer * outer - inner * inner;
+    const double a = -spin * inner * inner / wide;
+    const double b = spin * inner * inner * outer * outer / wide;
+    const auto flow = [&](Vec2d x) {
+        const Vec2d r = x - centre;
+        return (a + b / weir::dot(r, r)) * Vec2d{-r.y, r.x};
+    };
+    const std::string n = std::to_string(gap);
+    report.at_most("R10.annulus.velocity_error." + n,
+                   difference(tank, flow, [](Vec2d) { return true; }), "%", gap > 16 ? 0.2 : 0.8);
+    // Torque on the disc, 4πνB over the density; means of a second.
+    double torque = 0.0;
+    double time = 0.0;
+    while (time < 1.0) {
+        time += static_cast<double>(tank->step(1.0F / 60.0F).dt_s);
+        weir::BodyForce force;
+        require(tank->force(id, &force));
+        torque += static_cast<double>(force.angular_impulse_m4ps);
+    }
+    const double viscosity = gap * gap / kReynolds;
+    const double exact = -4.0 * M_PI * viscosity * b * kCell * kCell * kCell * kCell;
+    report.figure("R10.annulus.torque_on_the_disc_error." + n, 100.0 * (torque / time / exact - 1.0), "%");
+}
+
+}  // namespace
+
+void couette(Report& report, const Effort& effort) {
+    for (const int gap : {16, 32, 64}) {
+        if (gap > 32 && !effort.full) {
+            continue;
+        }
+        plane(report, gap);
+        annulus(report, gap);
+    }
+}
+
+}  // namespace solids
