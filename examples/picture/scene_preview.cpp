@@ -11,6 +11,7 @@
 
 #include WEIR_SCENE_HEADER
 #include "scene_motion.hpp"
+#include "scene_outline.hpp"
 #include "weir_picture/frame.hpp"
 #include "weir_picture/image_file.hpp"
 
@@ -23,8 +24,7 @@ std::vector<Point> in_cells(const scene::Shape& shape, const scene::Motion& moti
     std::vector<Point> points;
     const float c = std::cos(motion.angle_rad);
     const float s = std::sin(motion.angle_rad);
-    for (std::int32_t i = 0; i < shape.count; ++i) {
-        const scene::Point p = shape.points[i];
+    for (const scene::Point p : scene::one_line(shape)) {
         points.push_back({(motion.position_m.x_m + c * p.x_m - s * p.y_m) / kScene.cell_m,
                           (motion.position_m.y_m + s * p.x_m + c * p.y_m) / kScene.cell_m});
     }

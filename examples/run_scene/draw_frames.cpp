@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "drawing.hpp"
-#include "scene_world.hpp"
+#include "scene_outline.hpp"
+#include "weir/weir.hpp"
 #include "weir_picture/frame.hpp"
 #include "weir_picture/image_file.hpp"
 
@@ -49,8 +50,7 @@ weir_picture::Polygon placed(const scene::Shape& shape, const Pose& pose, bool m
     const float s = std::sin(pose.angle_rad);
     weir_picture::Polygon polygon;
     polygon.moving = moving;
-    for (std::int32_t k = 0; k < shape.count; ++k) {
-        const scene::Point p = shape.points[k];
+    for (const scene::Point p : scene::one_line(shape)) {
         polygon.points.push_back({(pose.x_m + c * p.x_m - s * p.y_m) / kScene.cell_m,
                                   (pose.y_m + s * p.x_m + c * p.y_m) / kScene.cell_m});
     }

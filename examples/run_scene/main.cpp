@@ -18,6 +18,7 @@ alignas(weir::world_alignment) std::byte g_memory[kLayout.total_bytes];
 weir::World<float> g_world;
 weir::BodyId g_moving[kMovingRoom];
 weir::Vec2f g_vertices[kScene.max_vertices > 0 ? kScene.max_vertices : 1];
+weir::View<weir::Vec2f> g_holes[kScene.max_holes > 0 ? kScene.max_holes : 1];
 
 /// Ticks of each stage over the run: their sum, and the worst step.
 struct StageTicks {
@@ -134,7 +135,7 @@ int main() {
     weir::WorldDef def = kDef;
     def.ticks = port::ticks;
     require(g_world.init(def, g_memory));
-    require(scene::set_up(g_world, kScene, g_vertices, g_moving));
+    require(scene::set_up(g_world, kScene, {g_vertices, g_holes}, g_moving));
     print_facts();
 
     Totals totals;

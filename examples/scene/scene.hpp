@@ -1,9 +1,8 @@
 // A scene drawn in a vector editor: solids, moving bodies and liquid as constant data.
 //
 // Written by svg_to_scene.py, read by examples and firmware; lives in read-only memory. Lengths are
-// metres, y points up, the origin is the tank's bottom left corner. Polygons are simple, without
-// holes, counter-clockwise; the first vertex is not repeated. Solids may overlap: their union is
-// meant. Liquid polygons do not overlap, but touch where a shape with a hole was split.
+// metres, y points up, the origin is the tank's bottom left corner. Polygons are simple, outer rings
+// counter-clockwise; a ring's first vertex is not repeated. Polygons of a kind do not overlap.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +14,24 @@ struct Point {
     float y_m;
 };
 
-// One polygon. count >= 3.
+// One polygon, with holes or without. count >= 3.
 struct Shape {
-    const Point* points;
+    const Point* points;                // of all rings, the outer one first
     std::int32_t count;
+    const std::int32_t* ends = nullptr; // where each ring ends in points; nullptr: there is one
+    std::int32_t rings = 1;
 };
 
+// Where a ring of a shape begins and ends in its points.
+constexpr std::int32_t ring_begin(const Shape& shape, std::int32_t ring) {
+    return ring == 0 ? 0 : shape.ends[ring - 1];
+}
+constexpr std::int32_t ring_end(const Shape& shape, std::int32_t ring) {
+    return shape.ends == nullptr ? shape.count : shape.ends[ring];
+}
+
 // A body that moves as prescribed; scene_motion.hpp says where it is at a given step. A drawn body
-// with holes or several parts becomes several of these with the same motion.
+// of several parts becomes several of these with the same motion.
 struct Moving {
     Shape shape;                // relative to the pivot
     Point position_m;           // of the pivot at the start
@@ -50,8 +59,9 @@ struct Scene {
     const Shape* liquid;
     std::int32_t liquid_count;
     std::int32_t max_particles;       // lattice points in the liquid and not in a solid: no more
-    std::int32_t total_vertices;      // of all solids and moving bodies together
+    std::int32_t total_vertices;      // of all solids and moving bodies together, and 3 a hole
     std::int32_t max_vertices;        // of the one that has most
+    std::int32_t max_holes;           // of the one that has most
 };
 
 // Bodies a world must have room for.

@@ -8,7 +8,7 @@ from shapely import vectorized
 from shapely.affinity import affine_transform
 from shapely.geometry import box
 
-from scene_geometry import clean_polygons, finished_ring, to_float32, united
+from scene_geometry import clean_polygons, finished_rings, to_float32, united
 from scene_motion import (NUMBER, Motion, body_key, fractions_of, guide_ids, motion_of,
                           role_and_depth)
 from svg_outline import area_on_page, has_paint, is_line, is_shown
@@ -19,7 +19,7 @@ MAX_CELLS = 4096
 BACKGROUND_SHARE = 0.99  # a filling that covers this share of the page is paper, not a solid
 HEADROOM_SHARE = 0.6  # of the page's height, added above a drawing without liquid
 DEFAULT_LIQUID_SHARE = 0.3  # of the page's height: the block that pours over the drawing
-SEAM_OVERLAP_CELLS = 1.0
+MAX_BODY_VERTICES = 16384  # holes included, and 3 more for each: the library's limit
 
 
 @dataclass
@@ -34,9 +34,9 @@ class Options:
 
 @dataclass
 class Body:
-    """One hole-free polygon that moves; ring relative to the pivot."""
+    """One polygon that moves; rings relative to the pivot."""
 
-    ring: list
+    rings: list
     motion: Motion
     position: tuple
     fractions: list
@@ -189,24 +189,28 @@ class Builder:
         scene.notices = self.notices
         return scene
 
-    def rings(self, polygons, origin=(0.0, 0.0)):
-        """Finished vertex lists."""
-        rings = [finished_ring(p, self.cell, origin) for p in polygons]
-        return [r for r in rings if r]
+    def finished(self, polygons, origin=(0.0, 0.0)):
+        """The rings of each polygon."""
+        finished = [finished_rings(p, self.cell, origin) for p in polygons]
+        finished = [rings for rings in finished if rings]
+        for rings in finished:
+            if sum(map(len, rings)) + 3 * (len(rings) - 1) > MAX_BODY_VERTICES:
+                raise DrawingError(f"a polygon has more than {MAX_BODY_VERTICES} vertices: raise "
+                                   "--tolerance-cells")
+        return finished
 
     def add_solids(self, areas):
-        """Static solids: one union, cleaned and split."""
+        """Static solids: one union, cleaned."""
         polygons, slivers = clean_polygons(united(areas), self.cell, 0.5 * self.tolerance,
-                                           SEAM_OVERLAP_CELLS * self.cell, self.tank)
-        self.scene.solids = self.rings(polygons)
+                                           self.tank)
+        self.scene.solids = self.finished(polygons)
         self.solid_area = united(polygons)
         return slivers
 
     def add_body(self, shape, areas):
         """A moving body: not clipped, for it may come in from outside."""
         whole = united(areas)
-        polygons, slivers = clean_polygons(whole, self.cell, 0.5 * self.tolerance,
-                                           SEAM_OVERLAP_CELLS * self.cell)
+        polygons, slivers = clean_polygons(whole, self.cell, 0.5 * self.tolerance)
         motion = motion_of(shape, self.drawing, self.to_metres,
                            0.5 * self.tolerance / self.drawing.metres_per_px)
         pivot = motion.pivot or (whole.centroid.x, whole.centroid.y)
@@ -216,8 +220,8 @@ class Builder:
         if math.dist(start, pivot) > self.cell:
             self.notices.append(f"{shape.label()!r} jumps from where it is drawn to its path")
         fractions = fractions_of(motion.path) if motion.path else []
-        for ring in self.rings(polygons, pivot):
-            self.scene.moving.append(Body(ring, motion, start, fractions))
+        for rings in self.finished(polygons, pivot):
+            self.scene.moving.append(Body(rings, motion, start, fractions))
         return slivers
 
     def add_liquid(self, areas):
@@ -229,8 +233,8 @@ class Builder:
             areas = [box(self.cell, y1 - self.cell - DEFAULT_LIQUID_SHARE * self.page_height_m,
                          x1 - self.cell, y1 - self.cell)]
         whole = united(areas)
-        polygons, slivers = clean_polygons(whole, self.cell, 0.5 * self.tolerance, 0.0, self.tank)
-        scene.liquid = self.rings(polygons)
+        polygons, slivers = clean_polygons(whole, self.cell, 0.5 * self.tolerance, self.tank)
+        scene.liquid = self.finished(polygons)
         free = united(polygons).difference(self.solid_area)
         scene.liquid_cells2 = free.area / self.cell ** 2
         scene.max_particles = self.lattice_points(united(polygons))

@@ -1,13 +1,13 @@
 """Clean-up of areas into the polygons that the simulation takes, all in metres, y up.
 
-Out come simple polygons without holes, counter-clockwise, without repeated or collinear vertices,
-whose coordinates are exact single-precision numbers.
+Out come simple polygons, with holes or without, whose rings have no repeated or collinear vertices
+and coordinates that are exact single-precision numbers; outer rings run counter-clockwise.
 """
 
 import math
 import struct
 
-from shapely.geometry import MultiPolygon, Polygon, box
+from shapely.geometry import MultiPolygon, Polygon
 from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 from shapely.validation import make_valid
@@ -18,7 +18,6 @@ SLIVER_CELLS2 = 0.02  # smaller than any contour can show
 MIN_EDGE_CELLS = 0.01
 HAIRLINE_CELLS = 0.01  # gaps, spikes and threads narrower than this are closed or cut off
 COLLINEAR_CELLS = 1e-3  # a vertex this close to its neighbours' chord says nothing
-MAX_SPLITS = 2000
 
 
 def to_float32(value):
@@ -59,44 +58,7 @@ def without_slivers(area, cell):
         holes = [h for h in polygon.interiors if Polygon(h).area >= limit]
         dropped += len(polygon.interiors) - len(holes)
         kept.append(Polygon(polygon.exterior, holes))
-    return kept, dropped
-
-
-def halves(polygon, overlap):
-    """Cuts a polygon through its largest hole.
-
-    Args:
-        polygon: has at least one hole.
-        overlap: width of the band both halves keep; narrower holes narrow it.
-    Returns:
-        The parts on either side of the cut, their union being the polygon.
-    """
-    hole = max((Polygon(h) for h in polygon.interiors), key=lambda h: h.area)
-    x0, y0, x1, y1 = hole.bounds
-    left, bottom, right, top = polygon.bounds
-    # The cut goes across the hole's longer side: there its end stays furthest from the cut.
-    if x1 - x0 >= y1 - y0:
-        centre, half = 0.5 * (x0 + x1), 0.5 * min(overlap, 0.5 * (x1 - x0))
-        sides = (box(left, bottom, centre + half, top), box(centre - half, bottom, right, top))
-    else:
-        centre, half = 0.5 * (y0 + y1), 0.5 * min(overlap, 0.5 * (y1 - y0))
-        sides = (box(left, bottom, right, centre + half), box(left, centre - half, right, top))
-    return [p for side in sides for p in polygons_of(make_valid(polygon.intersection(side)))]
-
-
-def split_holes(polygons, overlap):
-    """Hole-free polygons whose union is that of the given ones."""
-    done, waiting, splits = [], list(polygons), 0
-    while waiting:
-        polygon = waiting.pop()
-        if not polygon.interiors:
-            done.append(polygon)
-            continue
-        splits += 1
-        if splits > MAX_SPLITS:
-            raise RuntimeError("too many holes to split")
-        waiting.extend(halves(polygon, overlap))
-    return done
+    return kept[::-1], dropped  # the last drawn first, as ever: results depend on the order
 
 
 def distance_to_chord(a, b, c):
@@ -123,43 +85,55 @@ def tidy_ring(points, min_edge, flatness):
     return ring
 
 
-def finished_ring(polygon, cell, origin=(0.0, 0.0)):
+def rings_of(polygon):
+    """The vertex lists of a polygon, the outer ring first, without repeated end points."""
+    whole = orient(polygon)
+    return [list(r.coords[:-1]) for r in (whole.exterior, *whole.interiors)]
+
+
+def polygon_of(rings):
+    """The polygon that vertex lists describe."""
+    return Polygon(rings[0], rings[1:])
+
+
+def finished_rings(polygon, cell, origin=(0.0, 0.0)):
     """The vertices that go into the header.
 
     Args:
-        polygon: simple, without holes.
+        polygon: simple; it may have holes.
         cell: cell size in metres.
         origin: subtracted from every vertex (the pivot of a moving body).
     Returns:
-        A list of (x, y) in single precision, counter-clockwise, or None if nothing is left.
+        The rings, lists of (x, y) in single precision: the outer one, counter-clockwise, then the
+        holes, clockwise; or None if nothing is left.
     """
-    raw = [(x - origin[0], y - origin[1]) for x, y in orient(polygon).exterior.coords[:-1]]
+    raw = [[(x - origin[0], y - origin[1]) for x, y in ring] for ring in rings_of(polygon)]
     for strength in (1.0, 0.1, 0.01):  # removing vertices can make edges cross: then remove less
-        ring = tidy_ring(raw, strength * MIN_EDGE_CELLS * cell, strength * COLLINEAR_CELLS * cell)
-        ring = [(to_float32(x), to_float32(y)) for x, y in ring]
-        tidy = Polygon(ring)
+        limits = strength * MIN_EDGE_CELLS * cell, strength * COLLINEAR_CELLS * cell
+        rings = [[(to_float32(x), to_float32(y)) for x, y in tidy_ring(ring, *limits)]
+                 for ring in raw]
+        tidy = polygon_of(rings)
         if tidy.is_valid and tidy.area > 0.0:
-            return ring if tidy.exterior.is_ccw else ring[::-1]
+            return rings
     # Rounding makes edges cross: keep the largest part, with its thinnest features cut off.
-    part = max(polygons_of(make_valid(Polygon(raw))), key=lambda p: p.area, default=None)
+    part = max(polygons_of(make_valid(polygon_of(raw))), key=lambda p: p.area, default=None)
     if part is None:
         return None
     part = without_hairlines(part, 10.0 * cell)
     part = max(polygons_of(part), key=lambda p: p.area, default=None)
     if part is None:
         return None
-    ring = [(to_float32(x), to_float32(y)) for x, y in orient(part).exterior.coords[:-1]]
-    return ring if Polygon(ring).is_valid else None
+    rings = [[(to_float32(x), to_float32(y)) for x, y in ring] for ring in rings_of(part)]
+    return rings if polygon_of(rings).is_valid else None
 
 
-def clean_polygons(area, cell, tolerance, overlap, clip=None):
-    """Area -> hole-free polygons.
+def clean_polygons(area, cell, tolerance, clip=None):
+    """Area -> polygons.
 
     Args:
         area: any polygonal geometry, metres.
         cell: cell size in metres.
         tolerance: simplification tolerance in metres.
-        overlap: width in metres by which parts of a split polygon overlap (0: exact seams).
         clip: geometry to stay inside, or None.
     Returns:
         (list of Polygon, number of slivers dropped).
@@ -167,8 +141,4 @@ def clean_polygons(area, cell, tolerance, overlap, clip=None):
     area = simplified(without_hairlines(united([area]), cell), tolerance)
     if clip is not None:
         area = united([area.intersection(clip)])
-    kept, dropped = without_slivers(area, cell)
-    parts = split_holes(kept, overlap)
-    limit = SLIVER_CELLS2 * cell * cell
-    # With an overlap, what a cut leaves below the limit lies next to a part that covers it nearly.
-    return [p for p in parts if p.area >= limit], dropped
+    return without_slivers(area, cell)

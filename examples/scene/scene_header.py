@@ -1,5 +1,7 @@
 """Writes a scene as a C++ header of constants (see scene.hpp for their meaning)."""
 
+import itertools
+
 from scene_geometry import to_float32
 
 POINTS_PER_LINE = 3
@@ -30,25 +32,35 @@ def array(type_name, name, items, per_line):
     return f"inline constexpr {type_name} {name}[] = {{\n    " + ",\n    ".join(lines) + ",\n};\n"
 
 
-def shapes(kind, rings):
+def shape(name, rings):
+    """The vertices of a polygon, and the braces that refer to them."""
+    points = [point(p) for ring in rings for p in ring]
+    out = array("Point", name, points, POINTS_PER_LINE)
+    if len(rings) == 1:
+        return out, f"{{{name}, {len(points)}}}"
+    ends = itertools.accumulate(map(len, rings))
+    out += array("std::int32_t", name + "Ends", list(map(str, ends)), 12)
+    return out, f"{{{name}, {len(points)}, {name}Ends, {len(rings)}}}"
+
+
+def shapes(kind, polygons):
     """The vertices of each polygon and the table of polygons."""
-    out = [array("Point", f"k{kind}{i}", [point(p) for p in ring], POINTS_PER_LINE)
-           for i, ring in enumerate(rings)]
-    table = [f"{{k{kind}{i}, {len(ring)}}}" for i, ring in enumerate(rings)]
-    return "".join(out) + array("Shape", f"k{kind}Shapes", table, 4)
+    made = [shape(f"k{kind}{i}", rings) for i, rings in enumerate(polygons)]
+    return "".join(m[0] for m in made) + array("Shape", f"k{kind}Shapes", [m[1] for m in made], 4)
 
 
 def moving(bodies):
     """Vertices, paths and the table of moving bodies."""
     out, table = [], []
     for i, body in enumerate(bodies):
-        out.append(array("Point", f"kMoving{i}", [point(p) for p in body.ring], POINTS_PER_LINE))
+        points, braces = shape(f"kMoving{i}", body.rings)
+        out.append(points)
         path, fractions = "nullptr", "nullptr"
         if body.motion.path:
             path, fractions = f"kPath{i}", f"kPathFraction{i}"
             out.append(array("Point", path, [point(p) for p in body.motion.path], POINTS_PER_LINE))
             out.append(array("float", fractions, [literal(f) for f in body.fractions], 6))
-        table.append(f"{{{{kMoving{i}, {len(body.ring)}}}, {point(body.position)}, "
+        table.append(f"{{{braces}, {point(body.position)}, "
                      f"{point(body.motion.velocity)}, {literal(body.motion.spin)},\n     {path}, "
                      f"{fractions}, {len(body.motion.path)}, {literal(body.motion.period)}}}")
     return "".join(out) + array("Moving", "kMovingBodies", table, 1)
@@ -64,7 +76,9 @@ def header_text(scene, source, include):
     Returns:
         C++17 text.
     """
-    counts = [len(ring) for ring in scene.solids] + [len(b.ring) for b in scene.moving]
+    polygons = scene.solids + [b.rings for b in scene.moving]
+    counts = [sum(map(len, rings)) for rings in polygons]
+    holes = [len(rings) - 1 for rings in polygons]
 
     def table(name, items):
         return f"{name if items else 'nullptr'}, {len(items)}"
@@ -95,7 +109,8 @@ inline constexpr scene::Scene kScene = {{
     {table("scene::drawing::kMovingBodies", scene.moving)},  // moving
     {table("scene::drawing::kLiquidShapes", scene.liquid)},  // liquid
     {scene.max_particles},  // max_particles
-    {sum(counts)},  // total_vertices
+    {sum(counts) + 3 * sum(holes)},  // total_vertices
     {max(counts, default=0)},  // max_vertices
+    {max(holes, default=0)},  // max_holes
 }};
 """

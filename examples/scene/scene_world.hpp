@@ -37,12 +37,16 @@ inline weir::Motion world_motion(const Moving& body, std::int32_t step, float dt
 /// Even-odd rule: how often a ray to the right crosses the outline.
 inline bool contains(const Shape& shape, Point p) {
     bool inside = false;
-    for (std::int32_t k = 0, last = shape.count - 1; k < shape.count; last = k++) {
-        const Point a = shape.points[k];
-        const Point b = shape.points[last];
-        if ((a.y_m > p.y_m) != (b.y_m > p.y_m) &&
-            p.x_m < a.x_m + (b.x_m - a.x_m) * (p.y_m - a.y_m) / (b.y_m - a.y_m)) {
-            inside = !inside;
+    for (std::int32_t ring = 0; ring < shape.rings; ++ring) {
+        const std::int32_t end = ring_end(shape, ring);
+        std::int32_t last = end - 1;
+        for (std::int32_t k = ring_begin(shape, ring); k < end; last = k++) {
+            const Point a = shape.points[k];
+            const Point b = shape.points[last];
+            if ((a.y_m > p.y_m) != (b.y_m > p.y_m) &&
+                p.x_m < a.x_m + (b.x_m - a.x_m) * (p.y_m - a.y_m) / (b.y_m - a.y_m)) {
+                inside = !inside;
+            }
         }
     }
     return inside;
@@ -72,20 +76,36 @@ weir::Status fill_shape(World& world, const Scene& s, const Shape& shape) {
     return weir::Status::ok;
 }
 
-/// Solids first, then moving bodies, then the liquid around them. `ids` takes the moving bodies'
-/// names, `vertices` is scratch for max_vertices points. The world has been initialised.
-template <class World>
-weir::Status set_up(World& world, const Scene& s, weir::Vec2f* vertices, weir::BodyId* ids) {
-    const auto polygon_of = [&](const Shape& shape) {
-        for (std::int32_t k = 0; k < shape.count; ++k) {
-            vertices[k] = {shape.points[k].x_m, shape.points[k].y_m};
-        }
-        return weir::View<weir::Vec2f>{vertices, shape.count};
+/// Scratch for one polygon: max_vertices points and max_holes views.
+struct Scratch {
+    weir::Vec2f* vertices;
+    weir::View<weir::Vec2f>* holes;
+};
+
+/// The rings of a shape for the library.
+inline void describe(const Shape& shape, const Scratch& scratch, weir::BodyDef& def) {
+    for (std::int32_t k = 0; k < shape.count; ++k) {
+        scratch.vertices[k] = {shape.points[k].x_m, shape.points[k].y_m};
+    }
+    const auto ring = [&](std::int32_t number) {
+        const std::int32_t begin = ring_begin(shape, number);
+        return weir::View<weir::Vec2f>{scratch.vertices + begin, ring_end(shape, number) - begin};
     };
+    for (std::int32_t hole = 1; hole < shape.rings; ++hole) {
+        scratch.holes[hole - 1] = ring(hole);
+    }
+    def.polygon = ring(0);
+    def.holes = {scratch.holes, shape.rings - 1};
+}
+
+/// Solids first, then moving bodies, then the liquid around them. `ids` takes the moving bodies'
+/// names. The world has been initialised.
+template <class World>
+weir::Status set_up(World& world, const Scene& s, const Scratch& scratch, weir::BodyId* ids) {
     for (std::int32_t k = 0; k < s.solid_count; ++k) {
         weir::BodyDef def;
         weir::BodyId id;
-        def.polygon = polygon_of(s.solids[k]);
+        describe(s.solids[k], scratch, def);
         const weir::Status status = world.add_static_body(def, &id);
         if (status != weir::Status::ok) {
             return status;
@@ -93,7 +113,7 @@ weir::Status set_up(World& world, const Scene& s, weir::Vec2f* vertices, weir::B
     }
     for (std::int32_t k = 0; k < s.moving_count; ++k) {
         weir::BodyDef def;
-        def.polygon = polygon_of(s.moving[k].shape);
+        describe(s.moving[k].shape, scratch, def);
         def.motion = world_motion(s.moving[k], 0, s.dt_s);
         const weir::Status status = world.add_moving_body(def, ids + k);
         if (status != weir::Status::ok) {

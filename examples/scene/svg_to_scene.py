@@ -86,10 +86,12 @@ def parse_arguments(arguments):
 
 def summary(scene):
     """One paragraph for people."""
-    vertices = [len(r) for r in scene.solids] + [len(b.ring) for b in scene.moving]
+    polygons = scene.solids + [b.rings for b in scene.moving]
+    vertices = [sum(map(len, rings)) for rings in polygons]
     return (f"{scene.name}: {scene.cells_x} x {scene.cells_y} cells of {scene.cell_m:.4g} m; "
             f"{len(scene.solids)} solid(s) and {len(scene.moving)} moving, "
-            f"{sum(vertices)} vertices, at most {max(vertices, default=0)} in one; "
+            f"{sum(vertices)} vertices, at most {max(vertices, default=0)} in one, "
+            f"{sum(len(rings) - 1 for rings in polygons)} hole(s); "
             f"liquid {scene.liquid_cells2:.1f} cells^2, at most {scene.max_particles} particles.")
 
 

@@ -13,10 +13,10 @@ TOOL = os.path.join(EXAMPLES, "scene", "svg_to_scene.py")
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(EXAMPLES, "scene"))
 
-from shapely.geometry import Polygon  # noqa: E402
 from shapely.ops import unary_union  # noqa: E402
 
 import scene_builder  # noqa: E402
+from scene_geometry import polygon_of  # noqa: E402
 from svg_reader import read_drawing  # noqa: E402
 
 NAMESPACES = ('xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
@@ -48,7 +48,7 @@ class SceneTest(unittest.TestCase):
 
     def solid(self, body, **rest):
         """The union of all static solids."""
-        return unary_union([Polygon(r) for r in self.scene(body, **rest).solids])
+        return unary_union([polygon_of(r) for r in self.scene(body, **rest).solids])
 
     def assert_same_area(self, shape, expected, slack=1e-6):
         """The two differ by no more area than the slack (m^2)."""

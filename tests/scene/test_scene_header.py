@@ -16,10 +16,11 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from scene_case import EXAMPLES, NAMESPACES, PAGE, SceneTest  # noqa: E402
 
-from shapely.geometry import Polygon, box  # noqa: E402
+from shapely.geometry import box  # noqa: E402
 
 import scene_builder  # noqa: E402
 import scene_header  # noqa: E402
+from scene_geometry import polygon_of  # noqa: E402
 from svg_reader import DrawingError, read_drawing  # noqa: E402
 
 STRICT = ["-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wdouble-promotion",
@@ -40,7 +41,7 @@ class MovingTest(SceneTest):
     def test_group_by_id_label_and_class(self):
         for name in ('id="moving"', 'inkscape:label="Moving"', 'class="fast moving"'):
             body = self.only_body(f"<g {name}><g>{self.BAR.format('')}</g></g>")
-            self.assert_same_area(Polygon(body.ring), box(-0.1, -0.05, 0.1, 0.05))
+            self.assert_same_area(polygon_of(body.rings), box(-0.1, -0.05, 0.1, 0.05))
             self.assertAlmostEqual(body.position[0], 0.5, places=6)
             self.assertAlmostEqual(body.position[1], 0.55, places=6)
 
@@ -53,7 +54,7 @@ class MovingTest(SceneTest):
         body = self.only_body('<g id="moving" transform="translate(5,0)">'
                               + self.BAR.format('data-pivot="45 50"') + "</g>")
         self.assertAlmostEqual(body.position[1], 0.5, places=6)
-        self.assert_same_area(Polygon(body.ring), box(0.0, 0.0, 0.2, 0.1))
+        self.assert_same_area(polygon_of(body.rings), box(0.0, 0.0, 0.2, 0.1))
 
     def test_path_inline_and_by_id(self):
         inline = self.BAR.format('data-path="50,45 50,25 90,25" data-period="3"')
@@ -71,7 +72,7 @@ class MovingTest(SceneTest):
         wheel = ('<g data-spin="1" data-pivot="50 50"><rect x="48" y="30" width="4" height="40"/>'
                  '<rect x="30" y="48" width="40" height="4"/></g>')
         body = self.only_body(f'<g id="moving">{wheel}</g>')
-        self.assertEqual(len(body.ring), 12)
+        self.assertEqual(len(body.rings[0]), 12)
         two = self.scene(f'<g id="moving" data-spin="1">{self.BAR.format("")}'
                          '<rect x="80" y="80" width="5" height="5"/></g>')
         self.assertEqual(len({b.position for b in two.moving}), 2)
@@ -84,7 +85,7 @@ class MovingTest(SceneTest):
 
     def test_moving_bodies_are_not_clipped(self):
         body = self.only_body('<g id="moving"><rect x="-20" y="50" width="40" height="10"/></g>')
-        self.assertAlmostEqual(Polygon(body.ring).area, 0.04, places=6)
+        self.assertAlmostEqual(polygon_of(body.rings).area, 0.04, places=6)
 
     def test_bad_motion_is_refused(self):
         for bad in ('data-velocity="1"', 'data-spin="fast"', 'data-path="1,1 2,2"',
@@ -160,6 +161,21 @@ class ToolTest(SceneTest):
             static_assert(kScene.moving[0].spin_radps == 0.1f);
             static_assert(kScene.moving[1].path_count == 2);
             int main() { return 0; }''')
+
+    def test_holes_reach_the_header(self):
+        frame = ('<path fill-rule="evenodd" d="M20,20 h40 v40 h-40 z M30,30 h10 v10 h-10 z '
+                 'M45,30 h10 v10 h-10 z"/>')
+        result = self.run_tool(self.write(frame), self.path("out.hpp"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.compile_and_run('''
+            #include "scene_outline.hpp"
+            constexpr const scene::Shape& frame = kScene.solids[0];
+            static_assert(kScene.solid_count == 1 && kScene.max_holes == 2);
+            static_assert(kScene.total_vertices == 12 + 3 * 2 && kScene.max_vertices == 12);
+            static_assert(frame.rings == 3 && frame.count == 12);
+            static_assert(scene::ring_begin(frame, 0) == 0 && scene::ring_end(frame, 0) == 4);
+            static_assert(scene::ring_begin(frame, 2) == 8 && scene::ring_end(frame, 2) == 12);
+            int main() { return scene::one_line(frame).size() == 12 + 2 * 2 ? 0 : 1; }''')
 
     def test_header_without_solids_compiles(self):
         result = self.run_tool(self.write(""), self.path("out.hpp"))

@@ -17,7 +17,7 @@ from scene_case import CELL, PAGE, SceneTest  # noqa: E402
 from shapely.geometry import LinearRing, Point, Polygon, box  # noqa: E402
 from shapely.ops import unary_union  # noqa: E402
 
-from scene_geometry import finished_ring, tidy_ring  # noqa: E402
+from scene_geometry import finished_rings, polygon_of, tidy_ring  # noqa: E402
 
 
 class PageTest(SceneTest):
@@ -75,8 +75,8 @@ class PageTest(SceneTest):
     def test_drawing_without_liquid_gets_headroom(self):
         scene = self.scene('<rect x="20" y="50" width="60" height="50"/>', liquid="")
         self.assertEqual((scene.cells_x, scene.cells_y), (31, 50))
-        self.assert_same_area(Polygon(scene.solids[0]), box(0.2, 0.0, 0.8, 0.5))
-        block = Polygon(scene.liquid[0])
+        self.assert_same_area(polygon_of(scene.solids[0]), box(0.2, 0.0, 0.8, 0.5))
+        block = polygon_of(scene.liquid[0])
         self.assertGreater(block.bounds[1], 1.0)
         self.assertGreater(scene.max_particles, 500)
         self.assertTrue(any("liquid" in n for n in scene.notices))
@@ -158,7 +158,7 @@ class ShapeTest(SceneTest):
         rect = '<rect x="40" y="40" width="20" height="20" stroke="#000" stroke-width="4"/>'
         self.assert_same_area(self.solid(rect), box(0.38, 0.38, 0.62, 0.62))
         scene = self.scene("", liquid=f'<g id="liquid">{rect}</g>')
-        self.assert_same_area(Polygon(scene.liquid[0]), box(0.4, 0.4, 0.6, 0.6))
+        self.assert_same_area(polygon_of(scene.liquid[0]), box(0.4, 0.4, 0.6, 0.6))
 
     def test_use_before_and_after_definition_and_nested(self):
         body = ('<use xlink:href="#b" x="50"/><defs><rect id="a" width="10" height="10"/>'
@@ -193,52 +193,53 @@ class PolygonTest(SceneTest):
                                                 (70, 20, 50), (20, 60, 25), (52, 20, 1))) + '"/>'
                      '<path d="M2,50 L98,50 L2,50.01 Z"/>')
 
-    def test_holes_are_split_with_overlap(self):
+    def test_holes_are_rings(self):
         scene = self.scene(self.GRID_OF_HOLES)
-        parts = [Polygon(r) for r in scene.solids]
+        self.assertEqual(len(scene.solids), 1)
+        self.assertEqual(len(scene.solids[0]), 7)
         expected = 0.64 - 0.0008 * (8 + 30 + 8 + 50 + 25 + 1)
-        self.assertAlmostEqual(unary_union(parts).area, expected, delta=1e-5)
-        self.assertGreater(sum(p.area for p in parts), expected + 0.002)  # they overlap
+        self.assertAlmostEqual(polygon_of(scene.solids[0]).area, expected, delta=1e-5)
 
-    def test_seam_overlap_is_one_cell(self):
-        scene = self.scene('<path fill-rule="evenodd" d="M10,10 h80 v80 h-80 z M40,20 h20 v10 '
-                           'h-20 z"/>')
-        a, b = (Polygon(r) for r in scene.solids)
-        self.assertAlmostEqual(a.intersection(b).area, CELL * 0.7, places=6)
+    def test_island_in_a_hole_is_a_polygon_of_its_own(self):
+        scene = self.scene('<path fill-rule="evenodd" d="M10,10 h80 v80 h-80 z M20,20 h60 v60 h-60 '
+                           'z M40,40 h20 v20 h-20 z"/>')
+        self.assertEqual(sorted(len(rings) for rings in scene.solids), [1, 2])
 
-    def test_liquid_with_hole_has_no_overlap(self):
+    def test_liquid_with_a_hole(self):
         scene = self.scene("", liquid='<g id="liquid"><path fill-rule="evenodd" d="M10,10 h80 v80 '
                            'h-80 z M40,20 h20 v10 h-20 z"/></g>')
-        self.assertAlmostEqual(sum(Polygon(r).area for r in scene.liquid), 0.62, places=6)
+        self.assertEqual(len(scene.liquid), 1)
+        self.assertAlmostEqual(polygon_of(scene.liquid[0]).area, 0.62, places=6)
         self.assertEqual(scene.max_particles, 6200)
 
-    def test_output_is_simple_and_counter_clockwise(self):
+    def test_output_is_simple_and_outer_rings_counter_clockwise(self):
         bodies = [self.GRID_OF_HOLES, '<path d="M10,10 L90,90 L90,10 L10,90 Z"/>',
                   '<circle cx="50" cy="50" r="30"/>',
                   '<path d="M10,10 h20 h20 h20 v0 v40 l0,0 h-60 z"/>']
         for body in bodies:
-            for ring in self.scene(body).solids:
+            solids = self.scene(body).solids
+            self.assertTrue(all(polygon_of(rings).is_valid for rings in solids))
+            for number, ring in ((n, r) for rings in solids for n, r in enumerate(rings)):
                 self.assertGreaterEqual(len(ring), 3)
-                self.assertTrue(Polygon(ring).is_valid)
-                self.assertTrue(LinearRing(ring).is_ccw)
+                self.assertEqual(LinearRing(ring).is_ccw, number == 0)
                 for i, b in enumerate(ring):
                     a, c = ring[i - 1], ring[(i + 1) % len(ring)]
                     turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
                     self.assertGreater(math.dist(a, b), 0.001 * CELL)
                     self.assertGreater(abs(turn), 1e-6 * CELL * CELL)
-        self.assertEqual(len(self.scene(bodies[3]).solids[0]), 4)
+        self.assertEqual(len(self.scene(bodies[3]).solids[0][0]), 4)
 
     def test_hairline_spike_is_cut_off_and_gap_closed(self):
         scene = self.scene('<path d="M10,10 h60 v30 l12.3,7.7 l-12.3,-7.699 V40 h-60 z"/>'
                            '<rect x="10" y="40.005" width="60" height="29.995"/>')
         self.assertEqual(len(scene.solids), 1)
-        self.assert_same_area(Polygon(scene.solids[0]), box(0.1, 0.3, 0.7, 0.9), 2e-5)
+        self.assert_same_area(polygon_of(scene.solids[0]), box(0.1, 0.3, 0.7, 0.9), 2e-5)
 
     def test_tidy_ring(self):
         corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)]
         untidy = [(0.0, 0.5)] + corners[:1] + [(1.0, 1e-6)] + corners[1:] + corners[3:]
         self.assertEqual(sorted(tidy_ring(untidy, 1e-3, 1e-4)), sorted(corners))
-        ring = finished_ring(Polygon(untidy[::-1]), 0.1, (1.0, 0.0))
+        ring, = finished_rings(Polygon(untidy[::-1]), 0.1, (1.0, 0.0))
         self.assertEqual(sorted(ring), sorted((x - 1.0, y) for x, y in corners))
 
     def test_overlapping_and_touching_shapes_are_one(self):
@@ -246,11 +247,11 @@ class PolygonTest(SceneTest):
                            '<rect x="30" y="30" width="20" height="20"/>'
                            '<rect x="50" y="40" width="20" height="10"/>')
         self.assertEqual(len(scene.solids), 1)
-        self.assertAlmostEqual(Polygon(scene.solids[0]).area, 0.09, places=6)
+        self.assertAlmostEqual(polygon_of(scene.solids[0]).area, 0.09, places=6)
 
     def test_coordinates_are_single_precision(self):
-        for ring in self.scene('<circle cx="50" cy="50" r="31.4"/>').solids:
-            for value in (v for p in ring for v in p):
+        for rings in self.scene('<circle cx="50" cy="50" r="31.4"/>').solids:
+            for value in (v for ring in rings for p in ring for v in p):
                 self.assertEqual(struct.unpack("f", struct.pack("f", value))[0], value)
 
 
