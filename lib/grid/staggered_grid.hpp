@@ -24,11 +24,36 @@ struct GridShape {
     std::int32_t index(std::int32_t i, std::int32_t j) const { return (j + 1) * stride + i + 1; }
 };
 
-/// Copies some rows of a field, ghost rows counted from the lowest.
+/// Entries of some rows, ghost rows counted from the lowest: in one run, but row by row where the
+/// grid is narrower than its numbering.
+template <class Visit>
+inline void for_each_run(const GridShape& s, const Part& rows, Visit visit) {
+    const std::int32_t width = minimum(s.nx + 2, s.stride);
+    const std::int32_t at_once = width == s.stride ? rows.end - rows.first : 1;
+    if (width > 0 && at_once > 0) {
+        for (std::int32_t row = rows.first; row < rows.end; row += at_once) {
+            const std::int32_t first = row * s.stride;
+            visit(Part{first, first + (at_once - 1) * s.stride + width});
+        }
+    }
+}
+
+/// Copies some rows of a field.
 template <class Field>
 inline void copy_rows(const GridShape& s, const Part& rows, const Field* from, Field* to) {
-    std::memcpy(static_cast<void*>(to + rows.first * s.stride), from + rows.first * s.stride,
-                static_cast<std::size_t>((rows.end - rows.first) * s.stride) * sizeof(Field));
+    for_each_run(s, rows, [&](const Part& part) {
+        std::memcpy(static_cast<void*>(to + part.first), from + part.first,
+                    static_cast<std::size_t>(part.end - part.first) * sizeof(Field));
+    });
+}
+
+/// Empties them.
+template <class Field>
+inline void clear_rows(const GridShape& s, const Part& rows, Field* field) {
+    for_each_run(s, rows, [&](const Part& part) {
+        std::memset(static_cast<void*>(field + part.first), 0,
+                    static_cast<std::size_t>(part.end - part.first) * sizeof(Field));
+    });
 }
 
 /// Level of a cell that no particle reaches (level_of_density(0)), cells.

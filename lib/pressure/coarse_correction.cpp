@@ -20,9 +20,7 @@ Real over_relaxation(std::int32_t rows) {
 
 template <class Real>
 void clear(Real* field, const GridShape& shape) {
-    for (std::int32_t q = 0; q < shape.size(); ++q) {
-        field[q] = Real(0);
-    }
+    clear_rows(shape, {0, shape.ny + 2}, field);
 }
 
 /// What `residual` holds during the set-up: 0 for an empty patch, 1 for a full one, and this.
@@ -351,9 +349,11 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
 template <class Real>
 void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields) {
     CoarseGrid<Real>& coarse = fields.coarse;
-    for (std::int32_t q = 0; q < coarse.shape.size(); ++q) {
-        coarse.correction[q] = factor * coarse.correction[q];
-    }
+    for_each_run(coarse.shape, {0, coarse.shape.ny + 2}, [&](const Part& run) {
+        for (std::int32_t q = run.first; q < run.end; ++q) {
+            coarse.correction[q] = factor * coarse.correction[q];
+        }
+    });
     for_each_patch(shape, coarse.shape, Work(), [&](const Patch& patch) {
         if (coarse.inverse_diagonal[patch.q] != Real(0)) {
             add_correction(shape, patch, fields);

@@ -9,7 +9,7 @@ namespace weir {
 /// The tank in cells four times as large, with its own ring of ghost cells.
 template <class Real>
 struct CoarseGrid {
-    GridShape shape;
+    GridShape shape;  ///< of what the liquid is in, as the fine grid's
     Real* correction = nullptr;
     Real* residual = nullptr;
     Real* inverse_diagonal = nullptr;  ///< 0 where there is no liquid

@@ -53,7 +53,7 @@ inline void blend_packed(const Borders<SmallFixed>& borders, SmallFixed flip_rat
     const GridShape& s = grid.shape;
     VelocityOf<SmallFixed>* sharp_u = fields.divergence;
     VelocityOf<SmallFixed>* sharp_v = fields.inverse_diagonal;
-    const Part copied = work.take(s.ny + 2, s.stride);
+    const Part copied = work.take(s.ny + 2, s.nx + 2);
     copy_rows(s, copied, grid.mass_u, sharp_u);
     copy_rows(s, copied, grid.mass_v, sharp_v);
     const Part rows = work.take(s.ny, s.nx);
@@ -65,14 +65,15 @@ inline void blend_packed(const Borders<SmallFixed>& borders, SmallFixed flip_rat
         extend_velocity(borders, s, sharp_u, sharp_v);
     }
     const std::int32_t share = (SmallFixed(1) - flip_ratio).raw >> 2;
-    const Part blended = work.take(s.ny + 2, s.stride);
+    const Part blended = work.take(s.ny + 2, s.nx + 2);
     const auto blend = [&](const VelocityOf<SmallFixed>* now, const VelocityOf<SmallFixed>* sharp,
                            VelocityOf<SmallFixed>* change) {
-        const std::int32_t end = blended.end * s.stride;
-        for (std::int32_t face = blended.first * s.stride; face < end; ++face) {
-            change[face].raw = short_of(now[face].raw - change[face].raw +
-                                        rounded_shift(share * sharp[face].raw, 14));
-        }
+        for_each_run(s, blended, [&](const Part& run) {
+            for (std::int32_t face = run.first; face < run.end; ++face) {
+                change[face].raw = short_of(now[face].raw - change[face].raw +
+                                            rounded_shift(share * sharp[face].raw, 14));
+            }
+        });
     };
     blend(grid.u, sharp_u, grid.mass_u);
     blend(grid.v, sharp_v, grid.mass_v);

@@ -112,7 +112,7 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
-    const Part copied = work.take(s.ny + 2, s.stride);
+    const Part copied = work.take(s.ny + 2, s.nx + 2);
     copy_rows(s, copied, grid.mass_u, sharp_u);
     copy_rows(s, copied, grid.mass_v, sharp_v);
     const Part rows = work.take(s.ny, s.nx);
@@ -124,18 +124,17 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
         extend_velocity(borders, s, sharp_u, sharp_v);
     }
     const Real pic_ratio = Real(1) - flip_ratio;
-    const Part blended = work.take(s.ny + 2, s.stride);
-    const std::int32_t end = blended.end * s.stride;
-    std::int32_t face = blended.first * s.stride;
-    if constexpr (kHasLanes<Real>) {
-        const std::int32_t first = face;
-        face = blend_lanes(grid.u, sharp_u, pic_ratio, first, end, grid.mass_u);
-        blend_lanes(grid.v, sharp_v, pic_ratio, first, end, grid.mass_v);
-    }
-    for (; face < end; ++face) {
-        grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
-        grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
-    }
+    for_each_run(s, work.take(s.ny + 2, s.nx + 2), [&](const Part& blended) {
+        std::int32_t face = blended.first;
+        if constexpr (kHasLanes<Real>) {
+            face = blend_lanes(grid.u, sharp_u, pic_ratio, face, blended.end, grid.mass_u);
+            blend_lanes(grid.v, sharp_v, pic_ratio, blended.first, blended.end, grid.mass_v);
+        }
+        for (; face < blended.end; ++face) {
+            grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
+            grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
+        }
+    });
 }
 
 namespace {

@@ -18,10 +18,12 @@ Real momentum_at(const Real* momentum, std::int32_t face) {
     return value;
 }
 
-/// Faces of some rows, the last one of the grid's at most.
-inline Part faces_of(const GridShape& s, const Part& rows) {
-    return {maximum(s.index(-1, rows.first), s.index(0, 0)),
-            minimum(s.index(-1, rows.end), s.index(s.nx, s.ny) + 1)};
+/// Faces of some rows, from the first one of the tank on.
+template <class Visit>
+inline void for_each_run_of_faces(const GridShape& s, const Part& rows, Visit visit) {
+    for_each_run(s, {rows.first + 1, rows.end + 1}, [&](const Part& run) {
+        visit(Part{maximum(run.first, s.index(0, 0)), run.end});
+    });
 }
 
 /// Ascending, so that a velocity may stand where the momenta of faces before it stood.
@@ -171,20 +173,21 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
                  const LevelOf<Real>* level, StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
     // One component after the other: packed velocities take the place of momenta.
-    const Part on_u = faces_of(s, work.take(s.ny + 1, s.stride));
-    const Part on_v = faces_of(s, work.take(s.ny + 1, s.stride));
-    if constexpr (Stored<Real>::coarse) {
-        update_packed(grid.momentum_u(), grid.mass_u, on_u, gravity.x * dt_s, grid.u);
-        update_packed(grid.momentum_v(), grid.mass_v, on_v, gravity.y * dt_s, grid.v);
-    } else if (grid.inverse_density_u != nullptr) {
-        update_mixed(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, on_u,
-                     gravity.x * dt_s, grid.u);
-        update_mixed(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, on_v,
-                     gravity.y * dt_s, grid.v);
-    } else {
-        update(grid.momentum_u(), grid.mass_u, on_u, gravity.x * dt_s, grid.u);
-        update(grid.momentum_v(), grid.mass_v, on_v, gravity.y * dt_s, grid.v);
-    }
+    const auto component = [&](const Real* momentum, VelocityOf<Real>* mass,
+                          VelocityOf<Real>* inverse_density, Real gained,
+                          VelocityOf<Real>* velocity) {
+        for_each_run_of_faces(s, work.take(s.ny + 1, s.nx + 2), [&](const Part& faces) {
+            if constexpr (Stored<Real>::coarse) {
+                update_packed(momentum, mass, faces, gained, velocity);
+            } else if (inverse_density != nullptr) {
+                update_mixed(momentum, mass, inverse_density, faces, gained, velocity);
+            } else {
+                update(momentum, mass, faces, gained, velocity);
+            }
+        });
+    };
+    component(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, gravity.x * dt_s, grid.u);
+    component(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, gravity.y * dt_s, grid.v);
     if (work.once(s.border())) {
         close_walls(borders, level, grid);
     }

@@ -202,7 +202,7 @@ template <class Real>
 void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
                      StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const Part copied = work.take(s.ny + 2, s.stride);
+    const Part copied = work.take(s.ny + 2, s.nx + 2);
     copy_rows(s, copied, grid.mass_u, fields.divergence);
     copy_rows(s, copied, grid.mass_v, fields.inverse_diagonal);
     if (work.once(s.size())) {

@@ -1,7 +1,5 @@
 #include "step/particle_to_grid.hpp"
 
-#include <cstring>
-
 #include "step/thin_transfer.hpp"
 #include "step/transfer_lanes.hpp"
 #include "step/transfer_packed.hpp"
@@ -9,13 +7,6 @@
 namespace weir {
 
 namespace {
-
-/// Rows, ghost rows included, from the lowest.
-template <class Field>
-void clear(Field* field, const GridShape& shape, const Part& rows) {
-    std::memset(static_cast<void*>(field + rows.first * shape.stride), 0,
-                static_cast<std::size_t>((rows.end - rows.first) * shape.stride) * sizeof(Field));
-}
 
 template <class Mass, class Real>
 inline void scatter(Mass* mass, Real* momentum, std::int32_t stride, const Stencil<Real>& at,
@@ -58,13 +49,13 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
                          Real second_density, StaggeredGrid<Real>& grid,
                          const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
-    const Part rows = work.take(shape.ny + 2, shape.stride);
-    clear(grid.momentum_u(), shape, rows);
-    clear(grid.momentum_v(), shape, rows);
-    clear(grid.mass_u, shape, rows);
-    clear(grid.mass_v, shape, rows);
-    clear(grid.inverse_density_u, shape, rows);
-    clear(grid.inverse_density_v, shape, rows);
+    const Part rows = work.take(shape.ny + 2, shape.nx + 2);
+    clear_rows(shape, rows, grid.momentum_u());
+    clear_rows(shape, rows, grid.momentum_v());
+    clear_rows(shape, rows, grid.mass_u);
+    clear_rows(shape, rows, grid.mass_v);
+    clear_rows(shape, rows, grid.inverse_density_u);
+    clear_rows(shape, rows, grid.inverse_density_v);
     const Part part = work.take(particles.count, 1);
     if (thin != nullptr) {
         scatter_past_walls(particles.part(part.first, part.end - part.first), *thin,
@@ -92,11 +83,11 @@ template <class Real>
 void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid,
                         const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
-    const Part rows = work.take(shape.ny + 2, shape.stride);
-    clear(grid.momentum_u(), shape, rows);
-    clear(grid.momentum_v(), shape, rows);
-    clear(grid.mass_u, shape, rows);
-    clear(grid.mass_v, shape, rows);
+    const Part rows = work.take(shape.ny + 2, shape.nx + 2);
+    clear_rows(shape, rows, grid.momentum_u());
+    clear_rows(shape, rows, grid.momentum_v());
+    clear_rows(shape, rows, grid.mass_u);
+    clear_rows(shape, rows, grid.mass_v);
     const Part part = work.take(particles.count, 1);
     if (thin != nullptr) {
         scatter_past_walls(particles.part(part.first, part.end - part.first), *thin, Real(1),

@@ -154,8 +154,10 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
     simulation.furthest = furthest_of(particles.part(part.first, part.end - part.first),
                                       simulation.furthest);
     if (work.once(1)) {
-        simulation.grid.shape =
-            occupied_part<Real>(tank, simulation.settings.borders, simulation.furthest);
+        GridShape& now = simulation.grid.shape;
+        now = occupied_part<Real>(tank, simulation.settings.borders, simulation.furthest);
+        GridShape& coarse = simulation.pressure.coarse.shape;
+        coarse = {coarse_cells(now.nx), coarse_cells(now.ny), coarse.stride};
     }
     empty_beyond(tank, simulation.occupied, simulation.grid.shape, simulation.pressure, work);
     if (work.once(1)) {

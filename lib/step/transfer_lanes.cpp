@@ -34,10 +34,10 @@ inline void add(float* to, Lanes what) {
     store_lanes(to, load_lanes(to) + what);
 }
 
-/// Entries of some rows, ghost rows included.
-Part take_rows(Work work, const GridShape& s) {
-    const Part rows = work.take(s.ny + 2, s.stride);
-    return {rows.first * s.stride, rows.end * s.stride};
+/// Runs over all rows, ghost rows included, as the work allows.
+template <class Visit>
+void take_rows(Work work, const GridShape& s, Visit visit) {
+    for_each_run(s, work.take(s.ny + 2, s.nx + 2), visit);
 }
 
 /// Numbers of two fields side by side → the two fields.
@@ -101,11 +101,11 @@ void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& g
     const GridShape& s = grid.shape;
     float* pairs_u = grid.v;
     float* pairs_v = grid.pairs;
-    const Part cleared = take_rows(work, s);
-    const std::size_t bytes =
-        2 * static_cast<std::size_t>(cleared.end - cleared.first) * sizeof(float);
-    std::memset(pairs_u + 2 * cleared.first, 0, bytes);
-    std::memset(pairs_v + 2 * cleared.first, 0, bytes);
+    take_rows(work, s, [&](const Part& run) {
+        const std::size_t bytes = 2 * static_cast<std::size_t>(run.end - run.first) * sizeof(float);
+        std::memset(pairs_u + 2 * run.first, 0, bytes);
+        std::memset(pairs_v + 2 * run.first, 0, bytes);
+    });
     const std::int32_t stride = s.stride;
     const Part part = work.take(particles.count, 1);
     const Vec2<float>* position = particles.position;
@@ -130,13 +130,14 @@ void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& g
         add(w, shuffle<2, 3, 6, 7>(left_lower, right_lower));
         add(w + 2 * stride, shuffle<2, 3, 6, 7>(left_upper, right_upper));
     }
-    unpack(pairs_u, take_rows(work, s), grid.mass_u, grid.u);
-    unpack(pairs_v, take_rows(work, s), grid.mass_v, grid.v);
+    take_rows(work, s, [&](const Part& run) { unpack(pairs_u, run, grid.mass_u, grid.u); });
+    take_rows(work, s, [&](const Part& run) { unpack(pairs_v, run, grid.mass_v, grid.v); });
 }
 
 void pair_fields(StaggeredGrid<float>& grid, Work work) {
-    pack(grid.u, grid.mass_u, take_rows(work, grid.shape), grid.pairs);
-    pack(grid.v, grid.mass_v, take_rows(work, grid.shape), grid.u);
+    const GridShape& s = grid.shape;
+    take_rows(work, s, [&](const Part& run) { pack(grid.u, grid.mass_u, run, grid.pairs); });
+    take_rows(work, s, [&](const Part& run) { pack(grid.v, grid.mass_v, run, grid.u); });
 }
 
 TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,

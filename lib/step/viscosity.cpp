@@ -17,7 +17,7 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
         extend_velocity(borders, s, grid.u, grid.v);
         mirror_cells(borders, s, fields.density);
     }
-    const Part copied = work.take(s.ny + 2, s.stride);
+    const Part copied = work.take(s.ny + 2, s.nx + 2);
     copy_rows(s, copied, grid.u, fields.divergence);
     copy_rows(s, copied, grid.v, fields.inverse_diagonal);
     const FaceShare<Real> on_u{fields.density, walls.active ? walls.open_u : nullptr, 1};

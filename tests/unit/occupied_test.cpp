@@ -70,6 +70,26 @@ TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
     }
 }
 
+/// Work of a step, in slices of so little that rows count.
+std::int32_t slices_of(World<float>& world) {
+    StepReport report;
+    EXPECT_EQ(world.begin_step(1.0F / 60.0F, &report), Status::ok);
+    std::int32_t slices = 1;
+    while (!world.advance(100)) {
+        ++slices;
+    }
+    return slices;
+}
+
+TEST(OccupiedPart, IsAllThatCostsWork) {
+    CornerPool<float> small(40, 60), large(800, 600);
+    small.world.step(1.0F / 60.0F);  // the first one empties the tank
+    large.world.step(1.0F / 60.0F);
+    for (int k = 0; k < 5; ++k) {
+        EXPECT_EQ(slices_of(small.world), slices_of(large.world));
+    }
+}
+
 TEST(OccupiedPart, EndsBeyondTheFurthestParticleAndNeverCutsASeam) {
     Vec2f position[] = {{1.5F, 2.5F}, {7.5F, 0.5F}, {3.5F, 4.5F}, {0.5F, 0.5F}, {0.5F, 9.25F}};
     Vec2f velocity[5] = {};

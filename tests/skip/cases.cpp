@@ -1,0 +1,153 @@
+#include "cases.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "weir/weir.hpp"
+
+namespace skip {
+
+namespace {
+
+using namespace weir;
+
+constexpr float kCell = 0.02F;
+constexpr float kDt = 1.0F / 120.0F;
+
+void require(Status status) {
+    if (status != Status::ok) {
+        std::fprintf(stderr, "%s\n", status_text(status));
+        std::exit(1);
+    }
+}
+
+/// A world, and what is done beside its steps.
+struct Scene {
+    WorldDef def;
+    Box water{{0.0F, 0.0F}, {48 * kCell, 16 * kCell}};
+    BodyDef body;
+    Vec2f places[3];
+    int bodies = 0;
+    bool moving = false;
+    bool settle = false;  ///< to be at rest before it is measured
+    bool look = false;
+    bool diagnose = false;
+    int steps = 40;
+};
+
+constexpr Vec2f kBar[] = {{-3 * kCell, -kCell}, {3 * kCell, -kCell}, {3 * kCell, kCell},
+                          {-3 * kCell, kCell}};
+
+Scene tank(std::int32_t cells_x, std::int32_t cells_y) {
+    Scene scene;
+    scene.def.cell_m = kCell;
+    scene.def.capacity.cells_x = cells_x;
+    scene.def.capacity.cells_y = cells_y;
+    scene.def.capacity.particles = 4 * 48 * 16;
+    scene.body.polygon = {kBar, 4};
+    return scene;
+}
+
+void add_bodies(Scene& scene, float height_m) {
+    scene.def.capacity.bodies = 3;
+    scene.def.capacity.vertices = 12;
+    while (scene.bodies < 3) {
+        scene.places[scene.bodies] = {0.2F + 0.3F * static_cast<float>(scene.bodies), height_m};
+        ++scene.bodies;
+    }
+}
+
+Scene scene_of(const char* name, Way way) {
+    const auto is = [name](const char* other) { return std::strcmp(name, other) == 0; };
+    Scene scene = tank(48, 48);
+    WorldDef& def = scene.def;
+    if (is("solids") && way != Way::absent) {
+        add_bodies(scene, way == Way::used ? 0.15F : 0.75F);
+    } else if (is("raster") || is("rectangle")) {
+        scene = is("rectangle") && way == Way::skipped ? tank(640, 192) : tank(160, 48);
+        add_bodies(scene, 0.75F);
+        scene.moving = is("rectangle") || way != Way::absent;
+        scene.body.motion.spin_radps = is("rectangle") || way == Way::used ? 2.0F : 0.0F;
+    } else if (is("viscosity") && way == Way::used) {
+        scene.def.viscosity_m2ps = 1.0e-4F;
+    } else if (is("tension") && way == Way::used) {
+        scene.def.surface_tension_m3ps2 = 7.3e-5F;
+    } else if (is("second_liquid") && way == Way::used) {
+        scene.def.capacity.second_liquid = true;
+    } else if (is("domain")) {
+        scene = way == Way::absent ? tank(160, 64) : tank(4096, 4096);
+        if (way == Way::used) {  // in the upper right corner of a tank that is not that large
+            scene = tank(512, 512);
+            scene.water = {{464 * kCell, 496 * kCell}, {512 * kCell, 512 * kCell}};
+            scene.def.gravity_mps2 = {0.0F, 9.81F};
+        }
+    } else if (is("sleep")) {
+        scene.settle = true;
+        def.sleep.speed_mps = way == Way::skipped ? 0.01F : 0.0F;
+    } else if (is("looking")) {
+        scene.look = way != Way::absent;
+        scene.diagnose = way == Way::used;
+    }
+    return scene;
+}
+
+/// Keeps the compiler from leaving out what is looked at.
+double g_seen = 0.0;
+
+void look_at(World<float>& world, bool diagnose) {
+    const auto positions = world.particle_positions();
+    const auto pressure = world.pressure();
+    g_seen += static_cast<double>(positions[positions.size / 2].x + pressure.at(3, 3));
+    if (diagnose) {
+        Diagnostics diagnostics;
+        require(world.diagnose(&diagnostics));
+        g_seen += diagnostics.volume_m2;
+    }
+}
+
+}  // namespace
+
+/// What is counted.
+extern "C" __attribute__((noinline)) void weir_skip_measured(World<float>& world, const Scene& scene,
+                                                             Run& run) {
+    for (int step = 0; step < scene.steps; ++step) {
+        const StepReport report = world.step(kDt);
+        const std::int32_t substeps = report.substeps > 0 ? report.substeps : 1;
+        run.particle_substeps += static_cast<std::int64_t>(report.particles) * substeps;
+        run.nodes += report.nodes_rasterized;
+        if (scene.look) {
+            look_at(world, scene.diagnose);
+        }
+    }
+}
+
+Run run(const Case& which, Way way) {
+    Scene scene = scene_of(which.name, way);
+    const std::size_t bytes = world_bytes<float>(scene.def.capacity);
+    const std::unique_ptr<void, void (*)(void*)> memory(
+        std::aligned_alloc(world_alignment, bytes), std::free);
+    World<float> world;
+    require(world.init(scene.def, memory.get(), bytes));
+    for (int k = 0; k < scene.bodies; ++k) {
+        BodyId id;
+        scene.body.motion.position_m = scene.places[k];
+        require(scene.moving ? world.add_moving_body(scene.body, &id)
+                             : world.add_static_body(scene.body, &id));
+    }
+    require(world.fill(scene.water));
+    for (int step = 0; step < (scene.settle ? 150 : 10); ++step) {
+        world.step(kDt);
+    }
+    Run result;
+    const auto start = std::chrono::steady_clock::now();
+    weir_skip_measured(world, scene, result);
+    result.world_bytes = bytes;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+}  // namespace skip
