@@ -17,7 +17,7 @@ inline constexpr Real kBand = Real(1.5);
 /// Arrays share the grid's numbering. `active` false: no body exists and none of them is read.
 template <class Real>
 struct Walls {
-    bool active = false;
+    bool active = false;  ///< there are bodies; within a substep: and one is near the liquid
     bool moving = false;                ///< a body has a velocity or a spin
     bool binary = false;                ///< Contour::mid_edge
     bool sticking = false;              ///< the liquid is viscous, and a body without slip

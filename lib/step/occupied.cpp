@@ -76,6 +76,24 @@ GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
 }
 
 template <class Real>
+bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies, const Walls<Real>& walls) {
+    if (walls.thin != nullptr || bodies.load != nullptr) {
+        return bodies.used > 0;
+    }
+    // Distances are known a band around a body; cut cells look one node further.
+    const auto reached = [&](const NodeBox& box) {
+        return !box.empty() && box.i0 <= part.nx + 1 && box.j0 <= part.ny + 1;
+    };
+    for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
+        const Body<Real>& body = bodies.body[slot];
+        if (body.kind != BodyKind::free && (reached(body.drawn) || reached(body.left))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <class Real>
 void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape& now,
                   PressureFields<Real>& fields, Work work) {
     // The last part's ghost cells lie within the tank, unless it was all of it.
@@ -93,6 +111,7 @@ void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape&
                                                 Vec2<PositionOf<Real>>);                      \
     template GridShape occupied_part(const GridShape&, const Borders<Real>&,                  \
                                      Vec2<PositionOf<Real>>);                                 \
+    template bool walls_reach(const GridShape&, const BodyTable<Real>&, const Walls<Real>&);  \
     template void empty_beyond(const GridShape&, const GridShape&, const GridShape&,          \
                                PressureFields<Real>&, Work);
 WEIR_INSTANTIATE(float)

@@ -6,6 +6,7 @@
 #include "fluid/particles.hpp"
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
 
 namespace weir {
 
@@ -19,6 +20,11 @@ Vec2<PositionOf<Real>> furthest_of(const Particles<Real>& particles,
 template <class Real>
 GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
                         Vec2<PositionOf<Real>> furthest);
+
+/// Whether a solid has to do with that part: if not, the stages need not know that there are any.
+/// Thin walls, and whoever counts what bodies receive, always have. Cost: a comparison a body.
+template <class Real>
+bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies, const Walls<Real>& walls);
 
 /// Empties the cells that the last substep's part had and this one's has not: pressure, density
 /// and level are what a cell without liquid has.

@@ -158,6 +158,9 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
         now = occupied_part<Real>(tank, simulation.settings.borders, simulation.furthest);
         GridShape& coarse = simulation.pressure.coarse.shape;
         coarse = {coarse_cells(now.nx), coarse_cells(now.ny), coarse.stride};
+        Walls<Real>& walls = simulation.layers.walls;
+        walls.active = walls_reach(now, simulation.bodies, walls);
+        walls.sticking = walls.sticking && walls.active;
     }
     empty_beyond(tank, simulation.occupied, simulation.grid.shape, simulation.pressure, work);
     if (work.once(1)) {
@@ -242,7 +245,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     const Settings<Real>& settings = simulation.settings;
     StageClock clock(simulation.ticks, report);
 
-    if (walls.active) {
+    if (simulation.bodies.used > 0) {
         if (work.once(simulation.bodies.vertices_used + 1)) {
             move_bodies(simulation.bodies, walls, plan.viscosity > Real(0), dt_s);
         }

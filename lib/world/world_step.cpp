@@ -112,6 +112,7 @@ template <class Real>
 void end(detail::WorldState<Real>& state) {
     Simulation<Real>& simulation = state.simulation;
     StepReport& report = *state.report;
+    simulation.layers.walls.active = simulation.bodies.used > 0;
     finish(simulation.contacts);
     report.contacts_missed = simulation.contacts.missed;
     if (report.particles_slowed > 0) {

@@ -81,6 +81,47 @@ std::int32_t slices_of(World<float>& world) {
     return slices;
 }
 
+/// A world that counts forces asks all solids at all times: it has the same bits.
+TYPED_TEST(Occupied, SolidsOutOfReachAreNotAsked) {
+    using Real = TypeParam;
+    WorldDef def = small_def();
+    def.capacity.particles = 400;
+    def.capacity.cells_y = 40;
+    TestWorld<Real> skips(def);
+    def.capacity.two_way = true;
+    TestWorld<Real> asks(def);
+    const Ring bar = rectangle(0.16F, 0.03F);
+    const Ring box = rectangle(0.06F, 0.06F);
+    for (TestWorld<Real>* world : {&skips, &asks}) {
+        BodyId id;
+        BodyDef wheel = body_of(bar, {0.16F, 0.56F});
+        wheel.motion.spin_radps = 5.0F;
+        ASSERT_EQ((*world)->add_moving_body(wheel, &id), Status::ok);
+        BodyDef plunger = body_of(box, {0.06F, 0.70F});
+        plunger.motion.velocity_mps.y = -0.5F;
+        ASSERT_EQ((*world)->add_moving_body(plunger, &id), Status::ok);
+        ASSERT_EQ((*world)->fill({{0.0F, 0.0F}, {0.16F, 0.20F}}), Status::ok);
+    }
+    std::int32_t tested = 0;
+    for (int k = 0; k < 120; ++k) {
+        const Vec2f gravity{0.0F, k >= 60 && k < 80 ? 9.0F : -9.81F};
+        ASSERT_EQ(skips->set_gravity(gravity), Status::ok);
+        ASSERT_EQ(asks->set_gravity(gravity), Status::ok);
+        const StepReport report = skips->step(1.0F / 60.0F);
+        EXPECT_EQ(report.particles_tested, asks->step(1.0F / 60.0F).particles_tested);
+        tested += report.particles_tested;
+        if (k == 20) {
+            EXPECT_EQ(tested, 0) << "nothing is near yet";
+        }
+        const auto a = skips->particle_positions();
+        const auto b = asks->particle_positions();
+        ASSERT_EQ(a.size, b.size);
+        ASSERT_EQ(std::memcmp(a.data, b.data, static_cast<std::size_t>(a.size) * sizeof a[0]), 0)
+            << "step " << k;
+    }
+    EXPECT_GT(tested, 100) << "and then they met";
+}
+
 TEST(OccupiedPart, IsAllThatCostsWork) {
     CornerPool<float> small(40, 60), large(800, 600);
     small.world.step(1.0F / 60.0F);  // the first one empties the tank
