@@ -101,6 +101,35 @@ void Report::order(const std::string& prefix, const Metric& metric, double value
     row(name, value, "1", nullptr);
 }
 
+void Report::convergence(const std::string& prefix, const std::vector<int>& cells,
+                         const std::vector<Metric>& metrics,
+                         const std::vector<std::vector<double>>& worst) {
+    std::vector<Curve> curves;
+    int colour = 0;
+    for (std::size_t m = 0; m < metrics.size(); ++m) {
+        Signal errors;
+        Signal targets;
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            errors.t.push_back(cells[k]);
+            errors.y.push_back(worst[m][k]);
+            if (const double* limit = limit_at(metrics[m], cells[k])) {
+                targets.t.push_back(cells[k]);
+                targets.y.push_back(*limit);
+            }
+        }
+        if (!targets.t.empty()) {
+            const std::string title = std::string(metrics[m].name) + ", " + metrics[m].unit;
+            ++colour;
+            curves.push_back({title, errors, false, colour});
+            curves.push_back({"its targets", targets, true, colour});
+        }
+    }
+    if (!curves.empty() && cells.size() > 1) {
+        plot(prefix + ".convergence", "cells per reference length", "worst of the lattices", curves,
+             "set logscale xy 2\nset format y '%g'\nset key outside bottom center");
+    }
+}
+
 void Report::plot(const std::string& name, const std::string& x_label,
                   const std::string& y_label, const std::vector<Curve>& curves,
                   const std::string& extra) {

@@ -43,6 +43,11 @@ public:
                   const std::vector<double>& per_lattice);
     /// Convergence orders: printed and in the CSV, without a target.
     void order(const std::string& prefix, const Metric& metric, double order);
+    /// Errors that have a target, and the targets, over the cells per reference length.
+    /// `worst[m][k]`: of metric m at resolution k.
+    void convergence(const std::string& prefix, const std::vector<int>& cells,
+                     const std::vector<Metric>& metrics,
+                     const std::vector<std::vector<double>>& worst);
     /// Curves of one picture; written with a gnuplot script and, if gnuplot is there, drawn.
     void plot(const std::string& name, const std::string& x_label, const std::string& y_label,
               const std::vector<Curve>& curves, const std::string& extra = "");

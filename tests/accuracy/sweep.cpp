@@ -55,9 +55,12 @@ std::vector<Outcome> sweep(Report& report, const Effort& effort, const std::stri
     }
     if (plan.cells.size() > 1) {
         const std::vector<double> cells(plan.cells.begin(), plan.cells.end());
+        std::vector<std::vector<double>> errors;
         for (const Metric& metric : metrics) {
-            report.order(prefix, metric, convergence_order(cells, worst[metric.name]));
+            errors.push_back(worst[metric.name]);
+            report.order(prefix, metric, convergence_order(cells, errors.back()));
         }
+        report.convergence(prefix, plan.cells, metrics, errors);
     }
     return last;
 }
