@@ -77,7 +77,7 @@ inline WorldDef small_def() {
 
 /// Whether every particle has finite numbers and lies in the tank.
 template <class Real>
-bool all_inside(const World<Real>& world) {
+testing::AssertionResult all_inside(const World<Real>& world) {
     const auto positions = world.particle_positions();
     const auto velocities = world.particle_velocities();
     for (std::int32_t k = 0; k < positions.size; ++k) {
@@ -85,12 +85,14 @@ bool all_inside(const World<Real>& world) {
         const auto y = static_cast<double>(positions[k].y);
         const auto u = static_cast<double>(velocities[k].x);
         const auto v = static_cast<double>(velocities[k].y);
-        const bool inside = x > 0 && x < world.cells_x() && y > 0 && y < world.cells_y();
+        // 0 is where a periodic tank begins.
+        const bool inside = x >= 0 && x < world.cells_x() && y >= 0 && y < world.cells_y();
         if (!inside || u - u != 0 || v - v != 0) {
-            return false;
+            return testing::AssertionFailure() << "particle " << k << " at (" << x << ", " << y
+                                               << ") with (" << u << ", " << v << ")";
         }
     }
-    return true;
+    return testing::AssertionSuccess();
 }
 
 /// Bilinear value of the signed distance at a point of the tank, cells.
