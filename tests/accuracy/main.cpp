@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dam_break.hpp"
+#include "measure/suite.hpp"
 #include "problems.hpp"
 
 namespace {
@@ -28,15 +29,6 @@ constexpr Problem kProblems[] = {
     {"R11", accuracy::report_rotation},
     {"R14", accuracy::report_volume},
 };
-
-bool chosen(const std::vector<std::string>& names, const char* name) {
-    for (const std::string& wanted : names) {
-        if (wanted == name) {
-            return true;
-        }
-    }
-    return names.empty();
-}
 
 /// `name=value` for the words that change a setting; false for any other word.
 bool take_setting(const std::string& word, accuracy::Effort& effort) {
@@ -83,7 +75,7 @@ int run(const std::string& path, const std::vector<std::string>& names,
         const accuracy::Effort& effort) {
     accuracy::Report report(path);
     for (const Problem& problem : kProblems) {
-        if (!chosen(names, problem.name)) {
+        if (!measure::chosen(names, problem.name)) {
             continue;
         }
         const auto begin = std::chrono::steady_clock::now();

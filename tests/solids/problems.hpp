@@ -2,9 +2,11 @@
 // problems (R1 … R14) where there is one.
 #pragma once
 
-#include "report.hpp"
+#include "measure/report.hpp"
 
 namespace solids {
+
+using measure::Report;
 
 struct Effort {
     bool full = false;  ///< long runs and large counts; else all problems take a few minutes

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "../stability/random.hpp"
+#include "measure/random.hpp"
 #include "problems.hpp"
 #include "weir/weir.hpp"
 
@@ -17,7 +17,7 @@ namespace solids {
 
 namespace {
 
-using stability::Random;
+using measure::Random;
 using weir::Vec2f;
 
 constexpr float kCell = 0.02F;

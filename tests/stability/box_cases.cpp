@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "cases.hpp"
-#include "random.hpp"
+#include "measure/random.hpp"
 
 namespace stability {
+
+using measure::Random;
 
 using weir::Vec2f;
 

@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "cases.hpp"
-#include "random.hpp"
+#include "measure/random.hpp"
 
 namespace stability {
+
+using measure::Random;
 
 using weir::Clamped;
 using weir::StepReport;

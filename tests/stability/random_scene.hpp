@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "random.hpp"
+#include "measure/random.hpp"
 #include "tank.hpp"
 
 namespace stability {
+
+using measure::Random;
 
 struct Polygon {
     Ring ring;

@@ -4,30 +4,12 @@
 
 #include <type_traits>
 
+#include "measure/random.hpp"
 #include "test_world.hpp"
 
 namespace weir {
 
-/// SplitMix64 (Steele, Lea & Flood 2014).
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ULL);
-        z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-        z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-        return z ^ (z >> 31U);
-    }
-    float between(float low, float high) {
-        return low + static_cast<float>(bits() >> 40U) * (1.0F / 16777216.0F) * (high - low);
-    }
-    std::int32_t below(std::int32_t end) {
-        return static_cast<std::int32_t>(bits() % static_cast<std::uint64_t>(end));
-    }
-
-private:
-    std::uint64_t state_;
-};
+using Dice = measure::Random;
 
 inline constexpr std::int32_t kBusyKinds = 9;
 
@@ -112,16 +94,16 @@ void put_body(World<Real>& world, Dice& dice) {
         def.holes = {holes, dice.below(2)};
     }
     def.open = ring.size() == 6 && dice.below(2) == 0;
-    def.surface = {dice.between(0.0F, 1.0F), dice.between(0.0F, 0.5F), dice.below(2) == 0,
-                   dice.between(-0.2F, 0.2F)};
+    def.surface = {dice.uniform(0.0F, 1.0F), dice.uniform(0.0F, 0.5F), dice.below(2) == 0,
+                   dice.uniform(-0.2F, 0.2F)};
     BodyId id;
     Status added = Status::ok;
     if (dice.below(2) == 0) {
         added = world.add_static_body(def, &id);
     } else {
-        def.motion.angle_rad = dice.below(2) == 0 ? 0.0F : dice.between(-3.0F, 3.0F);
-        def.motion.velocity_mps = {dice.between(-0.5F, 0.5F), dice.between(-0.5F, 0.5F)};
-        def.motion.spin_radps = dice.below(2) == 0 ? 0.0F : dice.between(-5.0F, 5.0F);
+        def.motion.angle_rad = dice.below(2) == 0 ? 0.0F : dice.uniform(-3.0F, 3.0F);
+        def.motion.velocity_mps = {dice.uniform(-0.5F, 0.5F), dice.uniform(-0.5F, 0.5F)};
+        def.motion.spin_radps = dice.below(2) == 0 ? 0.0F : dice.uniform(-5.0F, 5.0F);
         added = world.add_moving_body(def, &id);
     }
     EXPECT_TRUE(added == Status::ok || added == Status::no_free_body ||
@@ -134,8 +116,8 @@ template <class Real>
 void move_body(World<Real>& world, Dice& dice, std::int32_t slot) {
     BodyId id;
     Motion motion;
-    const Vec2f way{dice.between(-0.04F, 0.04F), dice.between(-0.04F, 0.04F)};
-    const float spin = dice.between(-5.0F, 5.0F);
+    const Vec2f way{dice.uniform(-0.04F, 0.04F), dice.uniform(-0.04F, 0.04F)};
+    const float spin = dice.uniform(-5.0F, 5.0F);
     if (world.body_in_slot(slot, &id) != Status::ok || world.motion(id, &motion) != Status::ok) {
         return;
     }
@@ -164,11 +146,11 @@ void disturb(World<Real>& world, Dice& dice) {
             }
             break;
         case 4:
-            EXPECT_EQ(world.set_gravity({dice.between(-20, 20), dice.between(-20, 20)}),
+            EXPECT_EQ(world.set_gravity({dice.uniform(-20, 20), dice.uniform(-20, 20)}),
                       Status::ok);
             break;
         case 5: {
-            const Vec2f low{dice.between(0.0F, 0.2F), dice.between(0.0F, 0.2F)};
+            const Vec2f low{dice.uniform(0.0F, 0.2F), dice.uniform(0.0F, 0.2F)};
             const Liquid kind =
                 world.particle_kinds().data != nullptr && dice.below(2) == 0 ? Liquid::second
                                                                              : Liquid::first;
@@ -176,7 +158,7 @@ void disturb(World<Real>& world, Dice& dice) {
             break;
         }
         case 6:
-            static_cast<void>(world.add_particle({dice.between(0.0F, 0.36F), 0.1F}, {1.0F, 0.5F}));
+            static_cast<void>(world.add_particle({dice.uniform(0.0F, 0.36F), 0.1F}, {1.0F, 0.5F}));
             break;
         case 7: static_cast<void>(world.remove_particle(dice.below(400))); break;
         default: break;
@@ -188,7 +170,7 @@ template <class Real>
 void live(World<Real>& world, Dice& dice, std::int32_t steps) {
     for (std::int32_t step = 0; step < steps; ++step) {
         disturb(world, dice);
-        world.step(dice.between(0.002F, 0.03F));
+        world.step(dice.uniform(0.002F, 0.03F));
     }
 }
 

@@ -286,7 +286,7 @@ TEST(Sleep, GravityMayTrembleButNotDrift) {
     Dice dice(7);
     const auto tremble = [&](float tilt) {
         expect_ok(pool->set_gravity(
-            {tilt + dice.between(-0.02F, 0.02F), -kGravity + dice.between(-0.02F, 0.02F)}));
+            {tilt + dice.uniform(-0.02F, 0.02F), -kGravity + dice.uniform(-0.02F, 0.02F)}));
         return pool->step(kDt);
     };
     bool asleep = false;

@@ -45,7 +45,7 @@ std::int64_t expect_same_steps(std::int32_t kind, std::uint64_t seed, std::int32
         Dice again = happens;
         disturb(*whole, happens);
         disturb(*cut, again);
-        const float dt = happens.between(0.0F, 0.03F);
+        const float dt = happens.uniform(0.0F, 0.03F);
         const StepReport expected = whole->step(dt);
         StepReport report;
         EXPECT_EQ(cut->begin_step(dt, &report), Status::ok);

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace stability {
+namespace measure {
 
 /// SplitMix64 (Steele, Lea & Flood 2014).
 class Random {
@@ -21,19 +21,22 @@ public:
         const auto unit = static_cast<float>(bits() >> 40U) * (1.0F / 16777216.0F);
         return low + unit * (high - low);
     }
+    /// 0 … end − 1.
+    std::int32_t below(std::int32_t end) {
+        return static_cast<std::int32_t>(bits() % static_cast<std::uint64_t>(end));
+    }
     /// low … high, both included.
     std::int32_t integer(std::int32_t low, std::int32_t high) {
-        const auto range = static_cast<std::uint64_t>(high - low + 1);
-        return low + static_cast<std::int32_t>(bits() % range);
+        return low + below(high - low + 1);
     }
     bool chance(float probability) { return uniform(0.0F, 1.0F) < probability; }
     template <class T, int Count>
     T one_of(const T (&choices)[Count]) {
-        return choices[integer(0, Count - 1)];
+        return choices[below(Count)];
     }
 
 private:
     std::uint64_t state_;
 };
 
-}  // namespace stability
+}  // namespace measure

@@ -1,13 +1,16 @@
 #include "report.hpp"
 
+#include <filesystem>
 #include <stdexcept>
 
-namespace solids {
+namespace measure {
 
 Report::Report(const std::string& path) : csv_(std::fopen(path.c_str(), "w")) {
     if (csv_ == nullptr) {
         throw std::runtime_error("cannot write " + path);
     }
+    const std::filesystem::path p(path);
+    stem_ = (p.parent_path() / p.stem()).string();
     std::fprintf(csv_, "name,value,unit,target,ok\n");
 }
 
@@ -21,27 +24,38 @@ void Report::heading(const std::string& text) const {
 }
 
 void Report::figure(const std::string& name, double value, const char* unit) {
-    std::printf("  %-56s %12.5g %s\n", name.c_str(), value, unit);
+    std::printf("  %-62s %12.5g %s\n", name.c_str(), value, unit);
     std::fflush(stdout);
     std::fprintf(csv_, "%s,%.7g,%s,,\n", name.c_str(), value, unit);
     std::fflush(csv_);
 }
 
-void Report::line(const std::string& name, double value, const char* unit, const char* sign,
-                  double limit, bool ok) {
-    std::printf("  %-56s %12.5g %-8s %s %-9.5g %s\n", name.c_str(), value, unit, sign, limit,
-                ok ? "yes" : "SHORT");
-    std::fflush(stdout);
+void Report::row(const std::string& name, const char* value) {
+    std::fprintf(csv_, "%s,%s,1,,\n", name.c_str(), value);
+    std::fflush(csv_);
+}
+
+bool Report::row(const std::string& name, double value, const char* unit, const char* sign,
+                 double limit, bool ok) {
     std::fprintf(csv_, "%s,%.7g,%s,%s%.7g,%s\n", name.c_str(), value, unit, sign, limit,
                  ok ? "yes" : "short");
     std::fflush(csv_);
     if (ok) {
         ++met_;
-        return;
+    } else {
+        char text[200];
+        std::snprintf(text, sizeof text, "%-70s %12.6g  %s %g", name.c_str(), value, sign, limit);
+        short_.emplace_back(text);
     }
-    char text[200];
-    std::snprintf(text, sizeof text, "%-56s %12.6g  %s %g", name.c_str(), value, sign, limit);
-    short_.emplace_back(text);
+    return ok;
+}
+
+void Report::line(const std::string& name, double value, const char* unit, const char* sign,
+                  double limit, bool ok) {
+    row(name, value, unit, sign, limit, ok);
+    std::printf("  %-62s %12.5g %-10s %s %-9.5g %s\n", name.c_str(), value, unit, sign, limit,
+                ok ? "yes" : "SHORT");
+    std::fflush(stdout);
 }
 
 // Each comparison is false for a NaN.
@@ -64,4 +78,4 @@ void Report::summary() const {
     }
 }
 
-}  // namespace solids
+}  // namespace measure

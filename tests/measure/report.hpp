@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace solids {
+namespace measure {
 
 class Report {
 public:
@@ -25,16 +25,25 @@ public:
     /// A statement that holds or does not.
     void holds(const std::string& name, bool ok) { equals(name, ok ? 1.0 : 0.0, "1", 1.0); }
 
+    /// Folder of the CSV and its name without ending: what pictures' names start with.
+    const std::string& stem() const { return stem_; }
     bool is_short() const { return !short_.empty(); }
     void summary() const;
+
+protected:
+    /// Of the CSV alone; `value` any text. @return `ok`.
+    void row(const std::string& name, const char* value);
+    bool row(const std::string& name, double value, const char* unit, const char* sign,
+             double limit, bool ok);
 
 private:
     void line(const std::string& name, double value, const char* unit, const char* sign,
               double limit, bool ok);
 
     std::FILE* csv_ = nullptr;
+    std::string stem_;
     int met_ = 0;
     std::vector<std::string> short_;
 };
 
-}  // namespace solids
+}  // namespace measure
