@@ -20,6 +20,7 @@ struct Particles {
         return {position + first, velocity + first, size, size,
                 kind != nullptr ? kind + first : nullptr};
     }
+    const Liquid* kind_at(std::int32_t k) const { return kind != nullptr ? kind + k : nullptr; }
     void add(Vec2<Real> at, Vec2<Real> moving, Liquid of) {
         position[count] = at;
         velocity[count] = moving;

@@ -158,7 +158,7 @@ TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real
         const Vec2<Real> along{
             u.value + half_dt * (u.slope_x * u.value + u.slope_y * w.value),
             w.value + half_dt * (w.slope_x * u.value + w.slope_y * w.value)};
-        advect(size, transfer, along, x, v, result);
+        advect(size, {transfer, particles.kind_at(k)}, along, x, v, result);
         particles.position[k] = x;
         particles.velocity[k] = v;
     }

@@ -4,6 +4,7 @@
 #include "fluid/particles.hpp"
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "solid/body_load.hpp"
 #include "solid/thin_walls.hpp"
 
 namespace weir {
@@ -23,6 +24,8 @@ struct Transfer {
     Real limit;             ///< cells/s; nothing moves faster
     Borders<Real> borders = {};
     Real near = Real(1.0e30);  ///< cells/s: who moves faster along an axis is counted as far
+    Impulse<Real>* tank = nullptr;  ///< takes what hits the tank's walls; null: nobody asks
+    const Face<Real>* particle_mass = nullptr;  ///< then: of either liquid, cells²
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a

@@ -24,7 +24,6 @@ struct Simulation {
     const FreeBodyStages<Real>* free_bodies = nullptr;  ///< null: there was none yet
     Real* body_diagonal = nullptr;                      ///< for them, a cell field
     Contacts<Real> contacts;
-    Vec2<Face<Real>> expected;  ///< momentum at the end of this substep, if there were no tank
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
     Vec2<PositionOf<Real>> furthest;  ///< that any of them is along either axis
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s

@@ -177,6 +177,10 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work, StageCl
     Particles<Real>& particles = simulation.particles;
     Transfer<Real> transfer{dt_s, settings.flip_ratio,
                             minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
+    if (simulation.bodies.load != nullptr) {
+        transfer.tank = &simulation.bodies.load[simulation.bodies.capacity].received;
+        transfer.particle_mass = simulation.layers.walls.particle_mass;
+    }
     prepare_gather(simulation.grid, work);
     if (work.once(1)) {
         simulation.grid.shape = simulation.layers.shape;
@@ -218,8 +222,10 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work, StageCl
         TransferResult<Real> moved = grid_to_particle(simulation.grid, transfer, block);
         note(moved, simulation, report);
         if (walls.thin != nullptr) {
+            Transfer<Real> again = transfer;
+            again.tank = nullptr;  // what hit its walls has been counted
             const TransferResult<Real> beside = gather_past_walls(
-                simulation.grid, transfer, thin, fall, before, velocity, block);
+                simulation.grid, again, thin, fall, before, velocity, block);
             moved.far += beside.far;
             simulation.max_speed = maximum(simulation.max_speed, beside.max_speed);
         }
@@ -258,8 +264,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     }
     skip_empty(simulation, work);
     const bool two_way = simulation.bodies.load != nullptr;
-    if (two_way && work.once(simulation.particles.count + simulation.bodies.capacity)) {
-        simulation.expected = open_account(simulation, dt_s).expected;
+    if (two_way && work.once(simulation.bodies.capacity)) {
         accelerate_bodies(simulation, dt_s);
     }
     particle_to_grid(simulation.particles, settings.borders, settings.second_density, grid,
@@ -269,8 +274,10 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure, work);
     grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid, work);
     if (plan.viscosity > Real(0)) {
+        Impulse<Real>* tank =
+            two_way ? &simulation.bodies.load[simulation.bodies.capacity].received : nullptr;
         diffuse_velocity(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s, grid,
-                         work);
+                         tank, work);
     }
     clock.charge(Stage::grid_update);
 
@@ -294,9 +301,6 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         clock.charge(Stage::contour);
     }
     gather(simulation, dt_s, work, clock, report);
-    if (two_way && work.once(simulation.particles.count)) {
-        close_account(Account<Real>{simulation.expected}, simulation);
-    }
 }
 
 template void substep(Simulation<float>&, const SubstepPlan<float>&, Work, StepReport&);

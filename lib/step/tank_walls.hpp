@@ -29,17 +29,34 @@ inline Real rubbed(Real along, Real slide, const SurfaceLaw<Real>& wall, Real in
     return along - clamp(along - slide, -most, most);
 }
 
+/// What a particle that hits the tank's walls gives to them.
+template <class Real>
+struct TankBlow {
+    const Transfer<Real>& transfer;
+    const Liquid* kind;  ///< of the particle; null: there is one liquid
+
+    void give(Vec2<Real> before, Vec2<Real> after) const {
+        if (transfer.tank != nullptr) {
+            const bool second = kind != nullptr && *kind == Liquid::second;
+            const Face<Real> mass = transfer.particle_mass[second ? 1 : 0];
+            transfer.tank->linear =
+                transfer.tank->linear + mass * convert<Face<Real>>(before - after);
+        }
+    }
+};
+
 /// One axis at the tank's walls: back to the wall, the velocity towards it given back, and rubbed
 /// along it. `sense`: the axis along which the low wall's conveyor runs; the high one's runs the
-/// other way.
+/// other way. Whether it was hit.
 template <class Real>
-inline void keep_inside(Real& x, Real& v, Real& along, Real size, const SurfaceLaw<Real>& low,
+inline bool keep_inside(Real& x, Real& v, Real& along, Real size, const SurfaceLaw<Real>& low,
                         const SurfaceLaw<Real>& high, Real sense) {
     if (x < kWallGap<Real>) {
         x = kWallGap<Real>;
         if (v < Real(0)) {
             along = low.friction > Real(0) ? rubbed(along, sense * low.conveyor, low, -v) : along;
             v = -low.restitution * v;
+            return true;
         }
     } else if (x > size - kWallGap<Real>) {
         x = size - kWallGap<Real>;
@@ -47,8 +64,10 @@ inline void keep_inside(Real& x, Real& v, Real& along, Real size, const SurfaceL
             along = high.friction > Real(0) ? rubbed(along, -sense * high.conveyor, high, v)
                                             : along;
             v = -high.restitution * v;
+            return true;
         }
     }
+    return false;
 }
 
 /// One axis across a seam. A step is far shorter than the tank, so once is enough; the last line
@@ -65,29 +84,36 @@ inline void wrap_around(Real& x, Real size) {
 
 /// Who has come to the walls of a tank of that size stays in it.
 template <class Real>
-inline void meet_tank(Vec2<Real> size, const Borders<Real>& b, Vec2<Real>& x, Vec2<Real>& v) {
+inline void meet_tank(Vec2<Real> size, const TankBlow<Real>& blow, Vec2<Real>& x, Vec2<Real>& v) {
+    const Borders<Real>& b = blow.transfer.borders;
+    const Vec2<Real> before = v;
+    bool hit = false;
     if (b.wrap_x) {
         wrap_around(x.x, size.x);
     } else {
-        keep_inside(x.x, v.x, v.y, size.x, b.left, b.right, Real(-1));
+        hit = keep_inside(x.x, v.x, v.y, size.x, b.left, b.right, Real(-1));
     }
     if (b.wrap_y) {
         wrap_around(x.y, size.y);
     } else {
-        keep_inside(x.y, v.y, v.x, size.y, b.bottom, b.top, Real(1));
+        hit = keep_inside(x.y, v.y, v.x, size.y, b.bottom, b.top, Real(1)) || hit;
+    }
+    if (hit) {
+        blow.give(before, v);
     }
 }
 
 /// Limits the new velocity v, moves x with the velocity `along` and meets the walls of a tank of
 /// that size.
 template <class Real>
-inline void advect(Vec2<Real> size, const Transfer<Real>& transfer, Vec2<Real> along,
-                   Vec2<Real>& x, Vec2<Real>& v, TransferResult<Real>& result) {
+inline void advect(Vec2<Real> size, const TankBlow<Real>& blow, Vec2<Real> along, Vec2<Real>& x,
+                   Vec2<Real>& v, TransferResult<Real>& result) {
+    const Transfer<Real>& transfer = blow.transfer;
     TransferResult<Real> unused;
     v = limited(v, transfer.limit, result);
     result.far += absolute(along.x) <= transfer.near && absolute(along.y) <= transfer.near ? 0 : 1;
     x = x + transfer.dt_s * limited(along, transfer.limit, unused);
-    meet_tank(size, transfer.borders, x, v);
+    meet_tank(size, blow, x, v);
     result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
 }
 

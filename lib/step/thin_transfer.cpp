@@ -155,7 +155,7 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         const Real half_x = Real(0.5) * (u.slope_x * u.value + u.slope_y * w.value);
         const Real half_y = Real(0.5) * (w.slope_x * u.value + w.slope_y * w.value);
         const Vec2<Real> along{u.value + transfer.dt_s * half_x, w.value + transfer.dt_s * half_y};
-        advect(size, transfer, along, x, v, result);
+        advect(size, {transfer, nullptr}, along, x, v, result);
         block.position[k] = x;
         block.velocity[k] = v;
     }

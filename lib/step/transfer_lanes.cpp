@@ -181,7 +181,7 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
         }
         Vec2<float> to{x[0], x[1]};
         Vec2<float> then{faster[0], faster[1]};
-        advect(size, transfer, {both[0], both[1]}, to, then, result);
+        advect(size, {transfer, particles.kind_at(k)}, {both[0], both[1]}, to, then, result);
         position[k] = to;
         velocity[k] = then;
     }

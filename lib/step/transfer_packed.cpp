@@ -142,7 +142,8 @@ void gather_rare(const GridShape& s, const Transfer<Real>& transfer, Vec2<std::i
                  Real(place.y) + Real::of_raw(4 * clamp(way.y, -kLongest, kLongest))};
     Vec2<Real> v = limited({Real::of_raw(512 * velocity.x), Real::of_raw(512 * velocity.y)},
                            transfer.limit, result);
-    meet_tank({static_cast<Real>(s.nx), static_cast<Real>(s.ny)}, transfer.borders, x, v);
+    meet_tank({static_cast<Real>(s.nx), static_cast<Real>(s.ny)},
+              TankBlow<Real>{transfer, nullptr}, x, v);
     place = {Place(x.x), Place(x.y)};
     speed = {Speed(v.x), Speed(v.y)};
     result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));

@@ -4,44 +4,40 @@ namespace weir {
 
 namespace {
 
+/// Pressure on the tank's walls: of the cells before them, and its way to the wall at rest.
 template <class Real>
-struct LiquidMomentum {
-    Face<Real> mass = Face<Real>(0);  ///< over the first liquid's density, cells²
-    Vec2<Face<Real>> momentum;        ///< cells³/s
-};
-
-/// Sum over all particles, in groups so that rounding stays that of a group.
-template <class Real>
-LiquidMomentum<Real> momentum_of(const Simulation<Real>& simulation) {
-    using Number = Face<Real>;
-    constexpr std::int32_t kGroup = 128;
-    const Particles<Real>& particles = simulation.particles;
+void press_on_tank(const Simulation<Real>& simulation, const PressedCells<Real>& cells,
+                   Impulse<Real>& tank) {
+    const GridShape& s = simulation.layers.shape;
+    const GridShape& here = simulation.grid.shape;  // the part that liquid is in
     const Walls<Real>& walls = simulation.layers.walls;
-    LiquidMomentum<Real> all;
-    for (std::int32_t first = 0; first < particles.count; first += kGroup) {
-        const std::int32_t end = minimum(first + kGroup, particles.count);
-        LiquidMomentum<Real> group;
-        for (std::int32_t k = first; k < end; ++k) {
-            const bool second = particles.kind != nullptr && particles.kind[k] == Liquid::second;
-            const Number mass = walls.particle_mass[second ? 1 : 0];
-            group.mass += mass;
-            group.momentum = group.momentum + mass * convert<Number>(particles.velocity[k]);
+    const Borders<Real>& b = simulation.settings.borders;
+    const auto push = [&](std::int32_t c, std::int32_t face, const ShareOf<Real>* open,
+                          Vec2<Real> outward) {
+        if (cells.level[c] > Real(0)) {
+            const Real way = dot(cells.gravity_dt, outward);
+            const Real more = Real(0.5) * way;
+            const Real share = walls.active ? Real(open[face]) : Real(1);
+            const Vec2<Real> force = (share * (cells.pressure[c] + more)) * outward;
+            tank.linear = tank.linear + convert<Face<Real>>(force);
         }
-        all.mass += group.mass;
-        all.momentum = all.momentum + group.momentum;
-    }
-    return all;
-}
-
-template <class Real>
-Vec2<Face<Real>> received_by_bodies(const BodyTable<Real>& table) {
-    Vec2<Face<Real>> sum;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        if (table.body[slot].kind != BodyKind::free) {
-            sum = sum + table.load[slot].received.linear;
+    };
+    for (std::int32_t j = 0; j < here.ny && !b.wrap_x; ++j) {
+        const std::int32_t left = s.index(0, j);
+        const std::int32_t right = s.index(s.nx - 1, j);
+        push(left, left, walls.open_u, {Real(-1), Real(0)});
+        if (here.nx == s.nx) {
+            push(right, right + 1, walls.open_u, {Real(1), Real(0)});
         }
     }
-    return sum;
+    for (std::int32_t i = 0; i < here.nx && !b.wrap_y; ++i) {
+        const std::int32_t bottom = s.index(i, 0);
+        const std::int32_t top = s.index(i, s.ny - 1);
+        push(bottom, bottom, walls.open_v, {Real(0), Real(-1)});
+        if (here.ny == s.ny) {
+            push(top, top + s.stride, walls.open_v, {Real(0), Real(1)});
+        }
+    }
 }
 
 template <class Real>
@@ -80,8 +76,9 @@ CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Rea
 
 template <class Real>
 void press_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report) {
-    press_on_bodies(simulation.grid.shape, simulation.layers.walls, simulation.bodies,
-                    pressed_cells(simulation, dt_s));
+    const PressedCells<Real> cells = pressed_cells(simulation, dt_s);
+    press_on_tank(simulation, cells, simulation.bodies.load[simulation.bodies.capacity].received);
+    press_on_bodies(simulation.grid.shape, simulation.layers.walls, simulation.bodies, cells);
     if (simulation.free_bodies != nullptr) {
         report.bodies_slowed += simulation.free_bodies->finish(simulation.bodies, dt_s);
     }
@@ -97,29 +94,11 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
     locate_bodies(simulation.bodies);
 }
 
-template <class Real>
-Account<Real> open_account(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
-    const LiquidMomentum<Real> liquid = momentum_of(simulation);
-    const Vec2<Face<Real>> fall =
-        static_cast<Face<Real>>(dt_s) * convert<Face<Real>>(simulation.settings.gravity);
-    return {(liquid.momentum + liquid.mass * fall) + received_by_bodies(simulation.bodies)};
-}
-
-template <class Real>
-void close_account(const Account<Real>& account, Simulation<Real>& simulation) {
-    BodyTable<Real>& table = simulation.bodies;
-    Impulse<Real>& tank = table.load[table.capacity].received;
-    const Vec2<Face<Real>> now = momentum_of(simulation).momentum + received_by_bodies(table);
-    tank.linear = tank.linear + (account.expected - now);
-}
-
 #define WEIR_INSTANTIATE(Real)                                                                \
     template void accelerate_bodies(Simulation<Real>&, Seconds<Real>);                        \
     template CoupledSolve<Real> coupled_solve(const Simulation<Real>&, Seconds<Real>);        \
     template void press_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);                \
-    template void move_free_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);            \
-    template Account<Real> open_account(const Simulation<Real>&, Seconds<Real>);              \
-    template void close_account(const Account<Real>&, Simulation<Real>&);
+    template void move_free_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -5,10 +5,39 @@
 
 namespace weir {
 
+namespace {
+
+/// What faces before walls without slip were pulled by their images beyond, the walls were pulled
+/// back. Slippery walls' images do not pull.
+template <class Real>
+void drag_on_tank(const Borders<Real>& b, const GridShape& s, const FaceShare<Real>& on_u,
+                  const FaceShare<Real>& on_v, Real amount, const PressureFields<Real>& before,
+                  Impulse<Real>& tank) {
+    const auto pull = [&](const FaceShare<Real>& share, const VelocityOf<Real>* field,
+                          std::int32_t face, std::int32_t image) {
+        const Real lost = Real(field[face]) - Real(field[image]);
+        return static_cast<Face<Real>>(amount * (share.at(face) * lost));
+    };
+    for (std::int32_t i = 0; i < s.nx && !b.wrap_y; ++i) {
+        const std::int32_t low = s.index(i, 0);
+        const std::int32_t high = s.index(i, s.ny - 1);
+        tank.linear.x += pull(on_u, before.divergence, low, low - s.stride) +
+                         pull(on_u, before.divergence, high, high + s.stride);
+    }
+    for (std::int32_t j = 0; j < s.ny && !b.wrap_x; ++j) {
+        const std::int32_t left = s.index(0, j);
+        const std::int32_t right = s.index(s.nx - 1, j);
+        tank.linear.y += pull(on_v, before.inverse_diagonal, left, left - 1) +
+                         pull(on_v, before.inverse_diagonal, right, right + 1);
+    }
+}
+
+}  // namespace
+
 template <class Real>
 void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
                       PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
-                      Work work) {
+                      Impulse<Real>* tank, Work work) {
     const GridShape& s = grid.shape;
     if (walls.sticking) {
         centre_at_walls(walls, fields, grid, work);
@@ -28,6 +57,9 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
     if (walls.sticking && work.once(s.size())) {
         diffuse_to_walls(walls, fields, amount, grid);
     }
+    if (tank != nullptr && work.once(2 * s.border())) {
+        drag_on_tank(borders, s, on_u, on_v, amount, fields, *tank);
+    }
     if (work.once(s.border())) {
         extend_velocity(borders, s, grid.u, grid.v);
     }
@@ -35,7 +67,8 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
 
 #define WEIR_INSTANTIATE(Real)                                                             \
     template void diffuse_velocity(const Borders<Real>&, const Walls<Real>&,               \
-                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&, Work);
+                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&,     \
+                                   Impulse<Real>*, Work);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -11,11 +11,12 @@ namespace weir {
 /// liquid, or closed by a solid, exerts no stress, one that is less than half full or open in part
 /// as much as it holds: momentum is kept and kinetic energy falls, in spray and in gaps, too.
 /// Stable while ν dt ≤ ¼ cell², which the plan of substeps keeps. `amount` = ν dt, cells².
+/// What walls of the tank without slip pull, `tank` receives; null: nobody wants to know.
 /// The fields' divergence and inverse diagonal are used as scratch, ghosts of the density mirrored.
 /// Order: none (reads only the velocities before). Cost: about 30 operations a face.
 template <class Real>
 void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
                       PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
-                      Work work = {});
+                      Impulse<Real>* tank = nullptr, Work work = {});
 
 }  // namespace weir

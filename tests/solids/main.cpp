@@ -24,6 +24,7 @@ constexpr measure::Problem<solids::Report, solids::Effort> kProblems[] = {
     {"R12", "a floating box: draft, and heave", solids::floating_box},
     {"R13a", "a jet on a plate: force", solids::jet_on_plate},
     {"piston", "a body that compresses a full tank", solids::piston},
+    {"third_law", "what bodies and tank receive is what the liquid loses", solids::third_law},
     // Still water.
     {"R4c", "still water between inclined walls", solids::still_water},
     {"R6b", "sloshing between inclined walls", solids::sloshing},

@@ -29,6 +29,7 @@ void couette(Report& report, const Effort& effort);       // R10
 void floating_box(Report& report, const Effort& effort);  // R12
 void jet_on_plate(Report& report, const Effort& effort);  // R13a
 void piston(Report& report, const Effort& effort);
+void third_law(Report& report, const Effort& effort);
 
 // Still water.
 void still_water(Report& report, const Effort& effort);  // R4c

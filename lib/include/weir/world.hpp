@@ -57,8 +57,10 @@ public:
 
     /// What the liquid did to a body in the last step. Wants `capacity.two_way`.
     Status force(BodyId id, BodyForce* force) const;
-    /// And to the tank: what liquid and bodies together do not account for. The sum over tank and
-    /// bodies is, to rounding, gravity's impulse on the liquid less what its momentum changed by.
+    /// And to the tank: pressure on its walls, particles that hit them, drag of those without slip.
+    /// The sum over tank and bodies is what gravity gave to the liquid less what its momentum
+    /// changed by, but for what the method itself does to momentum: in rms 1e-6 of the liquid's
+    /// weight for a pool at rest, 3e-2 for a dam that breaks over bodies.
     Status tank_force(BodyForce* force) const;
     Status mass(BodyId id, BodyMass* mass) const;
 

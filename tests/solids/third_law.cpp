@@ -1,0 +1,104 @@
+// Newton's third law, checked from outside: what bodies and tank received, each counted where it is
+// exchanged (pressure on their faces, blows of particles, drag), against what the liquid's momentum
+// changed by beyond gravity. The rest is what the method itself does to momentum.
+#include <algorithm>
+#include <cmath>
+
+#include "math/vec2.hpp"
+#include "problems.hpp"
+#include "tank.hpp"
+
+namespace solids {
+
+namespace {
+
+using Vec2d = weir::Vec2<double>;
+
+constexpr int kCells = 32;
+constexpr double kCell = 0.02;
+constexpr float kFrame = 1.0F / 120.0F;
+
+class Scene {
+public:
+    Scene(double column, double depth, bool bodies) : tank_(definition()) {
+        if (bodies) {
+            add(rectangle(0.16, 0.12), 0.46, 0.14, false);
+            add(rectangle(0.1, 0.08), 0.7, 0.35, true);
+            add({{0.0F, 0.0F}, {0.16F, 0.0F}, {0.0F, 0.16F}}, 0.9, 0.0, false);
+        }
+        require(tank_->fill({{0.0F, 0.0F},
+                             {static_cast<float>(column), static_cast<float>(depth)}}));
+        require(tank_->diagnose(&before_));
+    }
+
+    /// Received by all + gained by the liquid − gravity's, over the liquid's weight times the step: 0
+    /// if action is reaction.
+    Vec2d step() {
+        const double dt = static_cast<double>(tank_->step(kFrame).dt_s);
+        weir::Diagnostics after;
+        require(tank_->diagnose(&after));
+        const double weight = 9.81 * dt * after.mass_m2;
+        Vec2d sum = after.momentum_m3ps - before_.momentum_m3ps + Vec2d{0.0, weight};
+        weir::BodyForce force;
+        for (const weir::BodyId id : ids_) {
+            require(tank_->force(id, &force));
+            sum = sum + weir::convert<double>(force.impulse_m3ps);
+        }
+        require(tank_->tank_force(&force));
+        sum = sum + weir::convert<double>(force.impulse_m3ps);
+        before_ = after;
+        return (1.0 / weight) * sum;
+    }
+
+private:
+    static weir::WorldDef definition() {
+        weir::WorldDef def;
+        def.cell_m = static_cast<float>(kCell);
+        def.capacity.cells_x = 2 * kCells;
+        def.capacity.cells_y = kCells;
+        def.capacity.particles = 8 * kCells * kCells;
+        def.capacity.bodies = 3;
+        def.capacity.vertices = 16;
+        def.capacity.two_way = true;
+        return def;
+    }
+
+    void add(const Ring& ring, double x, double y, bool is_free) {
+        weir::BodyDef body = body_of(ring, x, y, 0.2);
+        body.surface.friction = 0.2F;
+        weir::BodyId id;
+        require(is_free ? tank_->add_free_body(body, &id) : tank_->add_static_body(body, &id));
+        ids_.push_back(id);
+    }
+
+    Tank<float> tank_;
+    std::vector<weir::BodyId> ids_;
+    weir::Diagnostics before_;
+};
+
+void balance(Report& report, const std::string& name, Scene scene) {
+    constexpr int kSteps = 600;
+    double square = 0.0;
+    double worst = 0.0;
+    Vec2d rest;
+    for (int k = 0; k < kSteps; ++k) {
+        const Vec2d b = scene.step();
+        square += weir::dot(b, b);
+        worst = std::max(worst, std::sqrt(weir::dot(b, b)));
+        rest = rest + b;
+    }
+    report.at_most(name + ".rest_over_weight_rms", 100.0 * std::sqrt(square / kSteps), "%", 0.001);
+    report.figure(name + ".rest_over_weight_worst_step", 100.0 * worst, "%");
+    report.figure(name + ".rest_over_weight_mean",
+                  100.0 * std::sqrt(weir::dot(rest, rest)) / kSteps, "%");
+}
+
+}  // namespace
+
+void third_law(Report& report, const Effort&) {
+    balance(report, "third_law.pool", Scene(1.28, 0.32, false));
+    balance(report, "third_law.pool_with_bodies", Scene(1.28, 0.32, true));
+    balance(report, "third_law.dam_break_over_bodies", Scene(0.4, 0.5, true));
+}
+
+}  // namespace solids
