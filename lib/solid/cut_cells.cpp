@@ -119,9 +119,19 @@ struct Column {
     std::uint32_t all;
 };
 
-/// What is around a cell: full densities, and whether a wall is near.
+/// Whether the mirror writes the face between two nodes: it is closed and not too deep, or the
+/// liquid may stick near it.
 template <class Real>
-void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real>* area,
+bool is_mirrored(const Walls<Real>& walls, Real open, std::int32_t a, std::int32_t b) {
+    const Real distance = Real(0.5) * (Real(walls.distance[a]) + Real(walls.distance[b]));
+    return open > Real(0) ? distance < kBoundLayer<Real> && sticking_body(walls, a, b) != kNoBody
+                          : !(distance < kDeepestMirror<Real>);
+}
+
+/// What is around a cell: full densities, and whether a face of it is mirrored. Where thin walls
+/// may close faces, all cells near a wall count.
+template <class Real>
+void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real>* area, bool thin,
                  Walls<Real>& walls) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         const std::int32_t below = j > 0 ? -s.stride : 0;
@@ -139,9 +149,12 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
             const Column right = column(i + 1);
             const std::uint32_t any = left.any | middle.any | right.any;
             const bool near = any != kOpen && (left.all & middle.all & right.all) != kSolid;
-            walls.full_density[s.index(i, j)] =
+            const std::int32_t c = s.index(i, j);
+            walls.full_density[c] =
                 near ? full_density<Real>(s, area, i, j) : Real(any == kOpen ? 1 : 0);
-            mark_near(walls, s, i, j, near);
+            mark_near(walls, s, i, j,
+                      near && (thin || is_mirrored<Real>(walls, walls.open_u[c], c, c + s.stride) ||
+                               is_mirrored<Real>(walls, walls.open_v[c], c, c + 1)));
             left = middle;
             middle = right;
         }
@@ -151,21 +164,21 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
 }  // namespace
 
 template <class Real>
-void update_cut_cells(const GridShape& shape, const NodeBox& nodes, VelocityOf<Real>* scratch,
-                      Walls<Real>& walls) {
+void update_cut_cells(const GridShape& shape, const NodeBox& nodes, bool thin,
+                      VelocityOf<Real>* scratch, Walls<Real>& walls) {
     // Changed nodes reach the faces around them, the slivers beside those, and by the density
     // kernel one cell more, for which areas are wanted one further still.
     const NodeBox inner = cells_around(shape, nodes, 1);
     contour_matrix(shape, cells_around(shape, nodes, 0), walls);
     open_areas(shape, cells_around(shape, nodes, 2), walls, scratch);
     close_slivers(shape, inner, scratch, walls);
-    look_around(shape, inner, scratch, walls);
+    look_around(shape, inner, scratch, thin, walls);
 }
 
-template void update_cut_cells(const GridShape&, const NodeBox&, float*, Walls<float>&);
-template void update_cut_cells(const GridShape&, const NodeBox&, double*, Walls<double>&);
-template void update_cut_cells(const GridShape&, const NodeBox&, Fixed*, Walls<Fixed>&);
-template void update_cut_cells(const GridShape&, const NodeBox&, VelocityOf<SmallFixed>*,
+template void update_cut_cells(const GridShape&, const NodeBox&, bool, float*, Walls<float>&);
+template void update_cut_cells(const GridShape&, const NodeBox&, bool, double*, Walls<double>&);
+template void update_cut_cells(const GridShape&, const NodeBox&, bool, Fixed*, Walls<Fixed>&);
+template void update_cut_cells(const GridShape&, const NodeBox&, bool, VelocityOf<SmallFixed>*,
                                Walls<SmallFixed>&);
 
 }  // namespace weir

@@ -90,7 +90,7 @@ void forget_moves(BodyTable<Real>& table) {
 template <class Real>
 void recut(Layers<Real>& layers, const NodeBox& box) {
     Walls<Real>& walls = layers.walls;
-    update_cut_cells(layers.shape, box, layers.scratch, walls);
+    update_cut_cells(layers.shape, box, layers.thin.capacity > 0, layers.scratch, walls);
     if (walls.thin != nullptr) {
         close_thin_faces(layers.shape, box, layers.thin, walls.open_u, walls.open_v,
                          walls.full_density);

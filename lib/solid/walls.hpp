@@ -14,6 +14,16 @@ inline constexpr std::uint16_t kNoBody = 0xFFFF;
 template <class Real>
 inline constexpr Real kBand = Real(1.5);
 
+/// Faces in solids deeper than this are never read, cells: a particle stands in front of the wall,
+/// and its stencil reaches one cell along each axis.
+template <class Real>
+inline constexpr Real kDeepestMirror = Real(-1.5);
+
+/// Where the liquid sticks, faces nearer to the wall than this are interpolated between the wall
+/// and the liquid a cell out: the pressure came after viscosity had bound them to the wall.
+template <class Real>
+inline constexpr Real kBoundLayer = Real(0.5);
+
 /// Arrays share the grid's numbering. `active` false: no body exists and none of them is read.
 template <class Real>
 struct Walls {
@@ -27,7 +37,7 @@ struct Walls {
     ShareOf<Real>* open_u = nullptr;    ///< open fraction of the u face, 0 … 1
     ShareOf<Real>* open_v = nullptr;
     ShareOf<Real>* full_density = nullptr;  ///< density of a cell when all around it is full
-    std::uint32_t* near = nullptr;      ///< a bit a cell: it or one around it is cut by a wall
+    std::uint32_t* near = nullptr;  ///< a bit a cell: its left or lower face is to be mirrored
     const Body<Real>* body = nullptr;
     const ThinWalls<Real>* thin = nullptr;  ///< null: no wall is thinner than a cell
     std::int32_t bodies = 0;            ///< slots
@@ -48,8 +58,8 @@ inline void mark_near(Walls<Real>& walls, const GridShape& shape, std::int32_t i
     word = near ? word | bit : word & ~bit;
 }
 
-/// Calls visit(i, j) for every cell of some rows that is near a wall, row by row. Where there is
-/// none, 32 cells cost one look.
+/// Calls visit(i, j) for every cell of some rows that is marked, row by row. Where there is none,
+/// 32 cells cost one look.
 template <class Real, class Visit>
 inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, const Part& rows,
                           Visit visit) {

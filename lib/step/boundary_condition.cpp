@@ -7,11 +7,6 @@ namespace weir {
 
 namespace {
 
-/// Faces deeper than this are never read: a particle stands in front of the wall, and its stencil
-/// reaches one cell along each axis.
-template <class Real>
-constexpr Real kDeepest = Real(-1.5);
-
 /// The mirror point lies at least this far out, where the stencil holds liquid.
 template <class Real>
 constexpr Real kLeastReach = Real(1);
@@ -72,6 +67,9 @@ template <class Real>
 bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> point) {
     const auto i = static_cast<std::int32_t>(point.x);
     const auto j = static_cast<std::int32_t>(point.y);
+    if (level[s.index(minimum(i, s.nx - 1), minimum(j, s.ny - 1))] > Real(0)) {
+        return true;  // nearly always
+    }
     for (std::int32_t row = maximum(j - 1, 0); row <= minimum(j + 1, s.ny - 1); ++row) {
         for (std::int32_t column = maximum(i - 1, 0); column <= minimum(i + 1, s.nx - 1);
              ++column) {
@@ -144,11 +142,6 @@ struct Field {
     Vec2<Real> (*value)(const Velocity<Real>&, const Mirror<Real>&);
 };
 
-/// Where the liquid sticks, faces nearer to the wall than this are interpolated between the wall
-/// and the liquid a cell out: the pressure came after viscosity had bound them to the wall.
-template <class Real>
-constexpr Real kBoundLayer = Real(0.5);
-
 /// Whether a face takes what is mirrored: it is closed, or bound to the wall. Between two nodes.
 template <class Real>
 bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_t a,
@@ -157,7 +150,7 @@ bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_
         return walls.sticking && distance < kBoundLayer<Real> &&
                sticking_body(walls, a, b) != kNoBody;
     }
-    return !(distance < kDeepest<Real>);
+    return !(distance < kDeepestMirror<Real>);
 }
 
 template <class Real>
