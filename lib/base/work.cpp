@@ -31,6 +31,22 @@ Part Work::take(std::int32_t items, std::int32_t cost) const {
     return progress_ != nullptr ? progress_->next(items, cost) : Part{0, items};
 }
 
+#if WEIR_PARALLEL
+std::int32_t Work::pieces(std::int32_t items, std::int32_t cost, std::int32_t grain) const {
+    // A piece of less work than this is done sooner than it is handed over.
+    constexpr std::int64_t kLeastPiece = 4096;
+    if (progress_ == nullptr || progress_->parallel_for == nullptr) {
+        return 1;
+    }
+    const std::int64_t worth = static_cast<std::int64_t>(items) * cost / kLeastPiece;
+    const std::int64_t grains = items / grain;
+    const std::int64_t most = worth < grains ? worth : grains;
+    return static_cast<std::int32_t>(most < kMostPieces ? most : kMostPieces);
+}
+#else
+std::int32_t Work::pieces(std::int32_t, std::int32_t, std::int32_t) const { return 1; }
+#endif
+
 bool Work::once(std::int32_t cost) const { return !take(1, cost).empty(); }
 
 }  // namespace weir

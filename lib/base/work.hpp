@@ -4,6 +4,17 @@
 
 #include <cstdint>
 
+#include "weir/parallel.hpp"
+
+/// Whether loops can be shared out to threads. Processors that come alone leave the code out.
+#ifndef WEIR_PARALLEL
+#if defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M'
+#define WEIR_PARALLEL 0
+#else
+#define WEIR_PARALLEL 1
+#endif
+#endif
+
 namespace weir {
 
 /// Items first … end − 1 of a loop.
@@ -19,7 +30,7 @@ struct Part {
 class Progress {
 public:
     /// From the top of another walk.
-    void begin() { *this = Progress(); }
+    void begin() { left_ = done_ = position_ = at_ = 0; }
     /// From the top of the same walk, with so much to spend.
     void resume(std::int32_t budget) {
         left_ = budget;
@@ -35,12 +46,19 @@ public:
     /// What turned out to cost more than was said.
     void spend(std::int32_t cost) { left_ -= cost < left_ ? cost : left_; }
 
+#if WEIR_PARALLEL
+    ParallelFor parallel_for = nullptr;  ///< null: nobody shares
+#endif
+
 private:
     std::int32_t left_ = 0;
     std::int32_t done_ = 0;      ///< loops
     std::int32_t position_ = 0;  ///< items of the next one
     std::int32_t at_ = 0;        ///< loops that this walk has come to
 };
+
+/// So many pieces a loop is cut into for threads, at most.
+inline constexpr std::int32_t kMostPieces = WEIR_PARALLEL ? 16 : 1;
 
 /// What a stage is handed. The default does everything at once.
 ///
@@ -53,6 +71,19 @@ public:
 
     Part take(std::int32_t items, std::int32_t cost) const;
     bool once(std::int32_t cost) const;
+
+    /// Does a part that was taken: body(piece of it, its number), in pieces of whole `grain`s of
+    /// items, at the same time where there are threads for it, and in one otherwise. The result
+    /// must not depend on where it is cut.
+    template <class Body>
+    void share(const Part& part, std::int32_t cost, std::int32_t grain, const Body& body) const;
+    /// The same where a piece reads what the pieces beside it write: first every second, then the
+    /// others. A grain is then more items than a piece looks beyond its ends.
+    template <class Body>
+    void share_in_turn(const Part& part, std::int32_t cost, std::int32_t grain,
+                       const Body& body) const;
+    /// Into how many pieces `share` cuts so many items.
+    std::int32_t pieces(std::int32_t items, std::int32_t cost, std::int32_t grain) const;
     void spend(std::int32_t cost) const {
         if (progress_ != nullptr) {
             progress_->spend(cost);
@@ -60,7 +91,74 @@ public:
     }
 
 private:
+    template <class Body>
+    void share_every(std::int32_t step, const Part& part, std::int32_t cost, std::int32_t grain,
+                     const Body& body) const;
+
     Progress* progress_ = nullptr;
 };
+
+#if WEIR_PARALLEL
+/// Piece `k` of so many of a part, in whole grains.
+inline Part piece_of(const Part& part, std::int32_t grain, std::int32_t pieces, std::int32_t k) {
+    const std::int32_t grains = (part.end - part.first + grain - 1) / grain;
+    const auto at = [&](std::int32_t n) {
+        const auto grains_before =
+            static_cast<std::int32_t>(static_cast<std::int64_t>(grains) * n / pieces);
+        const std::int32_t item = part.first + grain * grains_before;
+        return item < part.end ? item : part.end;
+    };
+    return {at(k), at(k + 1)};
+}
+
+/// Every `step`th piece, then the others.
+template <class Body>
+void Work::share_every(std::int32_t step, const Part& part, std::int32_t cost, std::int32_t grain,
+                       const Body& body) const {
+    struct Job {
+        const Body& body;
+        Part part;
+        std::int32_t grain;
+        std::int32_t pieces;
+        std::int32_t first;
+        std::int32_t step;
+    };
+    const std::int32_t count = pieces(part.end - part.first, cost, grain);
+    if (count <= 1) {
+        if (!part.empty()) {
+            body(part, 0);
+        }
+        return;
+    }
+    Job job{body, part, grain, count, 0, step};
+    for (; job.first < step; ++job.first) {
+        progress_->parallel_for(
+            [](void* context, std::int32_t k) {
+                const Job& of = *static_cast<const Job*>(context);
+                const std::int32_t piece = of.first + of.step * k;
+                of.body(piece_of(of.part, of.grain, of.pieces, piece), piece);
+            },
+            &job, (count - job.first + step - 1) / step);
+    }
+}
+template <class Body>
+void Work::share(const Part& part, std::int32_t cost, std::int32_t grain, const Body& body) const {
+    share_every(1, part, cost, grain, body);
+}
+template <class Body>
+void Work::share_in_turn(const Part& part, std::int32_t cost, std::int32_t grain,
+                         const Body& body) const {
+    share_every(2, part, cost, grain, body);
+}
+#else
+template <class Body>
+void Work::share(const Part& part, std::int32_t, std::int32_t, const Body& body) const {
+    body(part, 0);
+}
+template <class Body>
+void Work::share_in_turn(const Part& part, std::int32_t, std::int32_t, const Body& body) const {
+    body(part, 0);
+}
+#endif
 
 }  // namespace weir

@@ -38,6 +38,17 @@ struct Particles {
             kind[index] = kind[count];
         }
     }
+    /// Marks a particle as one to be removed: no tank has such a place. Not for packed places.
+    void mark(std::int32_t index) { position[index].x = PositionOf<Real>(Real(-1)); }
+    /// Removes the marked ones, so many, as if it had been done one by one from the pool's end.
+    void remove_marked(std::int32_t marked) {
+        for (std::int32_t k = count - 1; marked > 0; --k) {
+            if (position[k].x < PositionOf<Real>(Real(0))) {
+                remove(k);
+                --marked;
+            }
+        }
+    }
 };
 
 /// Particles stay this far inside the tank, cells: every stencil then lies within the arrays.

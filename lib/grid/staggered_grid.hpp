@@ -8,6 +8,7 @@
 
 #include <cstring>
 
+#include "base/array_view.hpp"
 #include "base/work.hpp"
 #include "math/vec2.hpp"
 
@@ -77,6 +78,10 @@ struct StaggeredGrid {
     /// Room for two fields, free during both transfers, and a promise that mass_u stands behind u
     /// and mass_v behind v: loops in lanes keep two numbers a face side by side. Null: plain loops.
     Real* pairs = nullptr;
+#if WEIR_PARALLEL
+    /// Room that is free during the scatter, for loops that threads share. Empty: they do not.
+    ArrayView<Real> spans = {};
+#endif
 };
 
 /// The four nodes around a point and its weights: bilinear.

@@ -286,8 +286,9 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
             clear(coarse.reach_v, big);
         }
     }
-    for_each_patch(s, big, work,
-                   [&](const Patch& patch) { find_centre(s, fields, patch, coarse); });
+    share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
+        find_centre(s, fields, patch, coarse);
+    });
     if (work.once(3 * big.border())) {
         extend_cells(weights.borders, big, coarse.residual);
         extend_cells(weights.borders, big, coarse.centre_x);
@@ -339,7 +340,7 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
         join_cells(weights.borders, big, coarse.residual);
     }
     relax(weights.borders, work, coarse);
-    for_each_patch(s, big, work, [&](const Patch& patch) {
+    share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
         if (coarse.inverse_diagonal[patch.q] != Real(0)) {
             add_correction(s, patch, fields);
         }

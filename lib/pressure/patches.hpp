@@ -14,10 +14,9 @@ struct Patch {
     std::int32_t height;
 };
 
-/// By row, from below: as many rows as the work allows.
+/// By row, from below.
 template <class Visit>
-void for_each_patch(const GridShape& s, const GridShape& big, Work work, Visit visit) {
-    const Part rows = work.take(big.ny, kCoarseEdge * s.nx);
+void for_each_patch(const GridShape& s, const GridShape& big, const Part& rows, Visit visit) {
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
         const std::int32_t j = kCoarseEdge * row;
         for (std::int32_t column = 0; column < big.nx; ++column) {
@@ -26,6 +25,22 @@ void for_each_patch(const GridShape& s, const GridShape& big, Work work, Visit v
                         minimum(kCoarseEdge, s.ny - j)});
         }
     }
+}
+
+/// As many rows as the work allows.
+template <class Visit>
+void for_each_patch(const GridShape& s, const GridShape& big, Work work, Visit visit) {
+    for_each_patch(s, big, work.take(big.ny, kCoarseEdge * s.nx), visit);
+}
+
+/// The same where a patch changes nothing that another one reads, by several threads: visit(patch,
+/// number of the piece).
+template <class Visit>
+void share_patches(const GridShape& s, const GridShape& big, Work work, const Visit& visit) {
+    const std::int32_t cost = kCoarseEdge * s.nx;
+    work.share(work.take(big.ny, cost), cost, 1, [&](const Part& rows, std::int32_t piece) {
+        for_each_patch(s, big, rows, [&](const Patch& patch) { visit(patch, piece); });
+    });
 }
 
 }  // namespace weir

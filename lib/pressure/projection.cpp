@@ -36,6 +36,29 @@ Real share_of_start(Product<Real> wanted, Product<Real> there) {
     return eight_times >= there ? share : Real(0);
 }
 
+/// One row's part of pᵀAp, but for the diagonal.
+template <bool Solids, bool Mixed, class Real>
+Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j,
+                      const PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
+    const Real* p = fields.pressure;
+    Solve<Real> row;
+    const std::int32_t end = s.index(s.nx, j);
+    for (std::int32_t c = s.index(0, j); c < end; ++c) {
+        if constexpr (kHasLanes<Real> && !Mixed) {
+            c = weigh_lanes(fields, s.stride, c, end, row.there);
+            if (c == end) {
+                break;
+            }
+        }
+        const Real inverse = fields.inverse_diagonal[c];
+        if (inverse != Real(0)) {
+            row.there = row.there - product(p[c], weights.weighted(p, c, inverse));
+        }
+    }
+    return row;
+}
+
 /// The old pressure is where the solve starts, but not if it is further from the solution than no
 /// pressure at all, as after an impact: few sweeps would leave most of it, and it would push. The
 /// distance is that in kinetic energy, √(eᵀAe), which is shortest at pᵀb/pᵀAp times the old
@@ -49,29 +72,16 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     Real* p = fields.pressure;
     const std::int32_t depth = maximum(0, solve.last_row - solve.first_row + 1);
     const Part weighed = work.take(depth, s.nx);
-    Product<Real> there = solve.there;
-    for (std::int32_t at = weighed.first; at < weighed.end; ++at) {
-        const std::int32_t j = solve.first_row + at;
-        const std::int32_t end = s.index(s.nx, j);
-        if constexpr (Stored<Real>::coarse) {
-            weigh_packed<Solids>(fields, weights.walls, s.stride, s.index(0, j), end, solve);
-            continue;
+    if constexpr (Stored<Real>::coarse) {
+        for (std::int32_t at = weighed.first; at < weighed.end; ++at) {
+            const std::int32_t j = solve.first_row + at;
+            weigh_packed<Solids>(fields, weights.walls, s.stride, s.index(0, j), s.index(s.nx, j),
+                                 solve);
         }
-        for (std::int32_t c = s.index(0, j); c < end; ++c) {
-            if constexpr (kHasLanes<Real> && !Mixed) {
-                c = weigh_lanes(fields, s.stride, c, end, there);
-                if (c == end) {
-                    break;
-                }
-            }
-            const Real inverse = fields.inverse_diagonal[c];
-            if (inverse != Real(0)) {
-                there = there - product(p[c], weights.weighted(p, c, inverse));
-            }
-        }
-    }
-    if constexpr (!Stored<Real>::coarse) {
-        solve.there = there;
+    } else {
+        const Part rows{solve.first_row + weighed.first, solve.first_row + weighed.end};
+        add_rows(work, rows, s, fields,
+                 [&](std::int32_t j) { return weigh_row(weights, j, fields); });
     }
     if (work.once(1)) {
         solve.share = share_of_start<Real>(solve.wanted, solve.there);
@@ -185,6 +195,59 @@ void yield_to_correction(const CoupledSolve<Real>& coupled, PressureFields<Real>
     coupled.stages->set_aside(coupled);
 }
 
+/// Half sweeps 0 … count − 1 over some rows, of which each next one has a row less at every end
+/// that other rows go on from: rows further out are done afterwards. Row j of a half sweep waits
+/// for row j + 1 of the one before, so that all half sweeps follow each other through the rows, and
+/// find them in the cache. The bits are those of one half sweep after the other.
+template <bool Solids, bool Mixed, class Real>
+void relax_fronts(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, bool goes_on_below,
+                  bool goes_on_above, std::int32_t count, PressureFields<Real>& fields) {
+    for (std::int32_t front = rows.low; front < rows.high + count; ++front) {
+        const std::int32_t first = maximum(0, front - rows.high);
+        for (std::int32_t half = first; half < count && front - half >= rows.low; ++half) {
+            const std::int32_t j = front - half;
+            const std::int32_t less = half + 1;
+            if (j >= rows.low + (goes_on_below ? less : 0) &&
+                j <= rows.high - (goes_on_above ? less : 0)) {
+                relax(weights, Rows{j, j}, half & 1, fields);
+            }
+        }
+    }
+}
+
+/// What `relax_fronts` left off on both sides of row `border`.
+template <bool Solids, bool Mixed, class Real>
+void relax_between(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t border,
+                   std::int32_t count, PressureFields<Real>& fields) {
+    for (std::int32_t half = 0; half < count; ++half) {
+        relax(weights, Rows{border - half - 1, border + half}, half & 1, fields);
+    }
+}
+
+/// All half sweeps over all rows that hold liquid, without seams and free bodies.
+template <bool Solids, bool Mixed, class Real>
+void sweep_in_fronts(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t count,
+                     Work work, PressureFields<Real>& fields) {
+    const Part rows{fields.solve.first_row, fields.solve.last_row + 1};
+    const std::int32_t cost = count * (weights.grid.shape.nx + 1) / 2;
+    const std::int32_t grain = 2 * (count + 1);
+    work.share(rows, cost, grain, [&](const Part& some, std::int32_t) {
+        relax_fronts(weights, Rows{some.first, some.end - 1}, some.first > rows.first,
+                     some.end < rows.end, count, fields);
+    });
+#if WEIR_PARALLEL
+    const std::int32_t pieces = work.pieces(rows.end - rows.first, cost, grain);
+    if (pieces > 1) {
+        work.share({1, pieces}, cost * count, 1, [&](const Part& some, std::int32_t) {
+            for (std::int32_t k = some.first; k < some.end; ++k) {
+                const std::int32_t border = piece_of(rows, grain, pieces, k).first;
+                relax_between(weights, border, count, fields);
+            }
+        });
+    }
+#endif
+}
+
 /// Sweep after sweep, one colour and then the other, row by row.
 template <bool Solids, bool Mixed, class Real>
 void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
@@ -193,6 +256,13 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
     const std::int32_t lowest = fields.solve.first_row;
     const std::int32_t depth = maximum(0, fields.solve.last_row - lowest + 1);
     const Part part = work.take(2 * sweeps * depth, (s.nx + 1) / 2);
+    if constexpr (kHasLanes<Real>) {  // those have a cache
+        const bool seams = weights.borders.wrap_x || weights.borders.wrap_y;
+        if (coupled == nullptr && !seams && part.first == 0 && part.end == 2 * sweeps * depth) {
+            sweep_in_fronts(weights, 2 * sweeps, work, fields);
+            return;
+        }
+    }
     for (std::int32_t at = part.first; at < part.end;) {
         const std::int32_t half_sweep = at / depth;
         const std::int32_t begin = half_sweep * depth;
@@ -223,7 +293,8 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
     if constexpr (Stored<Real>::coarse) {
         build_packed<Solids>(weights, built, fields);
     } else {
-        build(weights, built, fields);
+        add_rows(work, built, s, fields,
+                 [&](std::int32_t j) { return build_row(weights, j, fields); });
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.pressure);
@@ -252,7 +323,9 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
             }
         }
     }
-    project(weights, work.take(s.ny, s.nx), fields, grid);
+    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+        project(weights, rows, fields, grid);
+    });
 }
 
 /// What a solve starts from.

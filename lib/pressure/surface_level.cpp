@@ -150,12 +150,16 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
     if constexpr (Stored<Real>::coarse) {
         packed_density(grid, walls, static_cast<std::int32_t>(rest_count), cells, fields);
     } else {
-        density_from_faces(grid, walls, rest_count, cells, fields);
+        work.share(cells, s.nx, 1, [&](const Part& rows, std::int32_t) {
+            density_from_faces(grid, walls, rest_count, rows, fields);
+        });
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.level);
     }
-    fill_dimples(s, borders, walls, work.take(s.ny, s.nx), fields.level);
+    work.share_in_turn(work.take(s.ny, s.nx), s.nx, 2, [&](const Part& rows, std::int32_t) {
+        fill_dimples(s, borders, walls, rows, fields.level);
+    });
     if (work.once(s.border())) {
         mirror_cells(borders, s, fields.level);
     }

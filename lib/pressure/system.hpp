@@ -113,23 +113,62 @@ bool build_alike([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weight
     return false;
 }
 
-template <bool Solids, bool Mixed, class Real>
-void build(const FaceWeights<Solids, Mixed, Real>& weights, const Part& part,
-           PressureFields<Real>& fields) {
-    const GridShape& s = weights.grid.shape;
-    Solve<Real> system = fields.solve;
-    for (std::int32_t j = part.first; j < part.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx;) {
-            const std::int32_t end = kHasLanes<Real> ? minimum(i + 4, s.nx) : s.nx;
-            if (kHasLanes<Real> && i + 4 == end && build_alike(weights, i, j, fields, system)) {
-                i = end;
+/// Whether sums over a row can be kept in a number of the grid until all rows are done.
+template <class Real>
+inline constexpr bool kSharesSums = sizeof(Product<Real>) == sizeof(VelocityOf<Real>) &&
+                                    !Stored<Real>::shares_momentum;
+
+/// Adds up what rows say of the system, in their order: row(j) answers a Solve, whoever computes
+/// it. Until then the sums stand beside their rows, in scratch.
+template <class Real, class Row>
+void add_rows(Work work, const Part& rows, const GridShape& s, PressureFields<Real>& fields,
+              const Row& row) {
+    Solve<Real> total = fields.solve;
+    const auto add = [&](std::int32_t j, Product<Real> wanted, Product<Real> there, bool wet) {
+        total.wanted = total.wanted + wanted;
+        total.there = total.there + there;
+        total.first_row = wet ? minimum(total.first_row, j) : total.first_row;
+        total.last_row = wet ? j : total.last_row;
+    };
+    if constexpr (kSharesSums<Real>) {
+        work.share(rows, s.nx, 1, [&](const Part& some, std::int32_t) {
+            for (std::int32_t j = some.first; j < some.end; ++j) {
+                const Solve<Real> one = row(j);
+                fields.divergence[s.index(-1, j)] = one.wanted;
+                fields.inverse_diagonal[s.index(-1, j)] = one.there;
+                fields.divergence[s.index(s.nx, j)] = Real(one.last_row < 0 ? 0 : 1);
             }
-            for (; i < end; ++i) {
-                build_cell(weights, i, j, fields, system);
-            }
+        });
+        for (std::int32_t j = rows.first; j < rows.end; ++j) {
+            add(j, fields.divergence[s.index(-1, j)], fields.inverse_diagonal[s.index(-1, j)],
+                fields.divergence[s.index(s.nx, j)] != Real(0));
+        }
+    } else {
+        for (std::int32_t j = rows.first; j < rows.end; ++j) {
+            const Solve<Real> one = row(j);
+            add(j, one.wanted, one.there, one.last_row >= 0);
         }
     }
-    fields.solve = system;
+    fields.solve = total;
+}
+
+/// One row of equations: its part of the sums, and whether there is liquid in it (`last_row`).
+template <bool Solids, bool Mixed, class Real>
+Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j,
+                      PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
+    Solve<Real> system;
+    system.rescale = fields.solve.rescale;
+    for (std::int32_t i = 0; i < s.nx;) {
+        const std::int32_t end = kHasLanes<Real> ? minimum(i + 4, s.nx) : s.nx;
+        if (kHasLanes<Real> && i + 4 == end && build_alike(weights, i, j, fields, system)) {
+            i = end;
+        }
+        for (; i < end; ++i) {
+            build_cell(weights, i, j, fields, system);
+        }
+    }
+    return system;
 }
 
 }  // namespace weir

@@ -154,14 +154,9 @@ void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     }
 }
 
-template <bool Solids, class Real>
-void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
-             PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
-             Work work) {
-    const GridShape& s = grid.shape;
-    const GridShape& big = fields.coarse.shape;
-    const Part cells = work.take(s.ny, s.nx);
-    for (std::int32_t j = cells.first; j < cells.end; ++j) {
+template <class Real>
+void find_excess(const GridShape& s, const Part& rows, PressureFields<Real>& fields) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t c = s.index(0, j);
         const std::int32_t end = s.index(s.nx, j);
         if constexpr (kHasLanes<Real>) {
@@ -173,18 +168,32 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
             fields.divergence[c] = excess(s, fields, c);
         }
     }
+}
+
+template <bool Solids, class Real>
+void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
+             PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
+             Work work) {
+    const GridShape& s = grid.shape;
+    const GridShape& big = fields.coarse.shape;
+    work.share(work.take(s.ny, s.nx), s.nx, 1,
+               [&](const Part& rows, std::int32_t) { find_excess(s, rows, fields); });
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
     }
     // Drops under surface tension are small and keep together without.
-    for_each_patch(s, big, work, [&](const Patch& patch) {
+    std::int32_t found[kMostPieces] = {};
+    share_patches(s, big, work, [&](const Patch& patch, std::int32_t piece) {
         fields.coarse.correction[patch.q] =
-            fields.on_surface ? Real(0) : average<Solids>(s, walls, patch, fields, overfull);
+            fields.on_surface ? Real(0) : average<Solids>(s, walls, patch, fields, found[piece]);
     });
+    for (const std::int32_t some : found) {
+        overfull += some;
+    }
     if (work.once(big.border())) {
         mirror_cells(borders, big, fields.coarse.correction);
     }
-    for_each_patch(s, big, work, [&](const Patch& patch) {
+    share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
         drift<Solids>(borders, walls, speed, fields, patch, grid);
     });
 }

@@ -339,7 +339,7 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
         }
         if (!meet(scene, k, before, far, thin)) {
             ++result.removed;
-            particles.remove(k);
+            flight.mark_removed ? particles.mark(k) : particles.remove(k);
         }
     }
 }

@@ -19,6 +19,7 @@ struct Flight {
     const Vec2<PositionOf<Real>>* before = nullptr;
     bool far = false;                    ///< one of them moved further than a cell along an axis
     Seconds<Real> dt_s{};
+    bool mark_removed = false;  ///< who is removed stays, marked, until `Particles::remove_marked`
 };
 
 template <class Real>

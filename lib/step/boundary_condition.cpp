@@ -199,10 +199,12 @@ void mirror_field(const Walls<Real>& walls, const Field<Real>& field, Work work,
                   PressureFields<Real>& fields, VelocityOf<Real>* u, VelocityOf<Real>* v) {
     const GridShape& s = field.velocity.shape;
     // All are computed before the first is written: they read each other.
-    for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
-        const std::int32_t c = s.index(i, j);
-        fields.divergence[c] = i > 0 ? mirror_u(walls, field, i, j) : Real(u[c]);
-        fields.inverse_diagonal[c] = j > 0 ? mirror_v(walls, field, i, j) : Real(v[c]);
+    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+        for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
+            const std::int32_t c = s.index(i, j);
+            fields.divergence[c] = i > 0 ? mirror_u(walls, field, i, j) : Real(u[c]);
+            fields.inverse_diagonal[c] = j > 0 ? mirror_v(walls, field, i, j) : Real(v[c]);
+        });
     });
     for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
         const std::int32_t c = s.index(i, j);

@@ -100,6 +100,21 @@ void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real
     }
 }
 
+/// before = (now − before) + pic_ratio · sharp, for both components.
+template <class Real>
+void blend(const Part& faces, Real pic_ratio, const VelocityOf<Real>* sharp_u,
+           const VelocityOf<Real>* sharp_v, StaggeredGrid<Real>& grid) {
+    std::int32_t face = faces.first;
+    if constexpr (kHasLanes<Real>) {
+        face = blend_lanes(grid.u, sharp_u, pic_ratio, faces.first, faces.end, grid.mass_u);
+        blend_lanes(grid.v, sharp_v, pic_ratio, faces.first, faces.end, grid.mass_v);
+    }
+    for (; face < faces.end; ++face) {
+        grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
+        grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -112,28 +127,23 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
-    const Part copied = work.take(s.ny + 2, s.nx + 2);
-    copy_rows(s, copied, grid.mass_u, sharp_u);
-    copy_rows(s, copied, grid.mass_v, sharp_v);
-    const Part rows = work.take(s.ny, s.nx);
-    sharpen<Real>(thin, s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, rows, grid.mass_u,
-                  sharp_u);
-    sharpen<Real>(thin, s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, rows, grid.mass_v,
-                  sharp_v);
+    work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1, [&](const Part& rows, std::int32_t) {
+        copy_rows(s, rows, grid.mass_u, sharp_u);
+        copy_rows(s, rows, grid.mass_v, sharp_v);
+    });
+    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+        sharpen<Real>(thin, s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, rows, grid.mass_u,
+                      sharp_u);
+        sharpen<Real>(thin, s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, rows,
+                      grid.mass_v, sharp_v);
+    });
     if (work.once(s.border())) {
         extend_velocity(borders, s, sharp_u, sharp_v);
     }
-    const Real pic_ratio = Real(1) - flip_ratio;
-    for_each_run(s, work.take(s.ny + 2, s.nx + 2), [&](const Part& blended) {
-        std::int32_t face = blended.first;
-        if constexpr (kHasLanes<Real>) {
-            face = blend_lanes(grid.u, sharp_u, pic_ratio, face, blended.end, grid.mass_u);
-            blend_lanes(grid.v, sharp_v, pic_ratio, blended.first, blended.end, grid.mass_v);
-        }
-        for (; face < blended.end; ++face) {
-            grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
-            grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
-        }
+    work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1, [&](const Part& rows, std::int32_t) {
+        for_each_run(s, rows, [&](const Part& faces) {
+            blend<Real>(faces, Real(1) - flip_ratio, sharp_u, sharp_v, grid);
+        });
     });
 }
 

@@ -15,6 +15,13 @@ struct TransferResult {
     std::int32_t slowed = 0;    ///< particles limited to `limit`
     std::int32_t far = 0;       ///< particles that moved faster than `near` along an axis
     Real max_speed = Real(0);   ///< along an axis, cells/s
+
+    void add(const TransferResult& other) {
+        reset += other.reset;
+        slowed += other.slowed;
+        far += other.far;
+        max_speed = maximum(max_speed, other.max_speed);
+    }
 };
 
 template <class Real>

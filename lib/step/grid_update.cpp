@@ -176,7 +176,7 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
     const auto component = [&](const Real* momentum, VelocityOf<Real>* mass,
                           VelocityOf<Real>* inverse_density, Real gained,
                           VelocityOf<Real>* velocity) {
-        for_each_run_of_faces(s, work.take(s.ny + 1, s.nx + 2), [&](const Part& faces) {
+        const auto stage = [&](const Part& faces) {
             if constexpr (Stored<Real>::coarse) {
                 update_packed(momentum, mass, faces, gained, velocity);
             } else if (inverse_density != nullptr) {
@@ -184,7 +184,15 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
             } else {
                 update(momentum, mass, faces, gained, velocity);
             }
-        });
+        };
+        const Part rows = work.take(s.ny + 1, s.nx + 2);
+        if constexpr (Stored<Real>::shares_momentum) {
+            for_each_run_of_faces(s, rows, stage);
+        } else {
+            work.share(rows, s.nx + 2, 1, [&](const Part& some, std::int32_t) {
+                for_each_run_of_faces(s, some, stage);
+            });
+        }
     };
     component(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, gravity.x * dt_s, grid.u);
     component(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, gravity.y * dt_s, grid.v);
@@ -204,9 +212,10 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
                             0,      walls.thin};
     const Component<Real> v{grid.v,   grid.inverse_density_v,    open_v,
                             s.stride, 0, borders.wrap_y ? 0 : 1, walls.thin};
-    const Part rows = work.take(s.ny, s.nx);
-    extrapolate_component(u, fields, velocity_itself, s, rows);
-    extrapolate_component(v, fields, velocity_itself, s, rows);
+    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+        extrapolate_component(u, fields, velocity_itself, s, rows);
+        extrapolate_component(v, fields, velocity_itself, s, rows);
+    });
 }
 
 #define WEIR_INSTANTIATE(Real)                                                   \

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <new>
 
+#include "math/lanes.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
 
@@ -136,6 +137,12 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::density, simulation.pressure.density);
     carver.take(Block::level, simulation.pressure.level);
     carve_coarse(carver, capacity, simulation.pressure.coarse);
+#if WEIR_PARALLEL
+    if constexpr (kHasLanes<Real>) {
+        simulation.grid.spans = {simulation.pressure.coarse.correction,
+                                 kCoarseFields * simulation.pressure.coarse.shape.size()};
+    }
+#endif
     carve_solids(carver, capacity, simulation);
     carver.take(Block::contact, simulation.contacts.entry);
     simulation.contacts.capacity = capacity.contacts;
@@ -224,6 +231,9 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     carve(Carver(memory, plan), def.capacity, simulation);
     simulation.settings = settings_of<Real>(def, state_->cells_per_m);
     simulation.ticks = def.ticks;
+#if WEIR_PARALLEL
+    state_->progress.parallel_for = def.parallel_for;
+#endif
     simulation.layers.contour = def.contour;
     simulation.layers.walls.binary = def.contour == Contour::mid_edge;
     name_units(*state_);

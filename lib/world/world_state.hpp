@@ -33,6 +33,8 @@ Status ready(const WorldState<Real>* state) {
 }
 static_assert(sizeof(WorldState<float>) <= kWorldStateBytes<float>, "raise kWorldStateBytes");
 static_assert(sizeof(WorldState<Fixed>) <= kWorldStateBytes<Fixed>, "raise kWorldStateBytes");
+static_assert(sizeof(WorldState<SmallFixed>) <= kWorldStateBytes<SmallFixed>,
+              "raise kWorldStateBytes");
 static_assert(sizeof(WorldState<double>) <= kWorldStateBytes<double>, "raise kWorldStateBytes");
 
 }  // namespace weir::detail

@@ -45,6 +45,11 @@ const char* tick_unit() { return board::kTickUnit; }
 
 void wait_for_tick() {}
 
+void parallel_for(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
+  for (std::int32_t k = 0; k < count; ++k) task(context, k);
+}
+void set_threads(int) {}
+
 std::size_t stack_bytes() { return value_of(port_stack_top) - value_of(port_stack_bottom); }
 
 std::size_t stack_high_water() {

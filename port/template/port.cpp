@@ -25,6 +25,12 @@ const char* tick_unit() { return "none"; }
 // Wait for display sync or a periodic timer (WFI until its flag is set).
 void wait_for_tick() {}
 
+// A second core: hand it the odd numbers.
+void parallel_for(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
+  for (std::int32_t k = 0; k < count; ++k) task(context, k);
+}
+void set_threads(int /*threads*/) {}
+
 // Differences of linker-script symbols; the high water by filling the stack at reset and scanning
 // it.
 std::size_t stack_bytes() { return 0; }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "weir/parallel.hpp"
 #include "weir/types.hpp"
 
 namespace weir {
@@ -160,6 +161,10 @@ struct WorldDef {
     bool periodic_y = false;
 
     TickFunction ticks = nullptr;
+
+    /// Who shares out a step's work to several threads; null: all is done by the caller's. The bits
+    /// are the same for any number of threads, and for none. Worth it from some 10,000 particles.
+    ParallelFor parallel_for = nullptr;
 };
 
 /// Where a body is and how it moves. Set once, it goes on: each step adds velocity and spin.

@@ -94,8 +94,8 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? 800 : 1056) + (std::is_floating_point_v<Real> ? 0 : 16)
-        : 1280;
+        ? (sizeof(void*) == 4 ? 816 : 1104) + (std::is_same_v<Real, Fixed> ? 16 : 0)
+        : 1312;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;

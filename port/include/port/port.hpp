@@ -38,6 +38,13 @@ const char* tick_unit();
 /// runs as fast as it can, which is what the host and the emulated boards do.
 void wait_for_tick();
 
+/// Call task(context, k) for k = 0 … count − 1, on as many processors as set_threads() was last
+/// told, the caller's included, and return when all are done: for weir::WorldDef::parallel_for. One
+/// caller at a time. Calling them one after the other is right where there is one processor.
+void parallel_for(void (*task)(void* context, std::int32_t k), void* context, std::int32_t count);
+/// 1 … 64; 1 at the start. Doing nothing: one.
+void set_threads(int threads);
+
 /// Memory facts, in bytes; 0 means unknown, and reports leave the line out.
 std::size_t stack_bytes();       ///< room set aside for the stack of main()
 std::size_t stack_high_water();  ///< deepest use of that stack since reset

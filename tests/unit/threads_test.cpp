@@ -1,0 +1,115 @@
+// Steps shared out to threads: the bits of one that is not, for any number of threads and any order
+// in which the pieces are done.
+#include <gtest/gtest.h>
+
+#include "busy_world.hpp"
+#include "port/port.hpp"
+
+namespace weir {
+namespace {
+
+std::int32_t g_rounds = 0;
+std::int32_t g_most_pieces = 0;
+
+/// One after the other from the last: what relies on the order of pieces shows without threads.
+void backwards(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
+    ++g_rounds;
+    g_most_pieces = g_most_pieces < count ? count : g_most_pieces;
+    for (std::int32_t k = count - 1; k >= 0; --k) {
+        task(context, k);
+    }
+}
+
+/// A tank large enough to be cut into pieces.
+WorldDef wide_def(std::int32_t kind, ParallelFor parallel_for) {
+    WorldDef def = busy_def(kind);
+    def.capacity.particles = 40000;
+    def.capacity.cells_x = 160;
+    def.capacity.cells_y = 96;
+    def.capacity.contacts = kind == 0 ? 2 : 0;
+    def.capacity.wall_edges *= 4;
+    def.capacity.two_way = kind == 0;
+    def.max_substeps = 4;
+    def.parallel_for = parallel_for;
+    return def;
+}
+
+template <class Real>
+std::vector<std::uint64_t> hashes(std::int32_t kind, ParallelFor parallel_for) {
+    TestWorld<Real> world(wide_def(kind, parallel_for));
+    Dice dice(static_cast<std::uint64_t>(kind));
+    EXPECT_EQ(world->fill({{0.0F, 0.0F}, {1.6F, 1.1F}}), Status::ok);
+    EXPECT_EQ(world->add_particle({0.7F, 1.6F}, {30.0F, -20.0F}), Status::ok);
+    std::vector<std::uint64_t> hashes;
+    for (std::int32_t step = 0; step < 8; ++step) {
+        disturb(*world, dice);
+        disturb(*world, dice);
+        world->step(dice.uniform(0.002F, 0.03F));
+        hashes.push_back(world->state_hash());
+    }
+    return hashes;
+}
+
+class Threads : public testing::TestWithParam<std::int32_t> {};
+
+TEST_P(Threads, AnyOrderOfPiecesHasTheSameBits) {
+    g_rounds = g_most_pieces = 0;
+    EXPECT_EQ(hashes<float>(GetParam(), backwards), hashes<float>(GetParam(), nullptr));
+    EXPECT_GT(g_rounds, 50);
+    EXPECT_GT(g_most_pieces, 3);
+}
+
+TEST_P(Threads, AnyNumberOfThreadsHasTheSameBits) {
+    const std::vector<std::uint64_t> alone = hashes<float>(GetParam(), nullptr);
+    for (const int threads : {1, 2, 3, 8}) {
+        port::set_threads(threads);
+        EXPECT_EQ(hashes<float>(GetParam(), port::parallel_for), alone) << threads << " threads";
+    }
+    port::set_threads(1);
+}
+INSTANTIATE_TEST_SUITE_P(OfBusyWorlds, Threads, testing::Range(0, kBusyKinds));
+
+TEST(Threads, OtherScalarsHaveTheSameBits) {
+    EXPECT_EQ(hashes<double>(0, backwards), hashes<double>(0, nullptr));
+    EXPECT_EQ(hashes<Fixed>(0, backwards), hashes<Fixed>(0, nullptr));
+}
+
+/// What is deeper in a solid than 32 cells has no way out.
+std::uint64_t bury(ParallelFor parallel_for, std::int32_t* removed) {
+    TestWorld<float> world(wide_def(8, parallel_for));
+    EXPECT_EQ(world->fill({{0.0F, 0.0F}, {1.6F, 1.0F}}), Status::ok);
+    const Ring ring = rectangle(1.5F, 1.5F);
+    BodyId id;
+    const BodyDef block = body_of(ring, {0.8F, 1.0F});
+    EXPECT_EQ(world->add_static_body(block, &id), Status::ok);
+    for (std::int32_t step = 0; step < 3; ++step) {
+        *removed += world->step(1.0F / 60.0F).particles_removed_stuck;
+    }
+    return world->state_hash();
+}
+
+TEST(Threads, RemoveParticlesInTheSameOrder) {
+    std::int32_t alone = 0, shared = 0;
+    EXPECT_EQ(bury(backwards, &shared), bury(nullptr, &alone));
+    EXPECT_EQ(shared, alone);
+    EXPECT_GT(alone, 10);
+}
+
+TEST(Threads, StepsCanBeCutIntoSlices) {
+    const auto run = [](ParallelFor parallel_for, std::int32_t slice) {
+        TestWorld<float> world(wide_def(1, parallel_for));
+        EXPECT_EQ(world->fill({{0.0F, 0.0F}, {1.6F, 1.1F}}), Status::ok);
+        StepReport report;
+        EXPECT_EQ(world->begin_step(1.0F / 60.0F, &report), Status::ok);
+        while (!world->advance(slice)) {
+        }
+        return world->state_hash();
+    };
+    const std::uint64_t alone = run(nullptr, 1000000000);
+    for (const std::int32_t slice : {9000, 50000, 1000000000}) {
+        EXPECT_EQ(run(backwards, slice), alone) << slice;
+    }
+}
+
+}  // namespace
+}  // namespace weir
