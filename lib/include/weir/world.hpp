@@ -86,8 +86,8 @@ public:
     Status begin_step(float dt_s, StepReport* report);
     /// Goes on with the step for that much work: a unit is a cell or a particle that one loop
     /// looks at. The slice ends with the first loop item that reaches it: a row of cells, the
-    /// tank's border, a block of 32 particles or all the moving bodies' nodes, whichever comes.
-    /// At least one is done. True: the step is done, or there is none.
+    /// tank's border, a block of 32 particles (128 on a desktop) or all the moving bodies' nodes,
+    /// whichever comes. At least one is done. True: the step is done, or there is none.
     bool advance(std::int32_t work);
 
     /// Where the particles are, in cells: multiply by `cell_m`. Valid until the next call that
