@@ -37,7 +37,9 @@ void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
     const Real level = fields.level[c];
     fields.inverse_diagonal[c] = Real(0);
     if (!(level > Real(0))) {
-        fields.pressure[c] = fields.on_surface ? fields.pressure[c] : Real(0);
+        if (!fields.on_surface) {  // otherwise other rows read it meanwhile
+            fields.pressure[c] = Real(0);
+        }
         return;
     }
     const std::int32_t up = c + s.stride;

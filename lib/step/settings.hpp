@@ -22,6 +22,7 @@ struct Settings {
     std::int32_t max_substeps = 16;
     Pressure pressure = Pressure::projection;
     Contour contour = Contour::interpolated;
+    bool keep_sorted = false;
 };
 
 }  // namespace weir

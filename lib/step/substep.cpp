@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "fluid/row_order.hpp"
 #include "pressure/equation_of_state.hpp"
 #include "pressure/projection.hpp"
 #include "pressure/surface_level.hpp"
@@ -14,6 +15,7 @@
 #include "step/grid_update.hpp"
 #include "step/occupied.hpp"
 #include "step/particle_to_grid.hpp"
+#include "step/stage_clock.hpp"
 #include "step/thin_transfer.hpp"
 #include "step/two_way.hpp"
 #include "step/viscosity.hpp"
@@ -30,26 +32,6 @@ constexpr Real kLongestWay = Real(2);
 /// What a particle's velocity can be kept as, cells/s.
 template <class Real>
 constexpr Real kFastest = Real(Stored<Real>::coarse ? 255.0 : 1.0e30);
-
-/// Adds the ticks since the last call to a stage.
-class StageClock {
-public:
-    StageClock(TickFunction ticks, StepReport& report)
-        : ticks_(ticks), report_(report), last_(ticks != nullptr ? ticks() : 0) {}
-
-    void charge(Stage stage) {
-        if (ticks_ != nullptr) {
-            const std::uint64_t now = ticks_();
-            report_.ticks[static_cast<std::int32_t>(stage)] += now - last_;
-            last_ = now;
-        }
-    }
-
-private:
-    TickFunction ticks_;
-    StepReport& report_;
-    std::uint64_t last_;
-};
 
 /// Moving bodies go where their velocities take them.
 template <class Real>
@@ -170,6 +152,22 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
     empty_beyond(tank, simulation.occupied, simulation.grid.shape, simulation.pressure, work);
     if (work.once(1)) {
         simulation.occupied = simulation.grid.shape;
+    }
+}
+
+/// Particles in the order of the rows that they are in, if the definition asks for it.
+template <class Real>
+void order_particles(Simulation<Real>& simulation, Work work) {
+    constexpr std::int32_t kFields =
+        Stored<Real>::shares_momentum ? kCoarseFieldsPacked : kCoarseFields;
+    if (simulation.settings.keep_sorted && work.once(2 * simulation.particles.count)) {
+        // The coarse grid is not in use before the pressure.
+        const CoarseGrid<Real>& coarse = simulation.pressure.coarse;
+        const std::int32_t rows = coarse_cells(simulation.layers.shape.ny) + 2;
+        keep_row_order(simulation.grid.shape,
+                       {reinterpret_cast<std::int32_t*>(coarse.correction),
+                        kFields * coarse.shape.stride * rows},
+                       simulation.particles);
     }
 }
 
@@ -343,6 +341,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         clock.charge(Stage::contour);
     }
     skip_empty(simulation, work);
+    order_particles(simulation, work);
     const bool two_way = simulation.bodies.load != nullptr;
     if (two_way && work.once(simulation.bodies.capacity)) {
         accelerate_bodies(simulation, dt_s);

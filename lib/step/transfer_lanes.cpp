@@ -210,7 +210,7 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
 /// Row by row instead of particle by particle. False: it was not worth it, nothing was done.
 bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid<float>& grid,
                           Work work, float* pairs_u, float* pairs_v) {
-    constexpr std::int32_t kLeastRows = 8;
+    constexpr std::int32_t kLeastRows = 24;  // two are done by both neighbours
     constexpr std::int32_t kCost = 4;  // units a particle: it takes as long as so many cells
     const GridShape& s = grid.shape;
     const std::int32_t blocks = (particles.count + kTogether - 1) / kTogether;

@@ -33,8 +33,8 @@ inline void add_surface(Hash& hash, const Surface& surface) {
 inline std::uint64_t fingerprint(const WorldDef& def) {
     const auto& [capacity, cell_m, gravity, particles_per_cell, pressure, contour, sweeps, cfl,
                  max_substeps, flip_ratio, volume_gain, sound_speed, viscosity, surface_tension,
-                 second_density, walls, sleep, periodic_x, periodic_y, ticks,
-                 parallel_for] = def;
+                 second_density, walls, sleep, periodic_x, periodic_y,
+                 keep_sorted, ticks, parallel_for] = def;
     const auto& [bottom, right, top, left] = walls;
     const auto& [still_speed, still_after, still_gravity] = sleep;
     Hash hash;
@@ -56,6 +56,7 @@ inline std::uint64_t fingerprint(const WorldDef& def) {
     hash.add(static_cast<std::uint32_t>(contour));
     hash.add(static_cast<std::uint32_t>(periodic_x));
     hash.add(static_cast<std::uint32_t>(periodic_y));
+    hash.add(static_cast<std::uint32_t>(keep_sorted));
     return hash.value();
 }
 

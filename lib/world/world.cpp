@@ -179,6 +179,7 @@ Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
     settings.sweeps = def.pressure_sweeps;
     settings.max_substeps = def.max_substeps;
     settings.pressure = def.pressure;
+    settings.keep_sorted = def.keep_sorted;
     Face<Real> sound_speed = cells_per_m * static_cast<Face<Real>>(def.sound_speed_mps);
     if (def.sound_speed_mps == 0.0F) {
         const Face<Real> drop =

@@ -30,6 +30,7 @@ WorldDef wide_def(std::int32_t kind, ParallelFor parallel_for) {
     def.capacity.wall_edges *= 4;
     def.capacity.two_way = kind == 0;
     def.max_substeps = 4;
+    def.keep_sorted = kind % 2 == 1;
     def.parallel_for = parallel_for;
     return def;
 }

@@ -1,0 +1,98 @@
+#include "fluid/row_order.hpp"
+
+namespace weir {
+
+namespace {
+
+/// So many particles are looked at together.
+constexpr std::int32_t kTogether = 64;
+
+/// One of so many is asked.
+constexpr std::int32_t kSampled = 4;
+
+/// More rows than they have to span.
+constexpr std::int32_t kMixed = 3;
+
+template <class Real>
+std::int32_t row_of(const Particles<Real>& particles, std::int32_t k) {
+    return static_cast<std::int32_t>(Real(particles.position[k].y));
+}
+
+/// Rows that particles together span, beyond one, summed over the pool.
+template <class Real>
+std::int64_t spanned(const Particles<Real>& particles) {
+    std::int64_t rows = 0;
+    for (std::int32_t k = 0; k + kTogether <= particles.count; k += kTogether) {
+        auto low = particles.position[k].y;
+        auto high = low;
+        for (std::int32_t n = k + kSampled; n < k + kTogether; n += kSampled) {
+            low = minimum(low, particles.position[n].y);
+            high = maximum(high, particles.position[n].y);
+        }
+        rows += static_cast<std::int32_t>(Real(high)) - static_cast<std::int32_t>(Real(low));
+    }
+    return rows;
+}
+
+template <class Real>
+void swap_particles(Particles<Real>& particles, std::int32_t a, std::int32_t b) {
+    const auto swap = [&](auto* field) {
+        const auto kept = field[a];
+        field[a] = field[b];
+        field[b] = kept;
+    };
+    swap(particles.position);
+    swap(particles.velocity);
+    if (particles.kind != nullptr) {
+        swap(particles.kind);
+    }
+}
+
+/// Whoever stands in another row's part is swapped there (American flag sort: McIlroy, Bostic &
+/// McIlroy 1993).
+template <class Real>
+void sort_by_row(std::int32_t rows, std::int32_t* next, std::int32_t* end,
+                 Particles<Real>& particles) {
+    for (std::int32_t row = 0; row < rows; ++row) {
+        end[row] = 0;
+    }
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        ++end[row_of(particles, k)];
+    }
+    std::int32_t first = 0;
+    for (std::int32_t row = 0; row < rows; ++row) {
+        next[row] = first;
+        first += end[row];
+        end[row] = first;
+    }
+    for (std::int32_t row = 0; row < rows; ++row) {
+        while (next[row] < end[row]) {
+            const std::int32_t k = next[row];
+            const std::int32_t home = row_of(particles, k);
+            if (home != row) {
+                swap_particles(particles, k, next[home]);
+            }
+            ++next[home];
+        }
+    }
+}
+
+}  // namespace
+
+template <class Real>
+void keep_row_order(const GridShape& shape, ArrayView<std::int32_t> scratch,
+                    Particles<Real>& particles) {
+    const std::int32_t blocks = particles.count / kTogether;
+    const std::int32_t least = shape.ny * kTogether / maximum(particles.count, 1);
+    if (2 * shape.ny <= scratch.size &&
+        spanned(particles) > static_cast<std::int64_t>(kMixed + least) * blocks) {
+        sort_by_row(shape.ny, scratch.data, scratch.data + shape.ny, particles);
+    }
+}
+
+template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<float>&);
+template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<double>&);
+template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<Fixed>&);
+template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<SmallFixed>&);
+
+}  // namespace weir
