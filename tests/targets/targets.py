@@ -1,0 +1,161 @@
+"""What a step costs on each kind of processor, in instructions and bytes.
+
+  targets.py check PROCESSOR BUILD_FOLDER     fails on 2 % more than accepted.txt has
+  targets.py accept PROCESSOR=BUILD_FOLDER... writes accepted.txt
+  targets.py table OUT.csv PROCESSOR=BUILD_FOLDER...   the table of the README, and a csv
+
+Instructions are counted on the emulated board and repeat to the last one; bytes are read off the
+images' maps: what the library puts into them, without port, console and scene.
+"""
+import csv
+import pathlib
+import re
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+ACCEPTED = HERE / "accepted.txt"
+ALLOWED = 1.02
+
+BOARD = {"cortex-m0": "microbit", "cortex-m3": "mps2-an385", "cortex-m4f": "netduinoplus2"}
+SCENES = {"0": "liquid", "1": "solid"}
+TRANSFERS = ("stage_particle_to_grid", "stage_grid_to_particle")
+
+# Cycles for an instruction, on average over the liquid scene: the instructions that were executed,
+# weighed with the processor's manual (loads and stores 2, taken branches and calls 3 on M0 and M3,
+# 2 to 3 on M4; divisions 2 to 12; flash without wait states).
+CYCLES = {"cortex-m0": 1.52, "cortex-m3": 1.59, "cortex-m4f": 1.44}
+
+# Real chips: processor, scalar, MHz, RAM of the class in KB.
+CHIPS = [
+    ("Cortex-M0, 16 KB (nRF51, 16 MHz)", "cortex-m0", "smallfixed", 16, 16),
+    ("Cortex-M0+, 32 KB (48 MHz)", "cortex-m0", "smallfixed", 48, 32),
+    ("Cortex-M3, 8 KB (STM32F100, 24 MHz)", "cortex-m3", "smallfixed", 24, 8),
+    ("Cortex-M3, 64 KB (LM3S6965, 50 MHz)", "cortex-m3", "smallfixed", 50, 64),
+    ("Cortex-M4F, 64 KB (STM32L431, 80 MHz)", "cortex-m4f", "smallfixed", 80, 64),
+    ("Cortex-M4F, 128 KB (STM32F405, 168 MHz), float", "cortex-m4f", "float", 168, 128),
+]
+# Bytes a particle, bytes a cell and for the whole: world, stack, statics.
+BYTES = {"smallfixed": (8, 18), "float": (16, 40)}
+REST = 3400
+
+KNOWN = [
+    ("STM32L431, 80 MHz, 64 KB", "323", "17 × 17", "50"),
+    ("ESP32-S3, 2 cores, 240 MHz", "2,497", "43 × 53", "50"),
+    ("CH32V203, no FPU", "128", "16 × 16", "130 to 180"),
+    ("RP2350", "500", "23 × 23", "not told"),
+    ("Cortex-M0, 4 KB", "60", "not told", "30"),
+]
+
+
+def library_bytes(map_file):
+    """Bytes that objects of libweir.a have in an image, from the linker's map."""
+    text = map_file.read_text(encoding="utf-8", errors="replace")
+    text = text[text.index("Linker script and memory map"):]
+    total = 0
+    rows = re.finditer(r"^ \.(?:text|rodata|data)\S*\s+0x[0-9a-f]+\s+0x([0-9a-f]+) (\S+)$", text,
+                       re.MULTILINE)
+    for row in rows:
+        if "libweir.a(" in row.group(2):
+            total += int(row.group(1), 16)
+    return total
+
+
+def measure(processor, build):
+    """Yields (name, value) of every image of a build."""
+    board = BOARD[processor]
+    folder = pathlib.Path(build) / "tests/targets"
+    for image in sorted(folder.glob(f"target_*.{board}.elf")):
+        _, real, scene = image.name.split(".")[0].split("_")
+        run = subprocess.run([ROOT / "port/cortex_m/run", board, image], text=True, check=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        fact = {words[0]: int(words[1]) for words in map(str.split, run.stdout.splitlines())}
+        name = f"{processor} {real} {SCENES[scene]}"
+        steps = fact["substeps"] * fact["particles"]
+        yield f"{name} instructions", round(fact["instructions"] / steps, 1)
+        yield f"{name} transfers", round(sum(fact[stage] for stage in TRANSFERS) / steps, 1)
+        yield f"{name} code", library_bytes(pathlib.Path(f"{image}.map"))
+        yield f"{name} stack", fact["stack"]
+
+
+def accepted():
+    rows = (line.rsplit(" ", 1) for line in ACCEPTED.read_text(encoding="utf-8").splitlines())
+    return {name: float(value) for name, value in rows}
+
+
+def check(processor, build):
+    known = accepted()
+    found = dict(measure(processor, build))
+    worse = 0
+    for name, value in found.items():
+        limit = ALLOWED * known.get(name, 0)
+        bad = value > limit
+        worse += bad
+        print(f"{'MORE' if bad else 'ok':<5} {name:<44} {value:>9} accepted {known.get(name, 0)}")
+    missing = [name for name in known if name.startswith(f"{processor} ") and name not in found]
+    for name in missing:
+        print(f"GONE  {name}")
+    return 1 if worse or missing or not found else 0
+
+
+def accept(builds):
+    rows = dict(accepted()) if ACCEPTED.exists() else {}
+    for processor, build in builds:
+        rows = {name: value for name, value in rows.items()
+                if not name.startswith(f"{processor} ")}
+        rows.update(measure(processor, build))
+    ACCEPTED.write_text("".join(f"{name} {value:g}\n" for name, value in sorted(rows.items())),
+                        encoding="utf-8")
+    return 0
+
+
+def fitting(kilobytes, real):
+    """Side of a square tank, half full, and its particles, in so much RAM."""
+    particle, cell = BYTES[real]
+    side = 4
+    while (side + 3) ** 2 * cell + 2 * (side + 1) ** 2 * particle + REST <= kilobytes * 1024:
+        side += 1
+    return side, 2 * side * side
+
+
+def table(out_csv, builds):
+    found = {}
+    for processor, build in builds:
+        found.update(measure(processor, build))
+    with open(out_csv, "w", newline="", encoding="utf-8") as out:
+        rows = csv.writer(out)
+        rows.writerow(["name", "value", "unit", "target", "ok"])
+        for name, value in found.items():
+            unit = "bytes" if name.endswith(("code", "stack")) else "instructions/particle/substep"
+            rows.writerow([name, value, unit, "", ""])
+            print(f"{name:<44} {value:>9,} {unit}")
+    print("\n| chip | tank, half full | particles | instructions a step | cycles a step | steps/s |")
+    print("|---|---|---|---|---|---|")
+    for title, processor, real, mhz, kilobytes in CHIPS:
+        if f"{processor} {real} liquid instructions" not in found:
+            continue
+        side, particles = fitting(kilobytes, real)
+        step = found[f"{processor} {real} liquid instructions"] * particles
+        cycles = step * CYCLES[processor]
+        print(f"| {title} | {side} × {side} | {particles:,} | {step / 1e6:.2f} M "
+              f"| {cycles / 1e6:.2f} M | {mhz * 1e6 / cycles:.0f} |")
+    for title, particles, cells, rate in KNOWN:
+        print(f"| other projects: {title} | {cells} | {particles} | | | {rate} |")
+    return 0
+
+
+def main():
+    command = sys.argv[1] if len(sys.argv) > 1 else ""
+    if command == "check" and len(sys.argv) == 4:
+        return check(sys.argv[2], sys.argv[3])
+    if command == "accept" and len(sys.argv) > 2:
+        return accept([pair.split("=", 1) for pair in sys.argv[2:]])
+    if command == "table" and len(sys.argv) > 3:
+        return table(sys.argv[2], [pair.split("=", 1) for pair in sys.argv[3:]])
+    print(__doc__)
+    return 64
+
+
+if __name__ == "__main__":
+    sys.exit(main())
