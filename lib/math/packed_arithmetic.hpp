@@ -24,4 +24,12 @@ inline std::int32_t scaled(std::int32_t factor, std::int32_t value) {
     return part * 128 + ((low * factor) >> 7);
 }
 
+/// So many bits that are as good as random, out of a number whose last places change all the time:
+/// added before digits are cut off, they make what is rounded right on average. Rounded to the
+/// nearest, everything below half a unit a step would stand still. What stands still stays so.
+inline std::int32_t chance(std::int32_t number, int bits) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(number) * 0x9E3779B1U >>
+                                     (32 - bits));
+}
+
 }  // namespace weir

@@ -344,28 +344,48 @@ Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Re
     return solve;
 }
 
+template <bool Solids, class Real>
+void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
+                         std::int32_t sweeps, StaggeredGrid<Real>& grid,
+                         PressureFields<Real>& fields, const CoupledSolve<Real>* coupled,
+                         Work work) {
+    if (work.once(1)) {
+        fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
+    }
+    auto solver = solve<Solids, false, Real>;
+    if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
+        if (grid.inverse_density_u != nullptr) {
+            solver = solve<Solids, true, Real>;
+        }
+    }
+    solver(borders, walls, sweeps, coupled, grid, fields, work);
+}
+
 }  // namespace
 
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
                 const CoupledSolve<Real>* coupled, Work work) {
-    if (work.once(1)) {
-        fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
-    }
-    auto solver = walls.active ? solve<true, false, Real> : solve<false, false, Real>;
-    if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
-        if (grid.inverse_density_u != nullptr) {
-            solver = walls.active ? solve<true, true, Real> : solve<false, true, Real>;
-        }
-    }
-    solver(borders, walls, sweeps, coupled, grid, fields, work);
+    const auto stage = walls.active ? make_incompressible<true, Real>
+                                    : make_incompressible<false, Real>;
+    stage(borders, walls, dt_s, sweeps, grid, fields, coupled, work);
+}
+
+template <class Real>
+void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
+                        Seconds<Real> dt_s, std::int32_t sweeps, StaggeredGrid<Real>& grid,
+                        PressureFields<Real>& fields, Work work) {
+    make_incompressible<false, Real>(borders, walls, dt_s, sweeps, grid, fields, nullptr, work);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \
     template void projection(const Borders<Real>&, const Walls<Real>&, Seconds<Real>,         \
                              std::int32_t, StaggeredGrid<Real>&, PressureFields<Real>&,       \
-                             const CoupledSolve<Real>*, Work);
+                             const CoupledSolve<Real>*, Work);                                \
+    template void projection_in_open(const Borders<Real>&, const Walls<Real>&, Seconds<Real>, \
+                                     std::int32_t, StaggeredGrid<Real>&,                      \
+                                     PressureFields<Real>&, Work);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

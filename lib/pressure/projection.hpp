@@ -21,6 +21,12 @@ void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
                 const CoupledSolve<Real>* coupled = nullptr, Work work = {});
 
+/// The same where there are no solids: a program that adds none links nothing of them.
+template <class Real>
+void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
+                        Seconds<Real> dt_s, std::int32_t sweeps, StaggeredGrid<Real>& grid,
+                        PressureFields<Real>& fields, Work work);
+
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face
 /// between them answers to the pressure by its inverse.
 template <class Real>

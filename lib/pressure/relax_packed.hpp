@@ -10,7 +10,7 @@
 namespace weir {
 
 /// Pressures and residuals stay below these, raw: no sum of four overflows.
-inline constexpr std::int32_t kMostPressureRaw = 1 << 28;
+inline constexpr std::int32_t kMostPressureRaw = (1 << 28) - (1 << 23);
 inline constexpr std::int32_t kMostResidualRaw = 1 << 21;
 
 /// A pressure to start from. In a tank without a surface that a body presses on it would grow
@@ -46,32 +46,46 @@ inline std::int32_t neighbours(const Real* p, const Walls<Real>& walls, std::int
            (scaled(walls.open_v[c].raw, p[down].raw) + scaled(walls.open_v[up].raw, p[up].raw));
 }
 
-/// Relaxes cells c, c + 2 … before `end`: p += ω (Σ p − divergence − n p) / n. The factor ω / n may
-/// be coarse, since where the residual is 0 nothing moves; n may not.
+/// What a cell's pressure becomes: p += ω (Σ p − divergence − n p) / n. The factor ω / n, in
+/// 256ths, may be coarse, since where the residual is 0 nothing moves; n may not.
+inline std::int32_t relaxed(std::int32_t here, std::int32_t residual, std::int32_t factor) {
+    const std::int32_t limited = clamp(residual, -kMostResidualRaw, kMostResidualRaw);
+    return clamp(here + ((limited * factor + 128) >> 8), -kMostPressureRaw, kMostPressureRaw);
+}
+
+/// A cell at the surface or at a wall; `step`: ω in 1/2^15ths.
+template <bool Solids, class Real>
+[[gnu::noinline]] void relax_rare(const PressureFields<Real>& fields, const Walls<Real>& walls,
+                                  std::int32_t step, std::int32_t stride, std::int32_t c) {
+    const std::int32_t kept = fields.inverse_diagonal[c].raw;
+    const std::int32_t diagonal = kept < 0 ? -kept : kept;
+    const std::int32_t here = fields.pressure[c].raw;
+    const std::int32_t sum = neighbours<Solids>(fields.pressure, walls, c, stride, kept);
+    const std::int32_t flow = std::int32_t{fields.divergence[c].raw} * 512;
+    const std::int32_t factor = minimum(step / diagonal, 511);
+    fields.pressure[c].raw =
+        relaxed(here, fixed::subtract(sum - flow, times_diagonal(diagonal, here)), factor);
+}
+
+/// Relaxes cells c, c + 2 … before `end`.
 template <bool Solids, class Real>
 void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls, Real omega,
                       std::int32_t stride, std::int32_t c, std::int32_t end) {
     Real* p = fields.pressure;
+    const VelocityOf<Real>* diagonal = fields.inverse_diagonal;
     const std::int32_t step = omega.raw >> 1;  // ω in 1/2^15ths, so that ω / n has 8 bits
     const std::int32_t step_of_4 = step / 512;
-    const std::int32_t step_of_3 = step / 384;
     for (; c < end; c += 2) {
-        const std::int32_t kept = fields.inverse_diagonal[c].raw;
-        if (kept == 0) {
-            continue;
+        const std::int32_t kept = diagonal[c].raw;
+        if (kept == 512) {
+            const std::int32_t sum = (p[c - 1].raw + p[c + 1].raw) +
+                                     (p[c - stride].raw + p[c + stride].raw);
+            const std::int32_t flow = std::int32_t{fields.divergence[c].raw} * 512;
+            const std::int32_t here = p[c].raw;
+            p[c].raw = relaxed(here, sum - flow - 4 * here, step_of_4);
+        } else if (kept != 0) {
+            relax_rare<Solids>(fields, walls, step, stride, c);
         }
-        const std::int32_t here = p[c].raw;
-        const std::int32_t diagonal = kept < 0 ? -kept : kept;
-        const std::int32_t sum = neighbours<Solids>(p, walls, c, stride, kept);
-        const std::int32_t flow = std::int32_t{fields.divergence[c].raw} * 512;
-        const std::int32_t residual =
-            clamp(fixed::subtract(sum - flow, times_diagonal(diagonal, here)), -kMostResidualRaw,
-                  kMostResidualRaw);
-        const std::int32_t factor =
-            diagonal == 512 ? step_of_4
-                            : (diagonal == 384 ? step_of_3 : minimum(step / diagonal, 511));
-        const std::int32_t change = (residual * factor + 128) >> 8;
-        p[c].raw = clamp(here + change, -kMostPressureRaw, kMostPressureRaw);
     }
 }
 

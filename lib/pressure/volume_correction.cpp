@@ -198,28 +198,44 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     });
 }
 
+template <bool Solids, class Real>
+void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
+                 Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
+                 std::int32_t& overfull, Work work) {
+    if (work.once(1)) {
+        overfull = 0;
+    }
+    if constexpr (Stored<Real>::coarse) {
+        correct_packed<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
+    } else {
+        correct<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
+    }
+}
+
 }  // namespace
 
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
                        std::int32_t& overfull, Work work) {
-    if (work.once(1)) {
-        overfull = 0;
-    }
-    if constexpr (Stored<Real>::coarse) {
-        const auto stage = walls.active ? correct_packed<true> : correct_packed<false>;
-        stage(borders, walls, gain / dt_s, fields, grid, overfull, work);
-        return;
-    }
-    const auto stage = walls.active ? correct<true, Real> : correct<false, Real>;
-    stage(borders, walls, gain / dt_s, fields, grid, overfull, work);
+    const auto stage = walls.active ? keep_volume<true, Real> : keep_volume<false, Real>;
+    stage(borders, walls, dt_s, gain, fields, grid, overfull, work);
+}
+
+template <class Real>
+void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
+                               Seconds<Real> dt_s, Real gain, PressureFields<Real>& fields,
+                               StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
+    keep_volume<false, Real>(borders, walls, dt_s, gain, fields, grid, overfull, work);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                            \
     template void volume_correction(const Borders<Real>&, const Walls<Real>&,             \
                                     Seconds<Real>, Real, PressureFields<Real>&,           \
-                                    StaggeredGrid<Real>&, std::int32_t&, Work);
+                                    StaggeredGrid<Real>&, std::int32_t&, Work);           \
+    template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,     \
+                                            Seconds<Real>, Real, PressureFields<Real>&,   \
+                                            StaggeredGrid<Real>&, std::int32_t&, Work);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -19,4 +19,10 @@ void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, S
                        Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
                        std::int32_t& overfull, Work work = {});
 
+/// The same where there are no solids: a program that adds none links nothing of them.
+template <class Real>
+void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
+                               Seconds<Real> dt_s, Real gain, PressureFields<Real>& fields,
+                               StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work);
+
 }  // namespace weir

@@ -178,7 +178,7 @@ template <class Real>
 bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
     Body<Real>& body = table.body[slot];
     body.hollow = body.open;
-    if (layers.thin.capacity == 0) {
+    if (!kHasThinWalls<Real> || layers.thin.capacity == 0) {
         return !body.open;
     }
     if (!add_thin_edges(layers.thin, layers.shape, table, slot)) {
@@ -243,7 +243,7 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
         if (body.moved) {
             body.left = body.drawn;
             body.drawn = reach(layers.shape, table, body);
-            if (layers.thin.used > 0) {
+            if (kHasThinWalls<Real> && layers.thin.used > 0) {
                 relink(layers.thin, layers.shape, table, slot);
             }
             restore(layers, body.left);

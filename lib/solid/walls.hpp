@@ -39,7 +39,7 @@ struct Walls {
     ShareOf<Real>* full_density = nullptr;  ///< density of a cell when all around it is full
     std::uint32_t* near = nullptr;  ///< a bit a cell: its left or lower face is to be mirrored
     const Body<Real>* body = nullptr;
-    const ThinWalls<Real>* thin = nullptr;  ///< null: no wall is thinner than a cell
+    ThinWallsPointer<Real> thin = {};   ///< null: no wall is thinner than a cell
     std::int32_t bodies = 0;            ///< slots
     BodyLoad<Real>* load = nullptr;     ///< what bodies receive; null: nobody wants to know
     Face<Real> particle_mass[2] = {};   ///< of either liquid, over the first's density, cells²

@@ -64,14 +64,17 @@ inline void blend_packed(const Borders<SmallFixed>& borders, SmallFixed flip_rat
     if (work.once(s.border())) {
         extend_velocity(borders, s, sharp_u, sharp_v);
     }
-    const std::int32_t share = (SmallFixed(1) - flip_ratio).raw >> 2;
+    // Of what is left: both shares have to add up to 1, or velocity would fade.
+    const std::int32_t share = (1 << 14) - (flip_ratio.raw >> 2);
     const Part blended = work.take(s.ny + 2, s.nx + 2);
     const auto blend = [&](const VelocityOf<SmallFixed>* now, const VelocityOf<SmallFixed>* sharp,
                            VelocityOf<SmallFixed>* change) {
         for_each_run(s, blended, [&](const Part& run) {
             for (std::int32_t face = run.first; face < run.end; ++face) {
+                // A thirtieth of a small velocity would round to 0.
+                const std::int32_t by = chance(now[face].raw * 4 + sharp[face].raw, 14);
                 change[face].raw = short_of(now[face].raw - change[face].raw +
-                                            rounded_shift(share * sharp[face].raw, 14));
+                                            ((share * sharp[face].raw + by) >> 14));
             }
         });
     };

@@ -25,6 +25,21 @@ Vec2<Position> furthest(const Vec2<Position>* position, std::int32_t count) {
     return furthest(position, 0, count, {});
 }
 
+/// Of packed places the raw numbers tell.
+template <>
+Vec2<PositionOf<SmallFixed>> furthest(const Vec2<PositionOf<SmallFixed>>* position,
+                                      std::int32_t first, std::int32_t count,
+                                      Vec2<PositionOf<SmallFixed>> so_far) {
+    std::int32_t x = so_far.x.raw;
+    std::int32_t y = so_far.y.raw;
+    for (std::int32_t k = first; k < count; ++k) {
+        x = maximum(x, position[k].x.raw);
+        y = maximum(y, position[k].y.raw);
+    }
+    return {PositionOf<SmallFixed>::of_raw(static_cast<std::uint16_t>(x)),
+            PositionOf<SmallFixed>::of_raw(static_cast<std::uint16_t>(y))};
+}
+
 #if WEIR_HAS_LANES
 /// Two particles a load, and two loads under way.
 template <>

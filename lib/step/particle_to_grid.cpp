@@ -80,7 +80,7 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
 }
 
 template <class Real>
-void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid,
+std::int32_t scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid,
                         const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
     const Part rows = work.take(shape.ny + 2, shape.nx + 2);
@@ -89,14 +89,13 @@ void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& g
     clear_rows(shape, rows, grid.mass_u);
     clear_rows(shape, rows, grid.mass_v);
     const Part part = work.take(particles.count, 1);
-    if (thin != nullptr) {
+    if constexpr (Stored<Real>::coarse) {
+        return scatter_packed(particles.part(part.first, part.end - part.first), grid);
+    }
+    if (kHasThinWalls<Real> && thin != nullptr) {
         scatter_past_walls(particles.part(part.first, part.end - part.first), *thin, Real(1),
                            grid);
-        return;
-    }
-    if constexpr (Stored<Real>::coarse) {
-        scatter_packed(particles.part(part.first, part.end - part.first), grid);
-        return;
+        return 0;
     }
     for (std::int32_t k = part.first; k < part.end; ++k) {
         const Vec2<Real> x = particles.position[k];
@@ -104,18 +103,19 @@ void scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& g
         scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
         scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
     }
+    return 0;
 }
 
 }  // namespace
 
 template <class Real>
-void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
-                      Real second_density, StaggeredGrid<Real>& grid,
-                      const ThinWalls<Real>* thin, Work work) {
+std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
+                              Real second_density, StaggeredGrid<Real>& grid,
+                              const ThinWalls<Real>* thin, Work work) {
     if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
         if (particles.kind != nullptr) {
             scatter_two_liquids(particles, borders, second_density, grid, thin, work);
-            return;
+            return 0;
         }
     }
     bool in_lanes = false;
@@ -125,17 +125,17 @@ void particle_to_grid(const Particles<Real>& particles, const Borders<Real>& bor
             scatter_in_lanes(particles, grid, work);
         }
     }
-    if (!in_lanes) {
-        scatter_one_liquid(particles, grid, thin, work);
-    }
+    const std::int32_t crowded = in_lanes ? 0 : scatter_one_liquid(particles, grid, thin, work);
     if (work.once(grid.shape.border())) {
         fold_borders(borders, grid);
     }
+    return crowded;
 }
 
 #define WEIR_INSTANTIATE(Real)                                                            \
-    template void particle_to_grid(const Particles<Real>&, const Borders<Real>&, Real,    \
-                                   StaggeredGrid<Real>&, const ThinWalls<Real>*, Work);
+    template std::int32_t particle_to_grid(const Particles<Real>&, const Borders<Real>&,  \
+                                           Real, StaggeredGrid<Real>&,                    \
+                                           const ThinWalls<Real>*, Work);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

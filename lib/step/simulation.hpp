@@ -12,6 +12,10 @@
 
 namespace weir {
 
+/// What differs in a world with bodies (step/substep.hpp).
+template <class Real>
+struct Stages;
+
 template <class Real>
 struct Simulation {
     Settings<Real> settings;
@@ -28,6 +32,7 @@ struct Simulation {
     Vec2<PositionOf<Real>> furthest;  ///< that any of them is along either axis
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;
+    const Stages<Real>* stages = nullptr;
 };
 
 }  // namespace weir

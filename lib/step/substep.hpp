@@ -5,10 +5,21 @@
 
 namespace weir {
 
-/// Advances everything by plan.dt_s, or does as much of it as the work allows. Adds counts and
-/// ticks to the report.
+/// What differs in a world with bodies. The table of such a world is named only where a body is
+/// added or restored: a program that does neither links no code for solids.
 template <class Real>
-void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
-             StepReport& report);
+struct Stages {
+    /// Advances everything by plan.dt_s, or does as much of it as the work allows. Adds counts and
+    /// ticks to the report.
+    void (*substep)(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                    StepReport& report);
+    bool (*inside_solid)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point);
+};
+
+/// Of a world in which there never was a body.
+template <class Real>
+const Stages<Real>& open_stages();
+template <class Real>
+const Stages<Real>& solid_stages();
 
 }  // namespace weir

@@ -1,5 +1,6 @@
 #include "step/transfer_packed.hpp"
 
+#include "math/packed_arithmetic.hpp"
 #include "step/tank_walls.hpp"
 
 namespace weir {
@@ -133,9 +134,10 @@ Limits limits_of(const GridShape& s, const Transfer<Real>& transfer) {
 }
 
 /// Those few that are too fast, go far, or come to the tank's walls.
-void gather_rare(const GridShape& s, const Transfer<Real>& transfer, Vec2<std::int32_t> way,
-                 Vec2<std::int32_t> velocity, Vec2<Place>& place, Vec2<Speed>& speed,
-                 TransferResult<Real>& result) {
+[[gnu::noinline]] void gather_rare(const GridShape& s, const Transfer<Real>& transfer,
+                                   Vec2<std::int32_t> way, Vec2<std::int32_t> velocity,
+                                   Vec2<Place>& place, Vec2<Speed>& speed,
+                                   TransferResult<Real>& result) {
     result.far += is_near(way) ? 0 : 1;
     constexpr std::int32_t kLongest = 2 * kCell;
     Vec2<Real> x{Real(place.x) + Real::of_raw(4 * clamp(way.x, -kLongest, kLongest)),
@@ -198,8 +200,9 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
             way = {way_along(clock, way_x, u, way_x, way_y),
                    way_along(clock, way_y, v, way_x, way_y)};
         }
-        const std::int32_t to_x = x + ((way.x + 32) >> 6);
-        const std::int32_t to_y = y + ((way.y + 32) >> 6);
+        const std::int32_t thrown = chance(u.value ^ v.value, 12);
+        const std::int32_t to_x = x + ((way.x + (thrown & 63)) >> 6);
+        const std::int32_t to_y = y + ((way.y + (thrown >> 6)) >> 6);
         const std::int32_t speed = maximum(absolute(velocity.x), absolute(velocity.y));
         if (is_near(way) && speed <= limits.fastest &&
             static_cast<std::uint32_t>(to_x - limits.gap) <=

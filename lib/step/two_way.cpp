@@ -75,9 +75,15 @@ CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Rea
 }
 
 template <class Real>
+void press_tank(Simulation<Real>& simulation, Seconds<Real> dt_s) {
+    press_on_tank(simulation, pressed_cells(simulation, dt_s),
+                  simulation.bodies.load[simulation.bodies.capacity].received);
+}
+
+template <class Real>
 void press_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report) {
     const PressedCells<Real> cells = pressed_cells(simulation, dt_s);
-    press_on_tank(simulation, cells, simulation.bodies.load[simulation.bodies.capacity].received);
+    press_tank(simulation, dt_s);
     press_on_bodies(simulation.grid.shape, simulation.layers.walls, simulation.bodies, cells);
     if (simulation.free_bodies != nullptr) {
         report.bodies_slowed += simulation.free_bodies->finish(simulation.bodies, dt_s);
@@ -97,6 +103,7 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
 #define WEIR_INSTANTIATE(Real)                                                                \
     template void accelerate_bodies(Simulation<Real>&, Seconds<Real>);                        \
     template CoupledSolve<Real> coupled_solve(const Simulation<Real>&, Seconds<Real>);        \
+    template void press_tank(Simulation<Real>&, Seconds<Real>);                               \
     template void press_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);                \
     template void move_free_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);
 WEIR_INSTANTIATE(float)

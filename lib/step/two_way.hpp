@@ -14,6 +14,10 @@ void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s);
 template <class Real>
 CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Real> dt_s);
 
+/// After the pressure, where there are no bodies: its impulse on the tank.
+template <class Real>
+void press_tank(Simulation<Real>& simulation, Seconds<Real> dt_s);
+
 /// After the pressure: its impulse on the tank and on all bodies, and the velocity that free
 /// ones get of it.
 template <class Real>

@@ -5,6 +5,7 @@
 #include "base/assert.hpp"
 #include "geometry/convex_decomposition.hpp"
 #include "solid/layers.hpp"
+#include "step/substep.hpp"
 #include "weir/world.hpp"
 #include "world/snapshot_frame.hpp"
 #include "world/snapshot_members.hpp"
@@ -257,6 +258,7 @@ void redraw(Simulation<Real>& simulation) {
         }
     }
     simulation.layers.walls.active = table.used > 0;
+    simulation.stages = table.used > 0 ? &solid_stages<Real>() : &open_stages<Real>();
     simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = simulation.grid.shape;  // what is not kept may stand anywhere
     clear(simulation.contacts);

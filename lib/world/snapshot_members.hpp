@@ -55,7 +55,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
            substeps_left, plan, progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers,
                             free_bodies, body_diagonal, contacts, gathered, furthest,
-                            max_speed, ticks] = simulation;
+                            max_speed, ticks, stages] = simulation;
     auto& [pressure, divergence, inverse_diagonal, density, level, coarse, on_surface, last_dt,
            change, solve] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "math/lanes.hpp"
+#include "step/substep.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
 
@@ -235,6 +236,7 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
 #if WEIR_PARALLEL
     state_->progress.parallel_for = def.parallel_for;
 #endif
+    simulation.stages = &open_stages<Real>();
     simulation.layers.contour = def.contour;
     simulation.layers.walls.binary = def.contour == Contour::mid_edge;
     name_units(*state_);

@@ -3,6 +3,7 @@
 
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/moments.hpp"
+#include "step/substep.hpp"
 #include "world/sleep.hpp"
 #include "world/validate.hpp"
 
@@ -125,6 +126,7 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
     }
     ++table.used;
     layers.walls.active = true;
+    state.simulation.stages = &solid_stages<Real>();
     if (table.load != nullptr) {
         weigh(def, table, body, table.load[slot]);
     }
@@ -227,7 +229,7 @@ Status World<Real>::remove_body(BodyId id) {
     BodyTable<Real>& table = state_->simulation.bodies;
     Layers<Real>& layers = state_->simulation.layers;
     const bool fixed = table.body[id.slot].kind == BodyKind::fixed;
-    const bool thin = layers.thin.capacity > 0;
+    const bool thin = kHasThinWalls<Real> && layers.thin.capacity > 0;
     if (thin) {
         remove_thin_edges(layers.thin, table, id.slot);
     }

@@ -79,8 +79,8 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     const double cell_m = static_cast<double>(state_->def.cell_m);
     *diagnostics = {};
     sum_particles(simulation, cell_m, *diagnostics);
-    particle_to_grid(simulation.particles, borders, simulation.settings.second_density,
-                     simulation.grid, simulation.layers.walls.thin);
+    particle_to_grid<Real>(simulation.particles, borders, simulation.settings.second_density,
+                           simulation.grid, simulation.layers.walls.thin);
     surface_level(simulation.grid, borders, simulation.layers.walls,
                   simulation.settings.rest_count, simulation.pressure);
     grid_update(borders, Vec2<Real>{}, Seconds<Real>{}, simulation.pressure.level, simulation.grid);

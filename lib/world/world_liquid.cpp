@@ -1,6 +1,6 @@
 // The liquid in a world: particles added, removed and seen.
 #include "fluid/seeding.hpp"
-#include "solid/collide.hpp"
+#include "step/substep.hpp"
 #include "weir/world.hpp"
 #include "world/sleep.hpp"
 #include "world/validate.hpp"
@@ -85,7 +85,7 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
     const Walls<Real>& walls = simulation.layers.walls;
     const auto each_seed = [&](auto visit) {
         for_each_seed(shape, low, high, per_axis, [&](Vec2<Real> at) {
-            if (!walls.active || !inside_solid(shape, walls, at)) {
+            if (!walls.active || !simulation.stages->inside_solid(shape, walls, at)) {
                 visit(at);
             }
         });
@@ -122,7 +122,8 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         convert<Real>(state_->cells_per_m * convert<Face<Real>>(position_m));
     const Vec2<Real> inside = within_tank(simulation.grid.shape, at);
     const Walls<Real>& walls = simulation.layers.walls;
-    if (walls.active && inside_solid(simulation.grid.shape, walls, inside)) {
+    if (walls.active &&
+        simulation.stages->inside_solid(simulation.grid.shape, walls, inside)) {
         return Status::particle_inside_solid;
     }
     const Vec2<Real> velocity =

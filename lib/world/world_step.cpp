@@ -139,7 +139,8 @@ bool go_on(detail::WorldState<Real>& state, std::int32_t work) {
     Progress& progress = state.progress;
     while (state.substeps_left > 0 && work > 0) {
         progress.resume(work);
-        substep(state.simulation, state.plan, Work(progress), *state.report);
+        state.simulation.stages->substep(state.simulation, state.plan, Work(progress),
+                                         *state.report);
         work = progress.left();
         if (progress.complete()) {
             progress.begin();

@@ -25,6 +25,7 @@ bool same(const StepReport& a, const StepReport& b) {
            a.particles_stuck == b.particles_stuck && a.contacts_missed == b.contacts_missed &&
            a.particles_removed_stuck == b.particles_removed_stuck &&
            a.cells_overfull == b.cells_overfull &&
+           a.particles_crowded == b.particles_crowded &&
            a.max_speed_mps == b.max_speed_mps && a.dt_s == b.dt_s;
 }
 

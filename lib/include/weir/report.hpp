@@ -56,6 +56,9 @@ struct StepReport {
     /// no room, as a piston in a full tank does. 0 with the equation of state, with surface
     /// tension, and without `volume_gain`.
     std::int32_t cells_overfull = 0;
+    /// `World<SmallFixed>`: how often a particle came to faces that hold 32 particles already, and
+    /// they count no more. It takes part in the liquid again where there is room.
+    std::int32_t particles_crowded = 0;
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
     std::int32_t particles_slowed = 0;     ///< limited to 2 cells a substep
     std::int32_t bodies_slowed = 0;        ///< free bodies, the same

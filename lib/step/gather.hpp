@@ -1,0 +1,188 @@
+// Stage: grid-to-particle and collide, over the whole pool.
+#pragma once
+
+#include <cstring>
+
+#include "solid/collide.hpp"
+#include "step/grid_to_particle.hpp"
+#include "step/simulation.hpp"
+#include "step/stage_clock.hpp"
+#include "step/thin_transfer.hpp"
+
+namespace weir {
+
+/// No particle moves further than this within a substep, cells; beyond it the step would be
+/// stable no longer. The plan of substeps aims at `cfl`, which is at most as much.
+template <class Real>
+inline constexpr Real kLongestWay = Real(2);
+
+/// What a particle's velocity can be kept as, cells/s.
+template <class Real>
+inline constexpr Real kFastest = Real(Stored<Real>::coarse ? 255.0 : 1.0e30);
+
+template <class Real>
+void note(const TransferResult<Real>& result, Simulation<Real>& simulation, StepReport& report) {
+    report.particles_reset += result.reset;
+    report.particles_slowed += result.slowed;
+    simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
+}
+
+template <class Real>
+void note(const CollideResult<Real>& result, Simulation<Real>& simulation, StepReport& report) {
+    report.particles_tested += result.tested;
+    report.particles_reflected += result.reflected;
+    report.particles_stuck += result.stuck;
+    report.particles_removed_stuck += result.removed;
+    simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
+}
+
+/// What pieces of a loop found, each by itself.
+template <class Result>
+struct Findings {
+    Result of[kMostPieces];
+
+    template <class Real>
+    void note_all(Simulation<Real>& simulation, StepReport& report) const {
+        for (const Result& found : of) {
+            note(found, simulation, report);
+        }
+    }
+};
+
+/// What particles look like to a loop: so many cells.
+inline constexpr std::int32_t kCellsAParticle = 4;
+
+/// Moves particles where there are no solids.
+template <class Real>
+void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer, Work work,
+                   StepReport& report) {
+    Findings<TransferResult<Real>> found{};
+    const Part part = work.take(simulation.gathered, 1);
+    // What hits the tank's walls is summed in its order.
+    const Work alone = transfer.tank != nullptr ? Work() : work;
+    alone.share(part, kCellsAParticle, kBlock<Real>, [&](const Part& piece, std::int32_t n) {
+        Particles<Real> some =
+            simulation.particles.part(piece.first, piece.end - piece.first);
+        found.of[n] = grid_to_particle(simulation.grid, transfer, some);
+    });
+    found.note_all(simulation, report);
+}
+
+/// Moves a block of particles and lets them meet the solids.
+template <class Real>
+void gather_block(Simulation<Real>& simulation, const Transfer<Real>& transfer,
+                  const Part& places, bool mark_removed, StageClock* clock,
+                  TransferResult<Real>& moved, CollideResult<Real>& collisions) {
+    const Walls<Real>& walls = simulation.layers.walls;
+    Particles<Real>& particles = simulation.particles;
+    Vec2<PositionOf<Real>> before[kBlock<Real>];
+    Vec2<VelocityOf<Real>> velocity[kBlock<Real>];
+    const std::int32_t first = places.first;
+    const std::int32_t count = places.end - first;
+    std::memcpy(before, particles.position + first,
+                static_cast<std::size_t>(count) * sizeof before[0]);
+    Particles<Real> block = particles.part(first, count);
+    if (walls.thin != nullptr) {
+        std::memcpy(velocity, particles.velocity + first,
+                    static_cast<std::size_t>(count) * sizeof velocity[0]);
+    }
+    moved = grid_to_particle(simulation.grid, transfer, block);
+    if (walls.thin != nullptr) {
+        Transfer<Real> again = transfer;
+        again.tank = nullptr;  // what hit its walls has been counted
+        const TransferResult<Real> beside =
+            gather_past_walls(simulation.grid, again, *walls.thin,
+                              transfer.dt_s * simulation.settings.gravity, before, velocity, block);
+        moved.far += beside.far;
+        moved.max_speed = maximum(moved.max_speed, beside.max_speed);
+    }
+    if (clock != nullptr) {
+        clock->charge(Stage::grid_to_particle);
+    }
+    collide(simulation.grid.shape, walls, {before, moved.far > 0, transfer.dt_s, mark_removed},
+            first, count, particles, simulation.contacts, collisions);
+    if (clock != nullptr) {
+        clock->charge(Stage::collide);
+    }
+}
+
+/// Moves the particles and lets them meet the solids: a block at a time, because a particle's path
+/// is known only while the place that it comes from is.
+template <class Real>
+void gather_among_solids(Simulation<Real>& simulation, const Transfer<Real>& transfer, Work work,
+                         StageClock& clock, StepReport& report) {
+    // From the pool's end, which may come nearer on the way.
+    const Part part = work.take((simulation.gathered + kBlock<Real> - 1) / kBlock<Real>,
+                                kBlock<Real>);
+    const auto places = [&](std::int32_t at) {
+        const std::int32_t end = simulation.gathered - at * kBlock<Real>;
+        return Part{maximum(0, end - kBlock<Real>), end};
+    };
+    // Blows are summed in their order.
+    const bool alone = simulation.contacts.capacity > 0 || simulation.bodies.load != nullptr ||
+                       Stored<Real>::coarse;
+    const std::int32_t cost = kCellsAParticle * kBlock<Real>;
+    Findings<TransferResult<Real>> moved{};
+    Findings<CollideResult<Real>> collisions{};
+    const auto stage = [&](const Part& blocks, std::int32_t n, bool mark, StageClock* charged) {
+        for (std::int32_t at = blocks.first; at < blocks.end; ++at) {
+            TransferResult<Real> block;
+            gather_block(simulation, transfer, places(at), mark, charged, block,
+                         collisions.of[n]);
+            moved.of[n].add(block);
+        }
+    };
+    if (alone || work.pieces(part.end - part.first, cost, 1) <= 1) {
+        stage(part, 0, false, &clock);
+    } else {
+        work.share(part, cost, 1, [&](const Part& blocks, std::int32_t n) {
+            stage(blocks, n, true, nullptr);
+        });
+        std::int32_t removed = 0;
+        for (const CollideResult<Real>& of : collisions.of) {
+            removed += of.removed;
+        }
+        simulation.particles.remove_marked(removed);
+        clock.charge(Stage::grid_to_particle);
+    }
+    moved.note_all(simulation, report);
+    collisions.note_all(simulation, report);
+}
+
+template <bool Solids, class Real>
+void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work, StageClock& clock,
+            StepReport& report) {
+    const Settings<Real>& settings = simulation.settings;
+    Transfer<Real> transfer{dt_s, settings.flip_ratio,
+                            minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
+    if (simulation.bodies.load != nullptr) {
+        transfer.tank = &simulation.bodies.load[simulation.bodies.capacity].received;
+        transfer.particle_mass = simulation.layers.walls.particle_mass;
+    }
+    prepare_gather(simulation.grid, work);
+    if (work.once(1)) {
+        simulation.grid.shape = simulation.layers.shape;
+        simulation.max_speed = Real(0);
+        simulation.gathered = simulation.particles.count;
+        report.particles_stuck = 0;
+    }
+    if (!Solids || !simulation.layers.walls.active) {
+        gather_freely(simulation, transfer, work, report);
+        clock.charge(Stage::grid_to_particle);
+        return;
+    }
+    if constexpr (Solids) {
+        transfer.near = Real(1) / dt_s;
+        ThinWalls<Real>& thin = simulation.layers.thin;
+        if (simulation.layers.walls.thin != nullptr &&
+            work.once(simulation.bodies.vertices_used + 1)) {
+            follow_bodies(thin, simulation.bodies);
+        }
+        gather_among_solids(simulation, transfer, work, clock, report);
+        if (kHasThinWalls<Real> && thin.capacity > 0 && work.once(simulation.bodies.capacity)) {
+            forget_ways(thin, simulation.bodies);
+        }
+    }
+}
+
+}  // namespace weir

@@ -1,0 +1,140 @@
+// World<SmallFixed>: what its whole-number stages promise.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "pressure/level_packed.hpp"
+#include "pressure/surface_level.hpp"
+#include "step/transfer_packed.hpp"
+#include "weir/weir.hpp"
+
+namespace weir {
+namespace {
+
+using Place = PositionOf<SmallFixed>;
+using Speed = VelocityOf<SmallFixed>;
+
+struct Grid {
+    static constexpr std::int32_t kCells = 12;
+    std::vector<Speed> mass_u = fields(), mass_v = fields();
+    std::vector<SmallFixed> momentum_u = momenta(), momentum_v = momenta();
+    StaggeredGrid<SmallFixed> grid;
+
+    Grid() {
+        grid.shape = {kCells, kCells, kCells + 2};
+        grid.mass_u = mass_u.data();
+        grid.mass_v = mass_v.data();
+        grid.u = reinterpret_cast<Speed*>(momentum_u.data());
+        grid.v = reinterpret_cast<Speed*>(momentum_v.data());
+    }
+    static std::vector<Speed> fields() { return std::vector<Speed>((kCells + 2) * (kCells + 2)); }
+    static std::vector<SmallFixed> momenta() {
+        return std::vector<SmallFixed>((kCells + 2) * (kCells + 2));
+    }
+    template <class Field>
+    static std::int64_t sum(const std::vector<Field>& field) {
+        std::int64_t all = 0;
+        for (const Field& value : field) {
+            all += value.raw;
+        }
+        return all;
+    }
+};
+
+struct Pool {
+    std::vector<Vec2<Place>> position;
+    std::vector<Vec2<Speed>> velocity;
+
+    void add(std::uint32_t x, std::uint32_t y, std::int32_t u, std::int32_t v) {
+        position.push_back({Place::of_raw(static_cast<std::uint16_t>(x)),
+                            Place::of_raw(static_cast<std::uint16_t>(y))});
+        velocity.push_back({Speed::of_raw(static_cast<std::int16_t>(u)),
+                            Speed::of_raw(static_cast<std::int16_t>(v))});
+    }
+    Particles<SmallFixed> particles() {
+        const auto count = static_cast<std::int32_t>(position.size());
+        return {position.data(), velocity.data(), count, count};
+    }
+};
+
+// Not one unit of mass or momentum is lost between particles and faces, whatever the places.
+TEST(Packed, FacesHoldWhatParticlesGave) {
+    std::mt19937 random(1);
+    Pool pool;
+    std::int64_t u = 0;
+    std::int64_t v = 0;
+    for (int k = 0; k < 500; ++k) {
+        const auto at = [&] {
+            return 4U + static_cast<std::uint32_t>(random() % (Grid::kCells * 256 - 8));
+        };
+        const auto speed = [&] { return static_cast<std::int32_t>(random() % 65536) - 32768; };
+        pool.add(at(), at(), speed(), speed());
+        u += pool.velocity.back().x.raw;
+        v += pool.velocity.back().y.raw;
+    }
+    Grid grid;
+    ASSERT_EQ(scatter_packed(pool.particles(), grid.grid), 0);
+    EXPECT_EQ(Grid::sum(grid.mass_u), 256 * 500);
+    EXPECT_EQ(Grid::sum(grid.mass_v), 256 * 500);
+    EXPECT_EQ(Grid::sum(grid.momentum_u), 256 * 4 * u);
+    EXPECT_EQ(Grid::sum(grid.momentum_v), 256 * 4 * v);
+}
+
+// A thousand particles in one cell, all as fast as can be: faces fill up, nothing wraps around.
+TEST(Packed, CrowdedFacesSaturateAndSaySo) {
+    for (const std::int32_t speed : {32767, -32768}) {
+        Pool pool;
+        for (std::uint32_t k = 0; k < 1000; ++k) {
+            pool.add(5 * 256 + k % 256, 5 * 256 + k / 4 % 256, speed, speed);
+        }
+        Grid grid;
+        EXPECT_GT(scatter_packed(pool.particles(), grid.grid), 1000);
+        for (std::size_t k = 0; k < grid.mass_u.size(); ++k) {
+            const std::int32_t mass = grid.mass_u[k].raw;
+            ASSERT_GE(mass, 0);
+            ASSERT_LE(mass, 33 * 256);
+            ASSERT_EQ(grid.momentum_u[k].raw, mass * 4 * speed);
+        }
+    }
+}
+
+TEST(Packed, ACrowdIsReportedAndComesApart) {
+    WorldDef def;
+    def.capacity.cells_x = 16;
+    def.capacity.cells_y = 16;
+    def.capacity.particles = 1000;
+    def.gravity_mps2 = {0.0F, -100.0F};
+    std::vector<std::byte> memory(world_bytes<SmallFixed>(def.capacity) + world_alignment);
+    const std::size_t spare = world_alignment - reinterpret_cast<std::uintptr_t>(memory.data()) %
+                                                    world_alignment;
+    World<SmallFixed> world;
+    ASSERT_EQ(world.init(def, memory.data() + spare, memory.size() - spare), Status::ok);
+    for (int k = 0; k < 1000; ++k) {
+        const Vec2f at{0.16F + 0.0006F * static_cast<float>(k % 32),
+                       0.16F + 0.0006F * static_cast<float>(k / 32)};
+        const float speed = k % 2 == 0 ? 5.0F : -5.0F;
+        ASSERT_EQ(world.add_particle(at, {speed, -speed}), Status::ok);
+    }
+    EXPECT_GT(world.step(1.0F / 64.0F).particles_crowded, 0);
+    StepReport report;
+    for (int step = 0; step < 600; ++step) {
+        report = world.step(1.0F / 64.0F);
+        ASSERT_EQ(report.particles, 1000);
+    }
+    EXPECT_EQ(report.particles_crowded, 0);
+    for (const Vec2<Place>& at : world.particle_positions()) {
+        ASSERT_LT(at.x.raw, 16 * 256);
+        ASSERT_LT(at.y.raw, 16 * 256);
+    }
+}
+
+TEST(Packed, LevelsAreThoseOfTheFormula) {
+    for (std::int32_t density = 0; density <= 300; ++density) {
+        const double level = level_of_density(density / 256.0);
+        EXPECT_NEAR(packed_level(density), 64.0 * level, 0.5001) << density;
+    }
+}
+
+}  // namespace
+}  // namespace weir
