@@ -4,8 +4,27 @@
 
 namespace weir {
 
+namespace {
+
+std::int32_t less(std::int32_t left, std::int64_t cost) {
+    const std::int64_t now = left - cost;
+    return now < -kMostWork ? -kMostWork : static_cast<std::int32_t>(now);
+}
+
+}  // namespace
+
+void Progress::spend(std::int32_t cost) { left_ = less(left_, cost); }
+
+void Progress::expect(std::int32_t items, std::int32_t cost) {
+    left_ = less(left_, static_cast<std::int64_t>(items) * cost);
+    position_ = items > 0 && cost > position_ ? cost : position_;
+}
+
 Part Progress::next(std::int32_t items, std::int32_t cost) {
     if (at_++ != done_ || left_ <= 0) {
+        if (foreseeing()) {
+            expect(items, cost);
+        }
         return {};
     }
     const std::int32_t first = position_;
@@ -18,7 +37,7 @@ Part Progress::next(std::int32_t items, std::int32_t cost) {
     }
     const std::int32_t fitting = left_ / cost;
     const std::int32_t count = fitting > 0 ? fitting : 1;
-    left_ -= fitting > 0 ? fitting * cost : left_;
+    left_ -= count * cost;
     position_ = first + count;
     if (position_ == items) {
         position_ = 0;

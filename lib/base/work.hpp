@@ -25,6 +25,9 @@ struct Part {
     bool empty() const { return first == end; }
 };
 
+/// More than this is left by no slice; `step` makes as many as it needs.
+inline constexpr std::int32_t kMostWork = 0x7FFFFFFF;
+
 /// How far a walk has come, and how much of it may still be done now. Its unit is one cell or one
 /// particle looked at by one loop.
 class Progress {
@@ -36,15 +39,28 @@ public:
         left_ = budget;
         at_ = 0;
     }
+    /// From the top of a walk that does nothing but add up what it would do at most: `left` falls
+    /// from kMostWork by all of it, and no further than 2³² − 1.
+    void foresee() {
+        begin();
+        left_ = kMostWork;
+        done_ = -1;
+    }
+    bool foreseeing() const { return done_ < 0; }
+    /// The most that a single item of that walk costs.
+    std::int32_t largest_item() const { return position_; }
     /// Whether the walk that has just come to its end left nothing off.
     bool complete() const { return done_ == at_; }
+    /// Negative by what the last item took beyond the budget.
     std::int32_t left() const { return left_; }
 
     /// What may be done of the next loop, so many items of such a cost: none if it is done, or has
     /// to wait. At least one item is done as long as anything is left to spend.
     Part next(std::int32_t items, std::int32_t cost);
     /// What turned out to cost more than was said.
-    void spend(std::int32_t cost) { left_ -= cost < left_ ? cost : left_; }
+    void spend(std::int32_t cost);
+    /// What a walk that only adds up could not know.
+    void expect(std::int32_t items, std::int32_t cost);
 
 #if WEIR_PARALLEL
     ParallelFor parallel_for = nullptr;  ///< null: nobody shares
@@ -84,6 +100,9 @@ public:
                        const Body& body) const;
     /// Into how many pieces `share` cuts so many items.
     std::int32_t pieces(std::int32_t items, std::int32_t cost, std::int32_t grain) const;
+    std::int32_t left() const { return progress_ != nullptr ? progress_->left() : 0; }
+    bool foreseeing() const { return progress_ != nullptr && progress_->foreseeing(); }
+    void expect(std::int32_t items, std::int32_t cost) const { progress_->expect(items, cost); }
     void spend(std::int32_t cost) const {
         if (progress_ != nullptr) {
             progress_->spend(cost);

@@ -19,7 +19,7 @@ struct GridShape {
     std::int32_t ny = 0;
     std::int32_t stride = 0;  ///< nx + 2: from a cell to the one above it
 
-    std::int32_t size() const { return stride * (ny + 2); }
+    std::int32_t size() const { return (nx + 2) * (ny + 2); }
     /// Entries of the lines along all borders: what it costs to fill them.
     std::int32_t border() const { return 2 * (nx + ny + 4); }
     std::int32_t index(std::int32_t i, std::int32_t j) const { return (j + 1) * stride + i + 1; }

@@ -9,9 +9,6 @@ namespace weir {
 
 namespace {
 
-/// The first solve of a world's life starts from nothing: it gets this many cycles.
-constexpr std::int32_t kColdStart = 8;
-
 /// The coarse grid takes care of what is smooth: sweeps only have to smooth what is left.
 template <class Real>
 constexpr Real kRelaxation = Real(1.4);

@@ -8,6 +8,9 @@
 
 namespace weir {
 
+/// The first solve of a world's life starts from nothing: it gets this many cycles.
+inline constexpr std::int32_t kColdStart = 8;
+
 /// Makes the velocity free of divergence in the liquid (Chorin 1968), with the free surface where
 /// the level is zero between two cell centres (Gibou, Fedkiw, Cheng & Kang 2002), at the pressure
 /// that the air cell beside it holds (`fields.on_surface`; otherwise 0), and with faces open as far

@@ -270,6 +270,24 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
 }
 
 template <class Real>
+std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table) {
+    std::int64_t nodes = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        if (body.kind != BodyKind::moving) {
+            continue;
+        }
+        // Floor and 1: that many nodes come upon an interval. A hundredth for rounding.
+        const Real reach = body.radius + kBand<Real> + Real(0.01);
+        const std::int64_t width = floor_to_int(reach + reach) + 1;
+        const std::int64_t box = minimum<std::int64_t>(width, layers.shape.nx + 1) *
+                                 minimum<std::int64_t>(width, layers.shape.ny + 1);
+        nodes += table.load != nullptr ? 2 * box : box;
+    }
+    return static_cast<std::int32_t>(minimum<std::int64_t>(nodes, 0x7FFFFFFF));
+}
+
+template <class Real>
 void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
     const NodeBox drawn = table.body[slot].drawn;
     table.body[slot].drawn = NodeBox{};
@@ -283,6 +301,7 @@ void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
     template std::int32_t redraw_static(Layers<Real>&, BodyTable<Real>&);                \
     template void redraw_all(Layers<Real>&, BodyTable<Real>&);                           \
     template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);                 \
+    template std::int32_t most_nodes(const Layers<Real>&, const BodyTable<Real>&);       \
     template void erase_moving(Layers<Real>&, BodyTable<Real>&, std::int32_t);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)

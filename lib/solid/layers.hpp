@@ -47,6 +47,11 @@ void redraw_all(Layers<Real>& layers, BodyTable<Real>& table);
 template <class Real>
 std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table);
 
+/// The most nodes that merging can compute: all bodies that can move, each wherever it is, and free
+/// ones twice a substep. Saturates.
+template <class Real>
+std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table);
+
 /// Takes a moving body out of the merged layer, before it is removed.
 template <class Real>
 void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);

@@ -114,6 +114,7 @@ void gather_among_solids(Simulation<Real>& simulation, const Transfer<Real>& tra
     // From the pool's end, which may come nearer on the way.
     const Part part = work.take((simulation.gathered + kBlock<Real> - 1) / kBlock<Real>,
                                 kBlock<Real>);
+    clock.charge(Stage::grid_to_particle);
     const auto places = [&](std::int32_t at) {
         const std::int32_t end = simulation.gathered - at * kBlock<Real>;
         return Part{maximum(0, end - kBlock<Real>), end};
@@ -182,6 +183,7 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work, StageCl
         if (kHasThinWalls<Real> && thin.capacity > 0 && work.once(simulation.bodies.capacity)) {
             forget_ways(thin, simulation.bodies);
         }
+        clock.charge(Stage::collide);
     }
 }
 

@@ -1,18 +1,24 @@
-// Where a step's time goes.
+// What each stage of a step took.
 #pragma once
 
+#include "base/work.hpp"
 #include "weir/config.hpp"
 #include "weir/report.hpp"
 
 namespace weir {
 
-/// Adds the ticks since the last call to a stage.
+/// Adds ticks and work since the last call to a stage.
 class StageClock {
 public:
-    StageClock(TickFunction ticks, StepReport& report)
-        : ticks_(ticks), report_(report), last_(ticks != nullptr ? ticks() : 0) {}
+    StageClock(TickFunction ticks, Work work, StepReport& report)
+        : ticks_(ticks), work_(work), report_(report), last_(ticks != nullptr ? ticks() : 0),
+          left_(work.left()) {}
 
     void charge(Stage stage) {
+        const std::int32_t left = work_.left();
+        report_.work[static_cast<std::int32_t>(stage)] +=
+            static_cast<std::uint32_t>(left_) - static_cast<std::uint32_t>(left);
+        left_ = left;
         if (ticks_ != nullptr) {
             const std::uint64_t now = ticks_();
             report_.ticks[static_cast<std::int32_t>(stage)] += now - last_;
@@ -22,8 +28,10 @@ public:
 
 private:
     TickFunction ticks_;
+    Work work_;
     StepReport& report_;
     std::uint64_t last_;
+    std::int32_t left_;
 };
 
 }  // namespace weir

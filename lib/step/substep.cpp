@@ -58,11 +58,11 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
         }
         if constexpr (Solids) {
             const CoupledSolve<Real> coupled = coupled_solve(simulation, plan.dt_s);
-            projection(settings.borders, walls, plan.dt_s, settings.sweeps, simulation.grid,
+            projection(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
                        simulation.pressure,
                        simulation.free_bodies != nullptr ? &coupled : nullptr, work);
         } else {
-            projection_in_open(settings.borders, walls, plan.dt_s, settings.sweeps,
+            projection_in_open(settings.borders, walls, plan.dt_s, plan.sweeps,
                                simulation.grid, simulation.pressure, work);
         }
         extrapolate(settings.borders, walls, simulation.pressure,
@@ -162,7 +162,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     Walls<Real>& walls = simulation.layers.walls;
     const ThinWalls<Real>* thin = walls.thin;
     const Settings<Real>& settings = simulation.settings;
-    StageClock clock(simulation.ticks, report);
+    StageClock clock(simulation.ticks, work, report);
 
     if (Solids && simulation.bodies.used > 0) {
         if (work.once(simulation.bodies.vertices_used + 1)) {
@@ -172,6 +172,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
             const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);
             report.nodes_rasterized += nodes;
             work.spend(nodes);
+        }
+        if (work.foreseeing()) {
+            work.expect(1, most_nodes(simulation.layers, simulation.bodies));
         }
         clock.charge(Stage::contour);
     }
@@ -215,7 +218,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     clock.charge(Stage::volume);
 
     if (Solids && two_way && work.once(simulation.bodies.vertices_used + 1)) {
+        const std::int32_t before = report.nodes_rasterized;
         move_free_bodies(simulation, dt_s, report);
+        work.spend(report.nodes_rasterized - before);
         clock.charge(Stage::contour);
     }
     gather<Solids>(simulation, dt_s, work, clock, report);

@@ -88,7 +88,8 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
             dt_s * (square_root(settings.surface_tension) / kRootOfCapillary<Real>);
         wanted = maximum(wanted, at_least(ripples, most));
     }
-    plan.substeps = minimum(wanted, most);
+    plan.substeps = static_cast<std::int16_t>(minimum(wanted, most));
+    plan.sweeps = static_cast<std::int16_t>(settings.sweeps);
     plan.dt_s = part_of(dt_s, plan.substeps);
     if (settings.pressure == Pressure::equation_of_state && wanted > most) {
         plan.sound_speed = minimum(plan.sound_speed, kSoundCfl<Real> / plan.dt_s);

@@ -7,7 +7,8 @@ namespace weir {
 
 template <class Real>
 struct SubstepPlan {
-    std::int32_t substeps = 1;
+    std::int16_t substeps = 1;   ///< at most 1000, as sweeps
+    std::int16_t sweeps = 1;     ///< of the pressure
     Seconds<Real> dt_s{};
     Real sound_speed = Real(0);  ///< cells/s, softened if max_substeps is too few for it
     Real viscosity = Real(0);    ///< cells²/s, lowered likewise

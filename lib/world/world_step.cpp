@@ -1,39 +1,11 @@
 // The step: make the input sane, plan the substeps, run them, report.
+#include "step/ladder.hpp"
 #include "step/substep.hpp"
-#include "step/time_step_limit.hpp"
 #include "world/sleep.hpp"
-#include "world/validate.hpp"
+#include "world/step_input.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
-
-namespace {
-
-void mark(StepReport& report, Clamped what) {
-    report.clamped |= static_cast<std::uint32_t>(what);
-}
-
-/// Shorter steps are none: velocities per step would round to nothing.
-constexpr float kShortestStep = 1.0e-9F;
-
-/// A usable dt: 0 for nonsense, and not so long that max_substeps could not carry it. Time then
-/// runs slower than the caller's, which is the one thing that stays stable.
-template <class Real>
-Seconds<Real> sane_time_step(const Settings<Real>& settings, float dt_s, StepReport& report) {
-    if (!is_finite(dt_s) || !(dt_s >= kShortestStep)) {
-        mark(report, Clamped::time_step);
-        return {};
-    }
-    const Seconds<Real> longest = longest_step(settings);
-    const auto wanted = static_cast<Seconds<Real>>(dt_s);
-    if (wanted > longest) {
-        mark(report, Clamped::time_step);
-        return longest;
-    }
-    return wanted;
-}
-
-}  // namespace
 
 template <class Real>
 Status World<Real>::set_gravity(Vec2f gravity_mps2) {
@@ -67,15 +39,13 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
 
 namespace {
 
-/// More than this is left by no slice; `step` makes as many as it needs.
-constexpr std::int32_t kMostWork = 0x7FFFFFFF;
-
 template <class Real>
-void begin(detail::WorldState<Real>& state, float dt_s, StepReport& report) {
+void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepReport& report) {
     Simulation<Real>& simulation = state.simulation;
     report = StepReport();
     state.report = &report;
     report.clamped = state.pending;
+    report.rung = clamp(rung, 0, kRungs - 1);
     state.pending = 0;
     state.stepping = true;
     state.substeps_left = 0;
@@ -90,7 +60,7 @@ void begin(detail::WorldState<Real>& state, float dt_s, StepReport& report) {
         forget_impulses(simulation.bodies);
     }
     if (dt > Seconds<Real>{}) {
-        const SubstepPlan<Real> plan = plan_substeps(simulation, dt);
+        SubstepPlan<Real> plan = plan_substeps(simulation, dt);
         if (plan.sound_speed < simulation.settings.sound_speed) {
             mark(report, Clamped::sound_speed);
         }
@@ -100,8 +70,14 @@ void begin(detail::WorldState<Real>& state, float dt_s, StepReport& report) {
         if (plan.surface_tension < simulation.settings.surface_tension) {
             mark(report, Clamped::surface_tension);
         }
-        report.substeps = plan.substeps;
         report.dt_s = static_cast<float>(dt);
+        const std::int32_t planned = plan.substeps;
+        climb(report.rung, plan);
+        if (plan.substeps < planned) {
+            mark(report, Clamped::time_step);
+            report.dt_s = static_cast<float>(plan.substeps) * static_cast<float>(plan.dt_s);
+        }
+        report.substeps = plan.substeps;
         state.plan = plan;
         state.substeps_left = plan.substeps;
     }
@@ -157,7 +133,7 @@ bool go_on(detail::WorldState<Real>& state, std::int32_t work) {
 }  // namespace
 
 template <class Real>
-Status World<Real>::begin_step(float dt_s, StepReport* report) {
+Status World<Real>::begin_step(float dt_s, StepReport* report, std::int32_t rung) {
     const Status free = ready(state_);
     if (free != Status::ok) {
         return free;
@@ -165,7 +141,7 @@ Status World<Real>::begin_step(float dt_s, StepReport* report) {
     if (report == nullptr) {
         return Status::output_missing;
     }
-    begin(*state_, dt_s, *report);
+    begin(*state_, dt_s, rung, *report);
     return Status::ok;
 }
 
@@ -175,7 +151,7 @@ bool World<Real>::advance(std::int32_t work) {
 }
 
 template <class Real>
-StepReport World<Real>::step(float dt_s) {
+StepReport World<Real>::step(float dt_s, std::int32_t rung) {
     StepReport report;
     if (state_ == nullptr) {
         mark(report, Clamped::not_initialised);
@@ -183,7 +159,7 @@ StepReport World<Real>::step(float dt_s) {
     }
     while (!advance(kMostWork)) {
     }
-    begin(*state_, dt_s, report);
+    begin(*state_, dt_s, rung, report);
     while (!advance(kMostWork)) {
     }
     return report;
@@ -191,9 +167,9 @@ StepReport World<Real>::step(float dt_s) {
 
 #define WEIR_INSTANTIATE(Real)                                \
     template Status World<Real>::set_gravity(Vec2f);          \
-    template Status World<Real>::begin_step(float, StepReport*); \
+    template Status World<Real>::begin_step(float, StepReport*, std::int32_t); \
     template bool World<Real>::advance(std::int32_t);         \
-    template StepReport World<Real>::step(float);
+    template StepReport World<Real>::step(float, std::int32_t);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -1,4 +1,5 @@
 // Steps in slices: however a step is cut, its bits are those of the step in one.
+#include <algorithm>
 #include <cstdlib>
 
 #include "bad_input.hpp"
@@ -18,7 +19,7 @@ std::int32_t any_budget(Dice& dice) {
 }
 
 bool same(const StepReport& a, const StepReport& b) {
-    return a.substeps == b.substeps && a.asleep == b.asleep && a.clamped == b.clamped && a.particles == b.particles &&
+    return std::equal(a.work, a.work + kStageCount, b.work) && a.substeps == b.substeps && a.asleep == b.asleep && a.clamped == b.clamped && a.particles == b.particles &&
            a.nodes_rasterized == b.nodes_rasterized && a.particles_tested == b.particles_tested &&
            a.particles_reflected == b.particles_reflected &&
            a.particles_reset == b.particles_reset && a.particles_slowed == b.particles_slowed &&

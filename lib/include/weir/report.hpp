@@ -35,12 +35,32 @@ enum class Clamped : std::uint32_t {
     body_speed = 1U << 8U,    ///< free bodies were limited to 2 cells a substep
 };
 
+/// The ladder of a deadline: what steps leave off to cost less. 0: nothing. 1: half of the
+/// pressure's sweeps. 2: three quarters of them. 3: and half of the substeps. 4: all substeps but
+/// one. With fewer substeps less time passes: `dt_s` says how much. Numbers are rounded up.
+inline constexpr std::int32_t kRungs = 5;
+
+/// What a step costs at most, whatever the state of the world: every cell full, every particle
+/// that there is room for, every moving body moving. In units of `World::advance`.
+struct WorkBound {
+    std::int64_t substep[kStageCount] = {};  ///< per stage
+    /// A world's very first substep, whose pressure starts from nothing.
+    std::int64_t first_substep[kStageCount] = {};
+    std::int32_t substeps = 0;  ///< of the step that was asked about, begun now; ≤ max_substeps
+    std::int64_t step = 0;      ///< that step: all stages and substeps
+    /// A slice of `advance(work)` does less than `work` and this.
+    std::int32_t largest_item = 0;
+};
+
 struct StepReport {
     std::uint64_t ticks[kStageCount] = {};  ///< per stage, over all substeps; 0: no counter
+    /// The same in units of `World::advance`, by which `World::work_bound` bounds them.
+    std::uint32_t work[kStageCount] = {};
     std::int32_t substeps = 0;        ///< 0 while asleep
     std::uint32_t clamped = 0;        ///< set of Clamped bits
     /// Nothing moves, and steps do nothing until something is changed: a device may sleep.
     bool asleep = false;
+    std::int32_t rung = 0;            ///< of the ladder, as asked for
     float dt_s = 0.0F;                ///< time that was simulated, or slept
     float max_speed_mps = 0.0F;       ///< of any particle, at the end
     std::int32_t particles = 0;       ///< alive at the end

@@ -76,19 +76,25 @@ public:
 
     /// Simulates dt seconds. Never fails: see StepReport for what was clamped. A step that was
     /// begun is finished first.
-    StepReport step(float dt_s);
+    /// @param rung of the ladder, 0 … kRungs − 1: what to leave off so as to be done in time.
+    StepReport step(float dt_s, std::int32_t rung = 0);
 
     /// The same in slices: begins a step, which `advance` carries out. However it is cut, the
     /// result is `step`'s, to the bit. Until it is done nothing else may change the world: such
     /// calls answer `Status::step_in_progress` and change nothing. Views may be looked at, and
     /// show the liquid on its way; `restore` drops the step.
     /// @param report filled while the step goes on; must live until it is done.
-    Status begin_step(float dt_s, StepReport* report);
+    Status begin_step(float dt_s, StepReport* report, std::int32_t rung = 0);
     /// Goes on with the step for that much work: a unit is a cell or a particle that one loop
     /// looks at. The slice ends with the first loop item that reaches it: a row of cells, the
     /// tank's border, a block of 32 particles (128 on a desktop) or all the moving bodies' nodes,
     /// whichever comes. At least one is done. True: the step is done, or there is none.
     bool advance(std::int32_t work);
+    /// What the next step can cost at most, known before it begins.
+    Status work_bound(float dt_s, WorkBound* bound, std::int32_t rung = 0) const;
+    /// The lowest rung on which the next step is sure to need no more than that; the last one if
+    /// none is. It follows from the world and the numbers alone, so a run can be repeated.
+    std::int32_t rung_within(float dt_s, std::int64_t work) const;
 
     /// Where the particles are, in cells: multiply by `cell_m`. Valid until the next call that
     /// adds, removes or steps. Empty before init.

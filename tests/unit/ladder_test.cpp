@@ -1,0 +1,127 @@
+// The ladder of a deadline: every rung costs less, is reported, stays tame, and a run that is
+// repeated with the recorded rungs has the same bits.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "busy_world.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kDt = 1.0F / 30.0F;
+
+void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
+
+std::int64_t sum(const StepReport& report) {
+    std::int64_t all = 0;
+    for (const std::uint32_t work : report.work) {
+        all += work;
+    }
+    return all;
+}
+
+WorldDef dam_def() {
+    WorldDef def;
+    def.capacity.cells_x = 32;
+    def.capacity.cells_y = 24;
+    def.capacity.particles = 4 * 12 * 18;
+    return def;
+}
+
+template <class Real>
+class LadderOf : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
+TYPED_TEST_SUITE(LadderOf, Scalars);
+
+TYPED_TEST(LadderOf, EveryRungCostsLessAndSaysSo) {
+    std::int64_t before = 0;
+    for (std::int32_t rung = 0; rung < kRungs; ++rung) {
+        TestWorld<TypeParam> world(dam_def());
+        expect_ok(world->fill({{0, 0}, {0.24F, 0.36F}}));
+        for (int k = 0; k < 6; ++k) {
+            world->step(kDt);
+        }
+        const StepReport report = world->step(kDt, rung);
+        EXPECT_EQ(report.rung, rung);
+        EXPECT_EQ(report.has(Clamped::time_step), rung >= 3);
+        EXPECT_EQ(report.dt_s < kDt, rung >= 3);
+        if (rung == 4) {
+            EXPECT_EQ(report.substeps, 1);
+        }
+        EXPECT_TRUE(rung == 0 || sum(report) < before) << rung;
+        before = sum(report);
+    }
+}
+
+/// Rungs chosen by a budget, then replayed from the record, in one and in slices.
+TYPED_TEST(LadderOf, RecordedRungsReplayToTheBit) {
+    const WorldDef def = busy_def(0);
+    TestWorld<TypeParam> live(def);
+    TestWorld<TypeParam> replay(def);
+    TestWorld<TypeParam> cut(def);
+    Dice dice(21);
+    Dice budgets(22);
+    bool seen[kRungs] = {};
+    for (int step = 0; step < 60; ++step) {
+        Dice one = dice;
+        Dice two = dice;
+        disturb(*live, dice);
+        disturb(*replay, one);
+        disturb(*cut, two);
+        const std::int64_t budget = 2000 << budgets.below(8);
+        const std::int32_t rung = live->rung_within(kDt, budget);
+        EXPECT_EQ(rung, cut->rung_within(kDt, budget));
+        seen[rung] = true;
+        WorkBound last;
+        expect_ok(live->work_bound(kDt, &last, kRungs - 1));
+        const StepReport report = live->step(kDt, rung);
+        if (last.step <= budget) {
+            EXPECT_LE(sum(report), budget) << "kept";
+        }
+        EXPECT_EQ(replay->step(kDt, report.rung).dt_s, report.dt_s);
+        StepReport slices;
+        expect_ok(cut->begin_step(kDt, &slices, report.rung));
+        while (!cut->advance(911)) {
+        }
+        ASSERT_EQ(replay->state_hash(), live->state_hash()) << step;
+        ASSERT_EQ(cut->state_hash(), live->state_hash()) << step;
+    }
+    EXPECT_TRUE(seen[0] && seen[kRungs - 1]);
+}
+
+/// Whoever stays on a rung for ever gets slower and rougher water, nothing worse.
+TYPED_TEST(LadderOf, EveryRungStaysTame) {
+    for (std::int32_t rung = 1; rung < kRungs; ++rung) {
+        SCOPED_TRACE(rung);
+        TestWorld<TypeParam> world(dam_def());
+        std::int32_t added = 0;
+        expect_ok(world->fill({{0, 0}, {0.24F, 0.36F}}, &added));
+        Diagnostics start;
+        expect_ok(world->diagnose(&start));
+        const double full = start.kinetic_energy_m4ps2 + start.potential_energy_m4ps2;
+        for (int k = 0; k < 300; ++k) {
+            const StepReport report = world->step(kDt, rung);
+            ASSERT_EQ(report.particles, added);
+        }
+        Diagnostics end;
+        expect_ok(world->diagnose(&end));
+        EXPECT_TRUE(all_inside(*world));
+        EXPECT_LE(end.kinetic_energy_m4ps2 + end.potential_energy_m4ps2, 1.01 * full);
+        EXPECT_GT(end.volume_m2, 0.85 * start.volume_m2);
+    }
+}
+
+TEST(Ladder, RungsBeyondItAreItsEnds) {
+    TestWorld<float> world(dam_def());
+    expect_ok(world->fill({{0, 0}, {0.24F, 0.36F}}));
+    EXPECT_EQ(world->step(kDt, -3).rung, 0);
+    EXPECT_EQ(world->step(kDt, 99).rung, kRungs - 1);
+    EXPECT_EQ(world->rung_within(kDt, 0), kRungs - 1);
+    EXPECT_EQ(world->rung_within(kDt, std::int64_t{1} << 40), 0);
+    const World<float> none;
+    EXPECT_EQ(none.rung_within(kDt, 1000000), kRungs - 1);
+}
+
+}  // namespace
+}  // namespace weir
