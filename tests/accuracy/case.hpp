@@ -17,6 +17,10 @@ struct Case {
     Options options;
 };
 
+/// Starts a scheme with a pool as wide as `c.cells` and half as deep, g being its depth, so that
+/// √(gH) is one depth in a unit of time. @return the particles that it starts with.
+Particles start_pool(const Case& c, Scheme& scheme, Setup& setup);
+
 /// Figures by name, and curves by name for the plots.
 struct Outcome {
     std::vector<std::pair<std::string, double>> values;

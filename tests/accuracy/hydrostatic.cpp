@@ -16,7 +16,6 @@ constexpr double kEnd = 40.0;
 constexpr int kSettlingSteps = 64;
 constexpr int kMostSettlingSteps = 4096;
 constexpr double kQuietFrom = 0.8 * kEnd;  ///< figures are means over the last fifth
-constexpr double kSoundRatio = 10.0;       ///< sound speed over sqrt(g H)
 
 struct Pool {
     int width;
@@ -93,14 +92,7 @@ void settle(Scheme& scheme, int steps) {
 Outcome run_hydrostatic(Scheme& scheme, const Case& c) {
     const double depth = 0.5 * c.cells;
     Setup setup;
-    setup.nx = c.cells;
-    setup.ny = 3 * c.cells / 4;
-    setup.gravity = {0.0, -depth};
-    setup.interval = std::sqrt(0.1 / depth);
-    setup.sound_speed = kSoundRatio * depth;
-    setup.options = c.options;
-    const Particles start = seed_box(c.lattice, {0.0, 0.0}, {double(c.cells), depth});
-    scheme.start(setup, start);
+    const Particles start = start_pool(c, scheme, setup);
     if (!scheme.compressible()) {
         settle(scheme, std::min(kSettlingSteps * c.cells, kMostSettlingSteps));
         scheme.reset_clock();

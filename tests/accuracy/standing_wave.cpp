@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kRelaxingSteps = 1000;
 constexpr double kPeriods = 4.2;
-constexpr double kSoundRatio = 10.0;
 constexpr double kAmplitude = 0.02;  ///< over the depth
 constexpr double kDepthNumber = 0.5 * kPi;  ///< k h
 /// sqrt(h/g) ω of linear theory: incompressible sqrt(kh tanh kh), and with c = 10 sqrt(g h).
@@ -49,14 +48,7 @@ double modal_velocity(const Particles& particles, const Mode& mode) {
 Outcome run_standing_wave(Scheme& scheme, const Case& c) {
     const double depth = 0.5 * c.cells;
     Setup setup;
-    setup.nx = c.cells;
-    setup.ny = 3 * c.cells / 4;
-    setup.gravity = {0.0, -depth};
-    setup.interval = std::sqrt(0.1 / depth);
-    setup.sound_speed = kSoundRatio * depth;
-    setup.options = c.options;
-    const Particles start = seed_box(c.lattice, {0.0, 0.0}, {double(c.cells), depth});
-    scheme.start(setup, start);
+    const Particles start = start_pool(c, scheme, setup);
     // In a compressible scheme every interval is many steps.
     const int relaxing = scheme.compressible()
                              ? static_cast<int>(15.0 / scheme.interval())

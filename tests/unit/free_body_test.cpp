@@ -25,8 +25,6 @@ WorldDef two_way_def() {
     return def;
 }
 
-void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
-
 TEST(Moments, OfARectangleWithAHoleAboutAnyOrigin) {
     // 4 × 2 about (10, 5), less 2 × 1 about (10.5, 5); the hole in either winding.
     const Vec2<double> outer[] = {{8, 4}, {12, 4}, {12, 6}, {8, 6}};

@@ -11,16 +11,6 @@ namespace {
 
 constexpr float kDt = 1.0F / 30.0F;
 
-void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
-
-std::int64_t sum(const StepReport& report) {
-    std::int64_t all = 0;
-    for (const std::uint32_t work : report.work) {
-        all += work;
-    }
-    return all;
-}
-
 WorldDef dam_def() {
     WorldDef def;
     def.capacity.cells_x = 32;
@@ -49,8 +39,8 @@ TYPED_TEST(LadderOf, EveryRungCostsLessAndSaysSo) {
         if (rung == 4) {
             EXPECT_EQ(report.substeps, 1);
         }
-        EXPECT_TRUE(rung == 0 || sum(report) < before) << rung;
-        before = sum(report);
+        EXPECT_TRUE(rung == 0 || work_of(report) < before) << rung;
+        before = work_of(report);
     }
 }
 
@@ -77,7 +67,7 @@ TYPED_TEST(LadderOf, RecordedRungsReplayToTheBit) {
         expect_ok(live->work_bound(kDt, &last, kRungs - 1));
         const StepReport report = live->step(kDt, rung);
         if (last.step <= budget) {
-            EXPECT_LE(sum(report), budget) << "kept";
+            EXPECT_LE(work_of(report), budget) << "kept";
         }
         EXPECT_EQ(replay->step(kDt, report.rung).dt_s, report.dt_s);
         StepReport slices;

@@ -36,8 +36,6 @@ double bottom_pressure(const World<Real>& world) {
            static_cast<double>(world.pressure().at(12, 0));
 }
 
-void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
-
 template <class Real>
 struct Pool {
     TestWorld<Real> world;

@@ -75,6 +75,17 @@ inline WorldDef small_def() {
     return def;
 }
 
+inline void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
+
+/// Of all stages of a step.
+inline std::int64_t work_of(const StepReport& report) {
+    std::int64_t all = 0;
+    for (const std::uint32_t work : report.work) {
+        all += work;
+    }
+    return all;
+}
+
 /// Whether every particle has finite numbers and lies in the tank.
 template <class Real>
 testing::AssertionResult all_inside(const World<Real>& world) {

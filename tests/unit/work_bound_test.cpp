@@ -12,16 +12,6 @@ namespace {
 
 constexpr float kDt = 1.0F / 60.0F;
 
-void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
-
-std::int64_t sum(const StepReport& report) {
-    std::int64_t all = 0;
-    for (const std::uint32_t work : report.work) {
-        all += work;
-    }
-    return all;
-}
-
 /// One step in slices of such a budget, 0: in one. `first`: of the world's life.
 template <class Real>
 void expect_within_bound(World<Real>& world, float dt_s, std::int32_t budget, bool first) {
@@ -33,7 +23,7 @@ void expect_within_bound(World<Real>& world, float dt_s, std::int32_t budget, bo
     bool more = true;
     while (more) {
         more = !world.advance(budget > 0 ? budget : 0x7FFFFFFF);
-        const std::int64_t now = sum(report);
+        const std::int64_t now = work_of(report);
         if (budget > 0) {
             EXPECT_LT(now - done, std::int64_t{budget} + bound.largest_item);
         }
@@ -128,7 +118,7 @@ void expect_tight(World<float>& world, const char* what) {
             most[k] = std::max(most[k], work);
             EXPECT_LE(work, bound.substep[k]);
         }
-        EXPECT_LE(sum(report), bound.step);
+        EXPECT_LE(work_of(report), bound.step);
     }
     for (std::int32_t k = 0; k < kStageCount; ++k) {
         const char* stage = stage_name(static_cast<Stage>(k));
