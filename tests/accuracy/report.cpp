@@ -1,5 +1,6 @@
 #include "report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -8,6 +9,9 @@
 namespace accuracy {
 
 namespace {
+
+/// Of gnuplot, before they come again: then lines are dashed.
+constexpr std::size_t kColours = 8;
 
 std::string folder_of(const std::string& path) {
     const std::filesystem::path p(path);
@@ -93,6 +97,9 @@ void Report::worst_of(const std::string& prefix, const Metric& metric, int cells
     std::printf("\n");
     std::fflush(stdout);
     row(name, worst, metric.unit, limit);
+    if (limit != nullptr && prefix.find(".projection") + 11 == prefix.size()) {
+        over_target_[prefix + "." + metric.name].add(cells, std::fabs(worst) / *limit);
+    }
 }
 
 void Report::order(const std::string& prefix, const Metric& metric, double value) {
@@ -152,6 +159,7 @@ void Report::plot(const std::string& name, const std::string& x_label,
         }
         std::fprintf(data, "\n\n");
         std::string style = curve.is_points ? "points pt 7 ps 0.7" : "lines lw 1.5";
+        style += " dt " + std::to_string(1 + k / kColours);
         if (curve.colour > 0) {
             style += " lc " + std::to_string(curve.colour);
         } else if (curve.is_points) {
@@ -177,10 +185,22 @@ void Report::broken(const std::string& what) {
     broken_ = true;
 }
 
-void Report::summary() const {
+void Report::summary() {
     std::printf("\n%d targets met, %d short\n", met_, short_);
     for (const std::string& name : short_names_) {
         std::printf("  short: %s\n", name.c_str());
+    }
+    std::vector<Curve> curves;
+    for (const auto& [name, ratios] : over_target_) {
+        if (*std::max_element(ratios.y.begin(), ratios.y.end()) > 1.0) {
+            curves.push_back({name, ratios});
+        }
+    }
+    if (!curves.empty()) {
+        plot("short", "cells per reference length", "error over target", curves,
+             "set terminal pngcairo size 1000,560\nset logscale xy\nset xtics (16, 32, 64, 128)\n"
+             "set xrange [14:140]\nset yrange [0.1:100]\nset format y '%g'\nset key outside right\n"
+             "set arrow from graph 0, first 1 to graph 1, first 1 nohead lw 3");
     }
 }
 

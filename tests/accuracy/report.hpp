@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,7 +56,8 @@ public:
     void broken(const std::string& what);
 
     bool is_broken() const { return broken_; }
-    void summary() const;
+    /// What is short, as a list and as a picture: errors over their targets.
+    void summary();
 
 private:
     std::FILE* csv_ = nullptr;
@@ -64,6 +66,7 @@ private:
     int met_ = 0;
     int short_ = 0;
     std::vector<std::string> short_names_;
+    std::map<std::string, Signal> over_target_;  ///< by metric: cells, |error| / target
 };
 
 }  // namespace accuracy
