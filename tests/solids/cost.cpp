@@ -54,7 +54,7 @@ Run timed(const std::string& scene, bool solids, int frames) {
 Run counted(const std::string& scene, bool solids, int frames) {
     const std::string command =
         "valgrind --tool=callgrind --callgrind-out-file=/dev/null "
-        "--toggle-collect='weir::World<float>::step(float)' " +
+        "--toggle-collect='weir::World<float>::step(*' " +
         scene_command(scene, solids, frames) + " 2>&1";
     const std::string text = output_of(command);
     Run run = timed(scene, solids, frames);
@@ -63,6 +63,9 @@ Run counted(const std::string& scene, bool solids, int frames) {
         throw std::runtime_error("no count: " + text);
     }
     run.instructions = std::atof(text.c_str() + at + 12);
+    if (!(run.instructions > 0.0)) {
+        throw std::runtime_error("nothing was counted: " + text);
+    }
     return run;
 }
 
