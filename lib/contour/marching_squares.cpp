@@ -212,25 +212,13 @@ Real open_area(const Real distance[4]) {
     }
 }
 
-template std::uint8_t contour_case(const float*);
-template std::uint8_t contour_case(const double*);
-template std::uint8_t contour_case(const Fixed*);
-template std::uint8_t contour_case(const SmallFixed*);
-template ContourCell<float> contour_cell(const float*);
-template ContourCell<double> contour_cell(const double*);
-template ContourCell<Fixed> contour_cell(const Fixed*);
-template ContourCell<SmallFixed> contour_cell(const SmallFixed*);
-template ContourHit<float> contour_distance(const ContourCell<float>&, Vec2<float>);
-template ContourHit<double> contour_distance(const ContourCell<double>&, Vec2<double>);
-template ContourHit<Fixed> contour_distance(const ContourCell<Fixed>&, Vec2<Fixed>);
-template ContourHit<SmallFixed> contour_distance(const ContourCell<SmallFixed>&, Vec2<SmallFixed>);
-template float open_fraction(float, float);
-template double open_fraction(double, double);
-template Fixed open_fraction(Fixed, Fixed);
-template SmallFixed open_fraction(SmallFixed, SmallFixed);
-template float open_area(const float*);
-template double open_area(const double*);
-template Fixed open_area(const Fixed*);
-template SmallFixed open_area(const SmallFixed*);
+#define WEIR_INSTANTIATE(Real)                                                        \
+    template std::uint8_t contour_case(const Real*);                                  \
+    template ContourCell<Real> contour_cell(const Real*);                             \
+    template ContourHit<Real> contour_distance(const ContourCell<Real>&, Vec2<Real>); \
+    template Real open_fraction(Real, Real);                                          \
+    template Real open_area(const Real*);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -63,26 +63,13 @@ Real open_fraction(Real distance_0, Real distance_1);
 template <class Real>
 Real open_area(const Real distance[4]);
 
-extern template std::uint8_t contour_case(const float*);
-extern template std::uint8_t contour_case(const double*);
-extern template std::uint8_t contour_case(const Fixed*);
-extern template std::uint8_t contour_case(const SmallFixed*);
-extern template ContourCell<float> contour_cell(const float*);
-extern template ContourCell<double> contour_cell(const double*);
-extern template ContourCell<Fixed> contour_cell(const Fixed*);
-extern template ContourCell<SmallFixed> contour_cell(const SmallFixed*);
-extern template ContourHit<float> contour_distance(const ContourCell<float>&, Vec2<float>);
-extern template ContourHit<double> contour_distance(const ContourCell<double>&, Vec2<double>);
-extern template ContourHit<Fixed> contour_distance(const ContourCell<Fixed>&, Vec2<Fixed>);
-extern template ContourHit<SmallFixed> contour_distance(const ContourCell<SmallFixed>&,
-                                                        Vec2<SmallFixed>);
-extern template float open_fraction(float, float);
-extern template double open_fraction(double, double);
-extern template Fixed open_fraction(Fixed, Fixed);
-extern template SmallFixed open_fraction(SmallFixed, SmallFixed);
-extern template float open_area(const float*);
-extern template double open_area(const double*);
-extern template Fixed open_area(const Fixed*);
-extern template SmallFixed open_area(const SmallFixed*);
+#define WEIR_INSTANTIATE(Real)                                                               \
+    extern template std::uint8_t contour_case(const Real*);                                  \
+    extern template ContourCell<Real> contour_cell(const Real*);                             \
+    extern template ContourHit<Real> contour_distance(const ContourCell<Real>&, Vec2<Real>); \
+    extern template Real open_fraction(Real, Real);                                          \
+    extern template Real open_area(const Real*);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -215,10 +215,7 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
                                 std::int32_t);                                              \
     template std::int32_t rasterize(const RasterPolygon<Real>&, const NodeBox&, bool, Real, \
                                     Real*, const NodeField<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

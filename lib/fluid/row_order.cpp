@@ -90,9 +90,9 @@ void keep_row_order(const GridShape& shape, ArrayView<std::int32_t> scratch,
     }
 }
 
-template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<float>&);
-template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<double>&);
-template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<Fixed>&);
-template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real) \
+    template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -21,13 +21,10 @@ template <class Real>
 bool join_holes(const Outline<Real>& outline, CornerLinks links, ArrayView<std::uint16_t> scratch,
                 ArrayView<std::uint16_t> sequence);
 
-extern template bool join_holes(const Outline<float>&, CornerLinks, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
-extern template bool join_holes(const Outline<double>&, CornerLinks, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
-extern template bool join_holes(const Outline<Fixed>&, CornerLinks, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
-extern template bool join_holes(const Outline<SmallFixed>&, CornerLinks, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
+#define WEIR_INSTANTIATE(Real)                                                                   \
+    extern template bool join_holes(const Outline<Real>&, CornerLinks, ArrayView<std::uint16_t>, \
+                                    ArrayView<std::uint16_t>);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -283,13 +283,10 @@ std::int32_t decompose(const Outline<Real>& outline, ArrayView<std::uint16_t> sc
     return used > 0 ? used : -1;
 }
 
-template std::int32_t decompose(const Outline<float>&, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
-template std::int32_t decompose(const Outline<double>&, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
-template std::int32_t decompose(const Outline<Fixed>&, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
-template std::int32_t decompose(const Outline<SmallFixed>&, ArrayView<std::uint16_t>,
-                                ArrayView<std::uint16_t>);
+#define WEIR_INSTANTIATE(Real)                                                      \
+    template std::int32_t decompose(const Outline<Real>&, ArrayView<std::uint16_t>, \
+                                    ArrayView<std::uint16_t>);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -227,17 +227,11 @@ Ear clip_ear(EarClipper<Real>& clipper) {
     return {a, tip, c, has_area};
 }
 
-template EarClipper<float> start_clipping(const CornerRing<float>&, CornerLinks,
-                                          ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
-template EarClipper<double> start_clipping(const CornerRing<double>&, CornerLinks,
-                                           ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
-template EarClipper<Fixed> start_clipping(const CornerRing<Fixed>&, CornerLinks,
-                                           ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
-template EarClipper<SmallFixed> start_clipping(const CornerRing<SmallFixed>&, CornerLinks,
-                                           ArrayView<std::uint16_t>, ArrayView<std::uint16_t>);
-template Ear clip_ear(EarClipper<float>&);
-template Ear clip_ear(EarClipper<double>&);
-template Ear clip_ear(EarClipper<Fixed>&);
-template Ear clip_ear(EarClipper<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real)                                                                     \
+    template EarClipper<Real> start_clipping(const CornerRing<Real>&, CornerLinks,                 \
+                                              ArrayView<std::uint16_t>, ArrayView<std::uint16_t>); \
+    template Ear clip_ear(EarClipper<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

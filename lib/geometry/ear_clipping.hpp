@@ -43,21 +43,12 @@ EarClipper<Real> start_clipping(const CornerRing<Real>& ring, CornerLinks links,
 template <class Real>
 Ear clip_ear(EarClipper<Real>& clipper);
 
-extern template EarClipper<float> start_clipping(const CornerRing<float>&, CornerLinks,
-                                                 ArrayView<std::uint16_t>,
-                                                 ArrayView<std::uint16_t>);
-extern template EarClipper<double> start_clipping(const CornerRing<double>&, CornerLinks,
-                                                  ArrayView<std::uint16_t>,
-                                                  ArrayView<std::uint16_t>);
-extern template EarClipper<Fixed> start_clipping(const CornerRing<Fixed>&, CornerLinks,
-                                                  ArrayView<std::uint16_t>,
-                                                  ArrayView<std::uint16_t>);
-extern template EarClipper<SmallFixed> start_clipping(const CornerRing<SmallFixed>&, CornerLinks,
-                                                  ArrayView<std::uint16_t>,
-                                                  ArrayView<std::uint16_t>);
-extern template Ear clip_ear(EarClipper<float>&);
-extern template Ear clip_ear(EarClipper<double>&);
-extern template Ear clip_ear(EarClipper<Fixed>&);
-extern template Ear clip_ear(EarClipper<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real)                                                            \
+    extern template EarClipper<Real> start_clipping(const CornerRing<Real>&, CornerLinks, \
+                                                     ArrayView<std::uint16_t>,            \
+                                                     ArrayView<std::uint16_t>);           \
+    extern template Ear clip_ear(EarClipper<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -39,9 +39,9 @@ Moments<Real> moments_of(const Outline<Real>& outline) {
     return moments;
 }
 
-template Moments<float> moments_of(const Outline<float>&);
-template Moments<double> moments_of(const Outline<double>&);
-template Moments<Fixed> moments_of(const Outline<Fixed>&);
-template Moments<SmallFixed> moments_of(const Outline<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real) \
+    template Moments<Real> moments_of(const Outline<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -56,16 +56,11 @@ bool inside_convex(const Vec2<Real>* vertices, const std::uint16_t* piece, std::
     return off_an_edge;
 }
 
-template float twice_signed_area(const Vec2<float>*, std::int32_t);
-template double twice_signed_area(const Vec2<double>*, std::int32_t);
-template Fixed twice_signed_area(const Vec2<Fixed>*, std::int32_t);
-template SmallFixed twice_signed_area(const Vec2<SmallFixed>*, std::int32_t);
-template bool inside_convex(const Vec2<float>*, const std::uint16_t*, std::int32_t, Vec2<float>);
-template bool inside_convex(const Vec2<double>*, const std::uint16_t*, std::int32_t,
-                            Vec2<double>);
-template bool inside_convex(const Vec2<Fixed>*, const std::uint16_t*, std::int32_t,
-                            Vec2<Fixed>);
-template bool inside_convex(const Vec2<SmallFixed>*, const std::uint16_t*, std::int32_t,
-                            Vec2<SmallFixed>);
+#define WEIR_INSTANTIATE(Real)                                                         \
+    template Real twice_signed_area(const Vec2<Real>*, std::int32_t);                  \
+    template bool inside_convex(const Vec2<Real>*, const std::uint16_t*, std::int32_t, \
+                                Vec2<Real>);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -44,17 +44,11 @@ template <class Real>
 bool inside_convex(const Vec2<Real>* vertices, const std::uint16_t* piece, std::int32_t count,
                    Vec2<Real> point);
 
-extern template float twice_signed_area(const Vec2<float>*, std::int32_t);
-extern template double twice_signed_area(const Vec2<double>*, std::int32_t);
-extern template Fixed twice_signed_area(const Vec2<Fixed>*, std::int32_t);
-extern template SmallFixed twice_signed_area(const Vec2<SmallFixed>*, std::int32_t);
-extern template bool inside_convex(const Vec2<float>*, const std::uint16_t*, std::int32_t,
-                                   Vec2<float>);
-extern template bool inside_convex(const Vec2<double>*, const std::uint16_t*, std::int32_t,
-                                   Vec2<double>);
-extern template bool inside_convex(const Vec2<Fixed>*, const std::uint16_t*, std::int32_t,
-                                   Vec2<Fixed>);
-extern template bool inside_convex(const Vec2<SmallFixed>*, const std::uint16_t*, std::int32_t,
-                                   Vec2<SmallFixed>);
+#define WEIR_INSTANTIATE(Real)                                                                \
+    extern template Real twice_signed_area(const Vec2<Real>*, std::int32_t);                  \
+    extern template bool inside_convex(const Vec2<Real>*, const std::uint16_t*, std::int32_t, \
+                                       Vec2<Real>);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

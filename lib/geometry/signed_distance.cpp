@@ -72,25 +72,13 @@ Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
     return distance_to_outline(outline, p, far, bounds);
 }
 
-template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
-template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
-template Fixed distance_to_segment(Vec2<Fixed>, Vec2<Fixed>, Vec2<Fixed>);
-template SmallFixed distance_to_segment(Vec2<SmallFixed>, Vec2<SmallFixed>, Vec2<SmallFixed>);
-template float distance_to_outline(const Outline<float>&, Vec2<float>, float,
-                                   const Bounds<float>&);
-template double distance_to_outline(const Outline<double>&, Vec2<double>, double,
-                                    const Bounds<double>&);
-template Fixed distance_to_outline(const Outline<Fixed>&, Vec2<Fixed>, Fixed,
-                                    const Bounds<Fixed>&);
-template SmallFixed distance_to_outline(const Outline<SmallFixed>&, Vec2<SmallFixed>, SmallFixed,
-                                    const Bounds<SmallFixed>&);
-template float signed_distance(const Outline<float>&, const std::uint16_t*, std::int32_t,
-                               Vec2<float>, float, const Bounds<float>&);
-template double signed_distance(const Outline<double>&, const std::uint16_t*, std::int32_t,
-                                Vec2<double>, double, const Bounds<double>&);
-template Fixed signed_distance(const Outline<Fixed>&, const std::uint16_t*, std::int32_t,
-                                Vec2<Fixed>, Fixed, const Bounds<Fixed>&);
-template SmallFixed signed_distance(const Outline<SmallFixed>&, const std::uint16_t*, std::int32_t,
-                                Vec2<SmallFixed>, SmallFixed, const Bounds<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template Real distance_to_segment(Vec2<Real>, Vec2<Real>, Vec2<Real>);                  \
+    template Real distance_to_outline(const Outline<Real>&, Vec2<Real>, Real,               \
+                                       const Bounds<Real>&);                                \
+    template Real signed_distance(const Outline<Real>&, const std::uint16_t*, std::int32_t, \
+                                   Vec2<Real>, Real, const Bounds<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

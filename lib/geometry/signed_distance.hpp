@@ -53,27 +53,13 @@ Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
                      std::int32_t piece_length, Vec2<Real> p, Real far,
                      const Bounds<Real>& bounds = {});
 
-extern template float distance_to_segment(Vec2<float>, Vec2<float>, Vec2<float>);
-extern template double distance_to_segment(Vec2<double>, Vec2<double>, Vec2<double>);
-extern template Fixed distance_to_segment(Vec2<Fixed>, Vec2<Fixed>, Vec2<Fixed>);
-extern template SmallFixed distance_to_segment(Vec2<SmallFixed>, Vec2<SmallFixed>,
-                                               Vec2<SmallFixed>);
-extern template float distance_to_outline(const Outline<float>&, Vec2<float>, float,
-                                          const Bounds<float>&);
-extern template double distance_to_outline(const Outline<double>&, Vec2<double>, double,
-                                           const Bounds<double>&);
-extern template Fixed distance_to_outline(const Outline<Fixed>&, Vec2<Fixed>, Fixed,
-                                          const Bounds<Fixed>&);
-extern template SmallFixed distance_to_outline(const Outline<SmallFixed>&, Vec2<SmallFixed>,
-                                               SmallFixed, const Bounds<SmallFixed>&);
-extern template float signed_distance(const Outline<float>&, const std::uint16_t*, std::int32_t,
-                                      Vec2<float>, float, const Bounds<float>&);
-extern template double signed_distance(const Outline<double>&, const std::uint16_t*, std::int32_t,
-                                       Vec2<double>, double, const Bounds<double>&);
-extern template Fixed signed_distance(const Outline<Fixed>&, const std::uint16_t*, std::int32_t,
-                                      Vec2<Fixed>, Fixed, const Bounds<Fixed>&);
-extern template SmallFixed signed_distance(const Outline<SmallFixed>&, const std::uint16_t*,
-                                           std::int32_t, Vec2<SmallFixed>, SmallFixed,
-                                           const Bounds<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real)                                                                     \
+    extern template Real distance_to_segment(Vec2<Real>, Vec2<Real>, Vec2<Real>);                  \
+    extern template Real distance_to_outline(const Outline<Real>&, Vec2<Real>, Real,               \
+                                              const Bounds<Real>&);                                \
+    extern template Real signed_distance(const Outline<Real>&, const std::uint16_t*, std::int32_t, \
+                                          Vec2<Real>, Real, const Bounds<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -142,18 +142,15 @@ void close_walls(const Borders<Real>& b, const LevelOf<Real>* level, StaggeredGr
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);                 \
-    template void fold_counts(const Borders<Real>&, const GridShape&, VelocityOf<Real>*,    \
-                              VelocityOf<Real>*);                                           \
-    template void extend_velocity(const Borders<Real>&, const GridShape&,                   \
-                                  VelocityOf<Real>*, VelocityOf<Real>*);                    \
-    template void close_walls(const Borders<Real>&, const LevelOf<Real>*,                   \
+#define WEIR_INSTANTIATE(Real)                                                           \
+    template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);              \
+    template void fold_counts(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, \
+                              VelocityOf<Real>*);                                        \
+    template void extend_velocity(const Borders<Real>&, const GridShape&,                \
+                                  VelocityOf<Real>*, VelocityOf<Real>*);                 \
+    template void close_walls(const Borders<Real>&, const LevelOf<Real>*,                \
                               StaggeredGrid<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -30,14 +30,11 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template void diffuse(const GridShape&, const FaceShare<Real>&, std::int32_t,         \
-                          std::int32_t, const Part&, Real, const VelocityOf<Real>*,       \
+#define WEIR_INSTANTIATE(Real)                                                      \
+    template void diffuse(const GridShape&, const FaceShare<Real>&, std::int32_t,   \
+                          std::int32_t, const Part&, Real, const VelocityOf<Real>*, \
                           VelocityOf<Real>*);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

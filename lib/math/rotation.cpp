@@ -61,9 +61,8 @@ Rotation<Real> rotation(Real angle_rad) {
     }
 }
 
-template Rotation<float> rotation(float);
-template Rotation<Fixed> rotation(Fixed);
-template Rotation<SmallFixed> rotation(SmallFixed);
-template Rotation<double> rotation(double);
+#define WEIR_INSTANTIATE(Real) template Rotation<Real> rotation(Real);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -29,9 +29,9 @@ inline Real wrapped_angle(Real angle_rad) {
 template <class Real>
 Rotation<Real> rotation(Real angle_rad);
 
-extern template Rotation<float> rotation(float);
-extern template Rotation<double> rotation(double);
-extern template Rotation<Fixed> rotation(Fixed);
-extern template Rotation<SmallFixed> rotation(SmallFixed);
+#define WEIR_INSTANTIATE(Real) \
+    extern template Rotation<Real> rotation(Real);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -11,6 +11,9 @@
 #error "weir needs strict floating point: remove -ffast-math (or -Ofast) for its sources"
 #endif
 
+/// Does it for each scalar that worlds come in.
+#define WEIR_FOR_EACH_SCALAR(DO) DO(float) DO(double) DO(Fixed) DO(SmallFixed)
+
 namespace weir {
 
 /// The first argument alone decides the type: std::int32_t is not int on every machine.

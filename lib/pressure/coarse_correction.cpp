@@ -362,16 +362,16 @@ void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields
     });
 }
 
-#define WEIR_INSTANTIATE_FOR(Solids, Mixed, Real)                                        \
+#define WEIR_INSTANTIATE_FOR(Solids, Mixed, Real)                                                \
     template void set_up_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&,  \
                                 Work);                                                           \
     template void correct_coarse(const FaceWeights<Solids, Mixed, Real>&, PressureFields<Real>&, \
                                  Work);
-#define WEIR_INSTANTIATE(Real)                \
+#define WEIR_INSTANTIATE(Real)                                              \
     template void add_again(const GridShape&, Real, PressureFields<Real>&); \
-    WEIR_INSTANTIATE_FOR(false, false, Real)  \
-    WEIR_INSTANTIATE_FOR(true, false, Real)   \
-    WEIR_INSTANTIATE_FOR(false, true, Real)   \
+    WEIR_INSTANTIATE_FOR(false, false, Real)                                \
+    WEIR_INSTANTIATE_FOR(true, false, Real)                                 \
+    WEIR_INSTANTIATE_FOR(false, true, Real)                                 \
     WEIR_INSTANTIATE_FOR(true, true, Real)
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)

@@ -49,14 +49,10 @@ void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, S
     }
 }
 
-template void equation_of_state(const Borders<float>&, const Walls<float>&, float, float,
-                                StaggeredGrid<float>&, PressureFields<float>&, Work);
-template void equation_of_state(const Borders<double>&, const Walls<double>&, double, double,
-                                StaggeredGrid<double>&, PressureFields<double>&, Work);
-template void equation_of_state(const Borders<Fixed>&, const Walls<Fixed>&, Seconds<Fixed>, Fixed,
-                                StaggeredGrid<Fixed>&, PressureFields<Fixed>&, Work);
-template void equation_of_state(const Borders<SmallFixed>&, const Walls<SmallFixed>&,
-                                Seconds<SmallFixed>, SmallFixed, StaggeredGrid<SmallFixed>&,
-                                PressureFields<SmallFixed>&, Work);
+#define WEIR_INSTANTIATE(Real)                                                                     \
+    template void equation_of_state(const Borders<Real>&, const Walls<Real>&, Seconds<Real>, Real, \
+                                    StaggeredGrid<Real>&, PressureFields<Real>&, Work);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -383,10 +383,7 @@ void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
     template void projection_in_open(const Borders<Real>&, const Walls<Real>&, Seconds<Real>, \
                                      std::int32_t, StaggeredGrid<Real>&,                      \
                                      PressureFields<Real>&, Work);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -165,18 +165,11 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
     }
 }
 
-template float level_of_density(float);
-template double level_of_density(double);
-template Fixed level_of_density(Fixed);
-template SmallFixed level_of_density(SmallFixed);
-template void surface_level(const StaggeredGrid<float>&, const Borders<float>&,
-                            const Walls<float>&, float, PressureFields<float>&, Work);
-template void surface_level(const StaggeredGrid<double>&, const Borders<double>&,
-                            const Walls<double>&, double, PressureFields<double>&, Work);
-template void surface_level(const StaggeredGrid<Fixed>&, const Borders<Fixed>&,
-                            const Walls<Fixed>&, Fixed, PressureFields<Fixed>&, Work);
-template void surface_level(const StaggeredGrid<SmallFixed>&, const Borders<SmallFixed>&,
-                            const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&,
-                            Work);
+#define WEIR_INSTANTIATE(Real)                                                    \
+    template Real level_of_density(Real);                                         \
+    template void surface_level(const StaggeredGrid<Real>&, const Borders<Real>&, \
+                                const Walls<Real>&, Real, PressureFields<Real>&, Work);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -111,14 +111,10 @@ void surface_tension(const GridShape& s, const Borders<Real>& borders, const Wal
     }
 }
 
-template void surface_tension(const GridShape&, const Borders<float>&, const Walls<float>&, float,
-                              PressureFields<float>&, Work);
-template void surface_tension(const GridShape&, const Borders<double>&, const Walls<double>&,
-                              double, PressureFields<double>&, Work);
-template void surface_tension(const GridShape&, const Borders<Fixed>&, const Walls<Fixed>&,
-                              Fixed, PressureFields<Fixed>&, Work);
-template void surface_tension(const GridShape&, const Borders<SmallFixed>&,
-                              const Walls<SmallFixed>&, SmallFixed, PressureFields<SmallFixed>&,
-                              Work);
+#define WEIR_INSTANTIATE(Real)                                                                \
+    template void surface_tension(const GridShape&, const Borders<Real>&, const Walls<Real>&, \
+                                  Real, PressureFields<Real>&, Work);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -229,17 +229,14 @@ void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& 
     keep_volume<false, Real>(borders, walls, dt_s, gain, fields, grid, overfull, work);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template void volume_correction(const Borders<Real>&, const Walls<Real>&,             \
-                                    Seconds<Real>, Real, PressureFields<Real>&,           \
-                                    StaggeredGrid<Real>&, std::int32_t&, Work);           \
-    template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,     \
-                                            Seconds<Real>, Real, PressureFields<Real>&,   \
+#define WEIR_INSTANTIATE(Real)                                                          \
+    template void volume_correction(const Borders<Real>&, const Walls<Real>&,           \
+                                    Seconds<Real>, Real, PressureFields<Real>&,         \
+                                    StaggeredGrid<Real>&, std::int32_t&, Work);         \
+    template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,   \
+                                            Seconds<Real>, Real, PressureFields<Real>&, \
                                             StaggeredGrid<Real>&, std::int32_t&, Work);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

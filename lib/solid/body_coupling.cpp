@@ -209,11 +209,11 @@ void relax_coupled(const CoupledSolve<Real>& solve, Real omega, std::int32_t col
     });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                        \
-    template void begin_coupling(const CoupledSolve<Real>&);                          \
-    template Face<Real> yielding(const CoupledSolve<Real>&);                          \
-    template void set_aside(const CoupledSolve<Real>&);                               \
-    template void relax_coupled(const CoupledSolve<Real>&, Real, std::int32_t);       \
+#define WEIR_INSTANTIATE(Real)                                                  \
+    template void begin_coupling(const CoupledSolve<Real>&);                    \
+    template Face<Real> yielding(const CoupledSolve<Real>&);                    \
+    template void set_aside(const CoupledSolve<Real>&);                         \
+    template void relax_coupled(const CoupledSolve<Real>&, Real, std::int32_t); \
     template void end_coupling(const CoupledSolve<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)

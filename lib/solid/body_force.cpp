@@ -99,17 +99,14 @@ void forget_impulses(BodyTable<Real>& table) {
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                                \
-    template void locate_bodies(BodyTable<Real>&);                                            \
-    template Impulse<Real> pressure_impulse(const GridShape&, const Walls<Real>&,             \
-                                            std::uint16_t, const PressedCells<Real>&);        \
-    template void press_on_bodies(const GridShape&, Walls<Real>&, BodyTable<Real>&,           \
-                                  const PressedCells<Real>&);                                 \
+#define WEIR_INSTANTIATE(Real)                                                         \
+    template void locate_bodies(BodyTable<Real>&);                                     \
+    template Impulse<Real> pressure_impulse(const GridShape&, const Walls<Real>&,      \
+                                            std::uint16_t, const PressedCells<Real>&); \
+    template void press_on_bodies(const GridShape&, Walls<Real>&, BodyTable<Real>&,    \
+                                  const PressedCells<Real>&);                          \
     template void forget_impulses(BodyTable<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -123,17 +123,14 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     --table.used;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template std::int32_t find_free_slot(const BodyTable<Real>&);                         \
-    template bool exists(const BodyTable<Real>&, BodyId);                                 \
-    template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
-    template void add_polyline(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&);\
-    template void place(BodyTable<Real>&, const Body<Real>&);                             \
+#define WEIR_INSTANTIATE(Real)                                                             \
+    template std::int32_t find_free_slot(const BodyTable<Real>&);                          \
+    template bool exists(const BodyTable<Real>&, BodyId);                                  \
+    template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&);  \
+    template void add_polyline(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
+    template void place(BodyTable<Real>&, const Body<Real>&);                              \
     template void remove(BodyTable<Real>&, std::int32_t);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

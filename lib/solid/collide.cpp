@@ -352,15 +352,12 @@ bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> p
             way_out_of_thin(*walls.thin, shape, walls.body, point, stop));
 }
 
-#define WEIR_INSTANTIATE(Real)                                                               \
-    template bool inside_solid(const GridShape&, const Walls<Real>&, Vec2<Real>);            \
-    template void collide(const GridShape&, const Walls<Real>&, const Flight<Real>&,         \
-                          std::int32_t, std::int32_t, Particles<Real>&, Contacts<Real>&,     \
+#define WEIR_INSTANTIATE(Real)                                                           \
+    template bool inside_solid(const GridShape&, const Walls<Real>&, Vec2<Real>);        \
+    template void collide(const GridShape&, const Walls<Real>&, const Flight<Real>&,     \
+                          std::int32_t, std::int32_t, Particles<Real>&, Contacts<Real>&, \
                           CollideResult<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

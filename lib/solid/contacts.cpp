@@ -58,14 +58,11 @@ void finish(Contacts<Real>& contacts) {
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template void record_blow(Contacts<Real>&, const Body<Real>&, std::uint16_t, Liquid,  \
-                              Vec2<Real>, Vec2<Real>);                                    \
+#define WEIR_INSTANTIATE(Real)                                                           \
+    template void record_blow(Contacts<Real>&, const Body<Real>&, std::uint16_t, Liquid, \
+                              Vec2<Real>, Vec2<Real>);                                   \
     template void finish(Contacts<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

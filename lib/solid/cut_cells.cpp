@@ -175,10 +175,10 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, bool thin,
     look_around(shape, inner, scratch, thin, walls);
 }
 
-template void update_cut_cells(const GridShape&, const NodeBox&, bool, float*, Walls<float>&);
-template void update_cut_cells(const GridShape&, const NodeBox&, bool, double*, Walls<double>&);
-template void update_cut_cells(const GridShape&, const NodeBox&, bool, Fixed*, Walls<Fixed>&);
-template void update_cut_cells(const GridShape&, const NodeBox&, bool, VelocityOf<SmallFixed>*,
-                               Walls<SmallFixed>&);
+#define WEIR_INSTANTIATE(Real)                                                                \
+    template void update_cut_cells(const GridShape&, const NodeBox&, bool, VelocityOf<Real>*, \
+                                   Walls<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

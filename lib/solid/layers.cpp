@@ -294,19 +294,16 @@ void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
     refresh(layers, table, drawn);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                           \
-    template void clear_layers(Layers<Real>&);                                           \
-    template bool keep_thin_edges(Layers<Real>&, BodyTable<Real>&, std::int32_t);        \
-    template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t);    \
-    template std::int32_t redraw_static(Layers<Real>&, BodyTable<Real>&);                \
-    template void redraw_all(Layers<Real>&, BodyTable<Real>&);                           \
-    template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);                 \
-    template std::int32_t most_nodes(const Layers<Real>&, const BodyTable<Real>&);       \
+#define WEIR_INSTANTIATE(Real)                                                        \
+    template void clear_layers(Layers<Real>&);                                        \
+    template bool keep_thin_edges(Layers<Real>&, BodyTable<Real>&, std::int32_t);     \
+    template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t); \
+    template std::int32_t redraw_static(Layers<Real>&, BodyTable<Real>&);             \
+    template void redraw_all(Layers<Real>&, BodyTable<Real>&);                        \
+    template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);              \
+    template std::int32_t most_nodes(const Layers<Real>&, const BodyTable<Real>&);    \
     template void erase_moving(Layers<Real>&, BodyTable<Real>&, std::int32_t);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

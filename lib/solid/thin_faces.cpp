@@ -275,17 +275,14 @@ void close_thin_faces(const GridShape& s, const NodeBox& nodes, ThinWalls<Real>&
     });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                                  \
-    template const WallEdge* edge_between(const ThinWalls<Real>&, Vec2<Real>, std::int32_t,     \
-                                          std::int32_t, bool);                                  \
-    template Real flow_of_thin_wall(const ThinWalls<Real>&, const Body<Real>*, Vec2<Real>,      \
-                                    std::int32_t, std::int32_t, bool);                          \
-    template void close_thin_faces(const GridShape&, const NodeBox&, ThinWalls<Real>&,          \
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template const WallEdge* edge_between(const ThinWalls<Real>&, Vec2<Real>, std::int32_t, \
+                                          std::int32_t, bool);                              \
+    template Real flow_of_thin_wall(const ThinWalls<Real>&, const Body<Real>*, Vec2<Real>,  \
+                                    std::int32_t, std::int32_t, bool);                      \
+    template void close_thin_faces(const GridShape&, const NodeBox&, ThinWalls<Real>&,      \
                                    ShareOf<Real>*, ShareOf<Real>*, ShareOf<Real>*);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -31,10 +31,9 @@ std::uint32_t seen_faces(const ThinWalls<Real>& thin, const GridShape& s, Vec2<R
     return seen;
 }
 
-template std::uint32_t seen_faces(const ThinWalls<float>&, const GridShape&, Vec2<float>);
-template std::uint32_t seen_faces(const ThinWalls<double>&, const GridShape&, Vec2<double>);
-template std::uint32_t seen_faces(const ThinWalls<Fixed>&, const GridShape&, Vec2<Fixed>);
-template std::uint32_t seen_faces(const ThinWalls<SmallFixed>&, const GridShape&,
-                                  Vec2<SmallFixed>);
+#define WEIR_INSTANTIATE(Real) \
+    template std::uint32_t seen_faces(const ThinWalls<Real>&, const GridShape&, Vec2<Real>);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

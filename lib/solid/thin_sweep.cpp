@@ -153,10 +153,7 @@ bool way_out_of_thin(const ThinWalls<Real>& thin, const GridShape& shape,
                             Vec2<Real>, Vec2<Real>, bool, ThinStop<Real>&);                    \
     template bool way_out_of_thin(const ThinWalls<Real>&, const GridShape&, const Body<Real>*, \
                                   Vec2<Real>, ThinStop<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

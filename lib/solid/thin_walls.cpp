@@ -353,22 +353,19 @@ void forget_ways(ThinWalls<Real>& thin, BodyTable<Real>& table) {
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template void clear_thin_walls(ThinWalls<Real>&, const GridShape&, std::int32_t);       \
-    template bool add_thin_edges(ThinWalls<Real>&, const GridShape&, const BodyTable<Real>&,\
-                                 std::int32_t);                                             \
-    template bool is_thin_all_over(const ThinWalls<Real>&, const BodyTable<Real>&,          \
-                                   std::int32_t);                                           \
-    template void remove_thin_edges(ThinWalls<Real>&, const BodyTable<Real>&, std::int32_t);\
-    template void relink(ThinWalls<Real>&, const GridShape&, const BodyTable<Real>&,        \
-                         std::int32_t);                                                     \
-    template void relink_all(ThinWalls<Real>&, const GridShape&, const BodyTable<Real>&);   \
-    template void follow_bodies(ThinWalls<Real>&, const BodyTable<Real>&);                  \
+#define WEIR_INSTANTIATE(Real)                                                               \
+    template void clear_thin_walls(ThinWalls<Real>&, const GridShape&, std::int32_t);        \
+    template bool add_thin_edges(ThinWalls<Real>&, const GridShape&, const BodyTable<Real>&, \
+                                 std::int32_t);                                              \
+    template bool is_thin_all_over(const ThinWalls<Real>&, const BodyTable<Real>&,           \
+                                   std::int32_t);                                            \
+    template void remove_thin_edges(ThinWalls<Real>&, const BodyTable<Real>&, std::int32_t); \
+    template void relink(ThinWalls<Real>&, const GridShape&, const BodyTable<Real>&,         \
+                         std::int32_t);                                                      \
+    template void relink_all(ThinWalls<Real>&, const GridShape&, const BodyTable<Real>&);    \
+    template void follow_bodies(ThinWalls<Real>&, const BodyTable<Real>&);                   \
     template void forget_ways(ThinWalls<Real>&, BodyTable<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -37,10 +37,9 @@ Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
            (closed_v(up, up + 1, corner.y + Real(1)) - closed_v(node, node + 1, corner.y));
 }
 
-template float wall_flow(const GridShape&, const Walls<float>&, std::int32_t, std::int32_t);
-template double wall_flow(const GridShape&, const Walls<double>&, std::int32_t, std::int32_t);
-template Fixed wall_flow(const GridShape&, const Walls<Fixed>&, std::int32_t, std::int32_t);
-template SmallFixed wall_flow(const GridShape&, const Walls<SmallFixed>&, std::int32_t,
-                              std::int32_t);
+#define WEIR_INSTANTIATE(Real) \
+    template Real wall_flow(const GridShape&, const Walls<Real>&, std::int32_t, std::int32_t);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

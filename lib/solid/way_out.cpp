@@ -69,13 +69,10 @@ bool nearest_free_place(const GridShape& s, const Walls<Real>& walls, Vec2<Real>
     return nearest.found;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template bool nearest_free_place(const GridShape&, const Walls<Real>&, Vec2<Real>,      \
+#define WEIR_INSTANTIATE(Real)                                                         \
+    template bool nearest_free_place(const GridShape&, const Walls<Real>&, Vec2<Real>, \
                                      std::int32_t, Vec2<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

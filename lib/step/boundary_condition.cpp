@@ -224,13 +224,10 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     mirror_field(walls, was, work, fields, grid.mass_u, grid.mass_v);
 }
 
-template void mirror_in_solids(const Walls<float>&, PressureFields<float>&,
-                               StaggeredGrid<float>&, Work);
-template void mirror_in_solids(const Walls<double>&, PressureFields<double>&,
-                               StaggeredGrid<double>&, Work);
-template void mirror_in_solids(const Walls<Fixed>&, PressureFields<Fixed>&,
-                               StaggeredGrid<Fixed>&, Work);
-template void mirror_in_solids(const Walls<SmallFixed>&, PressureFields<SmallFixed>&,
-                               StaggeredGrid<SmallFixed>&, Work);
+#define WEIR_INSTANTIATE(Real)                                                \
+    template void mirror_in_solids(const Walls<Real>&, PressureFields<Real>&, \
+                                   StaggeredGrid<Real>&, Work);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

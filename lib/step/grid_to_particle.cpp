@@ -202,16 +202,13 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                          \
-    template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,       \
-                               StaggeredGrid<Real>&, const ThinWalls<Real>*, Work);     \
-    template void prepare_gather(StaggeredGrid<Real>&, Work);                           \
-    template TransferResult<Real> grid_to_particle(                                     \
+#define WEIR_INSTANTIATE(Real)                                                      \
+    template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&,   \
+                               StaggeredGrid<Real>&, const ThinWalls<Real>*, Work); \
+    template void prepare_gather(StaggeredGrid<Real>&, Work);                       \
+    template TransferResult<Real> grid_to_particle(                                 \
         const StaggeredGrid<Real>&, const Transfer<Real>&, Particles<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -224,10 +224,7 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
     template void extrapolate(const Borders<Real>&, const Walls<Real>&,          \
                               const PressureFields<Real>&, bool,                 \
                               StaggeredGrid<Real>&, Work);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -223,15 +223,12 @@ void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fiel
     diffuse_component<Real>({s, walls, false}, on_v, amount, fields.inverse_diagonal, grid.v);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                             \
-    template void centre_at_walls(const Walls<Real>&, PressureFields<Real>&,               \
-                                  StaggeredGrid<Real>&, Work);                             \
-    template void diffuse_to_walls(const Walls<Real>&, const PressureFields<Real>&, Real,  \
+#define WEIR_INSTANTIATE(Real)                                                            \
+    template void centre_at_walls(const Walls<Real>&, PressureFields<Real>&,              \
+                                  StaggeredGrid<Real>&, Work);                            \
+    template void diffuse_to_walls(const Walls<Real>&, const PressureFields<Real>&, Real, \
                                    StaggeredGrid<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

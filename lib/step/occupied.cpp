@@ -121,18 +121,15 @@ void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape&
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                                \
-    template Vec2<PositionOf<Real>> furthest_of(const Particles<Real>&,                       \
-                                                Vec2<PositionOf<Real>>);                      \
-    template GridShape occupied_part(const GridShape&, const Borders<Real>&,                  \
-                                     Vec2<PositionOf<Real>>);                                 \
-    template bool walls_reach(const GridShape&, const BodyTable<Real>&, const Walls<Real>&);  \
-    template void empty_beyond(const GridShape&, const GridShape&, const GridShape&,          \
+#define WEIR_INSTANTIATE(Real)                                                               \
+    template Vec2<PositionOf<Real>> furthest_of(const Particles<Real>&,                      \
+                                                Vec2<PositionOf<Real>>);                     \
+    template GridShape occupied_part(const GridShape&, const Borders<Real>&,                 \
+                                     Vec2<PositionOf<Real>>);                                \
+    template bool walls_reach(const GridShape&, const BodyTable<Real>&, const Walls<Real>&); \
+    template void empty_beyond(const GridShape&, const GridShape&, const GridShape&,         \
                                PressureFields<Real>&, Work);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

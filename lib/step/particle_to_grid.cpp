@@ -132,14 +132,11 @@ std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Re
     return crowded;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template std::int32_t particle_to_grid(const Particles<Real>&, const Borders<Real>&,  \
-                                           Real, StaggeredGrid<Real>&,                    \
+#define WEIR_INSTANTIATE(Real)                                                           \
+    template std::int32_t particle_to_grid(const Particles<Real>&, const Borders<Real>&, \
+                                           Real, StaggeredGrid<Real>&,                   \
                                            const ThinWalls<Real>*, Work);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

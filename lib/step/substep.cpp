@@ -243,13 +243,10 @@ const Stages<Real>& solid_stages() {
     return kStages;
 }
 
-#define WEIR_INSTANTIATE(Real)                          \
-    template const Stages<Real>& open_stages<Real>();   \
+#define WEIR_INSTANTIATE(Real)                        \
+    template const Stages<Real>& open_stages<Real>(); \
     template const Stages<Real>& solid_stages<Real>();
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -249,19 +249,16 @@ void mirror_at_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                               \
-    template void scatter_past_walls(const Particles<Real>&, const ThinWalls<Real>&, Real,   \
-                                     StaggeredGrid<Real>&);                                  \
-    template TransferResult<Real> gather_past_walls(                                         \
-        const StaggeredGrid<Real>&, const Transfer<Real>&, const ThinWalls<Real>&,           \
-        Vec2<Real>, const Vec2<PositionOf<Real>>*, const Vec2<VelocityOf<Real>>*,            \
-        Particles<Real>&);                                                                   \
-    template void mirror_at_thin_walls(const Walls<Real>&, const LevelOf<Real>*,             \
+#define WEIR_INSTANTIATE(Real)                                                             \
+    template void scatter_past_walls(const Particles<Real>&, const ThinWalls<Real>&, Real, \
+                                     StaggeredGrid<Real>&);                                \
+    template TransferResult<Real> gather_past_walls(                                       \
+        const StaggeredGrid<Real>&, const Transfer<Real>&, const ThinWalls<Real>&,         \
+        Vec2<Real>, const Vec2<PositionOf<Real>>*, const Vec2<VelocityOf<Real>>*,          \
+        Particles<Real>&);                                                                 \
+    template void mirror_at_thin_walls(const Walls<Real>&, const LevelOf<Real>*,           \
                                        StaggeredGrid<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -100,13 +100,10 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     return plan;
 }
 
-template float longest_step(const Settings<float>&);
-template double longest_step(const Settings<double>&);
-template Seconds<Fixed> longest_step(const Settings<Fixed>&);
-template Seconds<SmallFixed> longest_step(const Settings<SmallFixed>&);
-template SubstepPlan<float> plan_substeps(const Simulation<float>&, float);
-template SubstepPlan<double> plan_substeps(const Simulation<double>&, double);
-template SubstepPlan<Fixed> plan_substeps(const Simulation<Fixed>&, Seconds<Fixed>);
-template SubstepPlan<SmallFixed> plan_substeps(const Simulation<SmallFixed>&, Seconds<SmallFixed>);
+#define WEIR_INSTANTIATE(Real)                                  \
+    template Seconds<Real> longest_step(const Settings<Real>&); \
+    template SubstepPlan<Real> plan_substeps(const Simulation<Real>&, Seconds<Real>);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

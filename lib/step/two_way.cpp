@@ -100,16 +100,13 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
     locate_bodies(simulation.bodies);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                                \
-    template void accelerate_bodies(Simulation<Real>&, Seconds<Real>);                        \
-    template CoupledSolve<Real> coupled_solve(const Simulation<Real>&, Seconds<Real>);        \
-    template void press_tank(Simulation<Real>&, Seconds<Real>);                               \
-    template void press_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);                \
+#define WEIR_INSTANTIATE(Real)                                                         \
+    template void accelerate_bodies(Simulation<Real>&, Seconds<Real>);                 \
+    template CoupledSolve<Real> coupled_solve(const Simulation<Real>&, Seconds<Real>); \
+    template void press_tank(Simulation<Real>&, Seconds<Real>);                        \
+    template void press_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);         \
     template void move_free_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -65,14 +65,11 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                             \
-    template void diffuse_velocity(const Borders<Real>&, const Walls<Real>&,               \
-                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&,     \
+#define WEIR_INSTANTIATE(Real)                                                        \
+    template void diffuse_velocity(const Borders<Real>&, const Walls<Real>&,          \
+                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&, \
                                    Impulse<Real>*, Work);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -102,9 +102,9 @@ ChangedRows draw(const World<Real>& world, const Display& display) {
     return changed;
 }
 
-template ChangedRows draw(const World<float>&, const Display&);
-template ChangedRows draw(const World<double>&, const Display&);
-template ChangedRows draw(const World<Fixed>&, const Display&);
-template ChangedRows draw(const World<SmallFixed>&, const Display&);
+#define WEIR_INSTANTIATE(Real) \
+    template ChangedRows draw(const World<Real>&, const Display&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

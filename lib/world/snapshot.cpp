@@ -339,14 +339,11 @@ Status World<Real>::body_in_slot(std::int32_t slot, BodyId* id) const {
     return Status::ok;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                          \
-    template Status World<Real>::save(void*, std::size_t, std::size_t*) const;          \
-    template Status World<Real>::restore(const void*, std::size_t);                     \
+#define WEIR_INSTANTIATE(Real)                                                 \
+    template Status World<Real>::save(void*, std::size_t, std::size_t*) const; \
+    template Status World<Real>::restore(const void*, std::size_t);            \
     template Status World<Real>::body_in_slot(std::int32_t, BodyId*) const;
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -89,9 +89,9 @@ std::uint64_t World<Real>::state_hash() const {
     return hash.value();
 }
 
-template std::uint64_t World<float>::state_hash() const;
-template std::uint64_t World<double>::state_hash() const;
-template std::uint64_t World<Fixed>::state_hash() const;
-template std::uint64_t World<SmallFixed>::state_hash() const;
+#define WEIR_INSTANTIATE(Real) \
+    template std::uint64_t World<Real>::state_hash() const;
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

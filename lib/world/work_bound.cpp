@@ -98,13 +98,10 @@ std::int32_t World<Real>::rung_within(float dt_s, std::int64_t work) const {
     return rung;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                           \
-    template Status World<Real>::work_bound(float, WorkBound*, std::int32_t) const;      \
+#define WEIR_INSTANTIATE(Real)                                                      \
+    template Status World<Real>::work_bound(float, WorkBound*, std::int32_t) const; \
     template std::int32_t World<Real>::rung_within(float, std::int64_t) const;
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

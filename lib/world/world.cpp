@@ -317,20 +317,17 @@ std::int32_t World<Real>::cells_y() const {
     return state_ == nullptr ? 0 : state_->def.capacity.cells_y;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                       \
-    template Status World<Real>::init(const WorldDef&, void*, std::size_t);          \
-    template FieldView<Real> World<Real>::pressure() const;                          \
-    template FieldView<DensityOf<Real>> World<Real>::density() const;                \
-    template float World<Real>::pressure_scale() const;                              \
-    template FieldView<DistanceOf<Real>> World<Real>::signed_distance() const;                   \
-    template View<Contact> World<Real>::contacts() const;                            \
-    template float World<Real>::cell_m() const;                                      \
-    template std::int32_t World<Real>::cells_x() const;                              \
+#define WEIR_INSTANTIATE(Real)                                                 \
+    template Status World<Real>::init(const WorldDef&, void*, std::size_t);    \
+    template FieldView<Real> World<Real>::pressure() const;                    \
+    template FieldView<DensityOf<Real>> World<Real>::density() const;          \
+    template float World<Real>::pressure_scale() const;                        \
+    template FieldView<DistanceOf<Real>> World<Real>::signed_distance() const; \
+    template View<Contact> World<Real>::contacts() const;                      \
+    template float World<Real>::cell_m() const;                                \
+    template std::int32_t World<Real>::cells_x() const;                        \
     template std::int32_t World<Real>::cells_y() const;
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

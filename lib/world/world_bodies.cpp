@@ -252,18 +252,15 @@ Status World<Real>::remove_body(BodyId id) {
     return Status::ok;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                          \
-    template Status add_body(WorldState<Real>&, const BodyDef&, BodyKind, BodyId*);     \
-    template Status check_id(const WorldState<Real>&, BodyId);                          \
-    template Status World<Real>::add_static_body(const BodyDef&, BodyId*);              \
-    template Status World<Real>::add_moving_body(const BodyDef&, BodyId*);              \
-    template Status World<Real>::set_motion(BodyId, const Motion&);                     \
-    template Status World<Real>::motion(BodyId, Motion*) const;                         \
+#define WEIR_INSTANTIATE(Real)                                                      \
+    template Status add_body(WorldState<Real>&, const BodyDef&, BodyKind, BodyId*); \
+    template Status check_id(const WorldState<Real>&, BodyId);                      \
+    template Status World<Real>::add_static_body(const BodyDef&, BodyId*);          \
+    template Status World<Real>::add_moving_body(const BodyDef&, BodyId*);          \
+    template Status World<Real>::set_motion(BodyId, const Motion&);                 \
+    template Status World<Real>::motion(BodyId, Motion*) const;                     \
     template Status World<Real>::remove_body(BodyId);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -88,9 +88,9 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     return Status::ok;
 }
 
-template Status World<float>::diagnose(Diagnostics*);
-template Status World<double>::diagnose(Diagnostics*);
-template Status World<Fixed>::diagnose(Diagnostics*);
-template Status World<SmallFixed>::diagnose(Diagnostics*);
+#define WEIR_INSTANTIATE(Real) \
+    template Status World<Real>::diagnose(Diagnostics*);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -64,14 +64,11 @@ Status World<Real>::mass(BodyId id, BodyMass* mass) const {
     return known;
 }
 
-#define WEIR_INSTANTIATE(Real)                                            \
-    template Status World<Real>::force(BodyId, BodyForce*) const;         \
-    template Status World<Real>::tank_force(BodyForce*) const;            \
+#define WEIR_INSTANTIATE(Real)                                    \
+    template Status World<Real>::force(BodyId, BodyForce*) const; \
+    template Status World<Real>::tank_force(BodyForce*) const;    \
     template Status World<Real>::mass(BodyId, BodyMass*) const;
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -29,9 +29,9 @@ Status World<Real>::add_free_body(const BodyDef& def, BodyId* id) {
     }
 }
 
-template Status World<float>::add_free_body(const BodyDef&, BodyId*);
-template Status World<double>::add_free_body(const BodyDef&, BodyId*);
-template Status World<Fixed>::add_free_body(const BodyDef&, BodyId*);
-template Status World<SmallFixed>::add_free_body(const BodyDef&, BodyId*);
+#define WEIR_INSTANTIATE(Real) \
+    template Status World<Real>::add_free_body(const BodyDef&, BodyId*);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -172,17 +172,14 @@ View<Liquid> World<Real>::particle_kinds() const {
                               state_->simulation.particles.count};
 }
 
-#define WEIR_INSTANTIATE(Real)                                                       \
-    template Status World<Real>::fill(const Box&, std::int32_t*, Liquid);            \
-    template Status World<Real>::add_particle(Vec2f, Vec2f, Liquid);                 \
-    template Status World<Real>::remove_particle(std::int32_t);                      \
-    template View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const;               \
-    template View<Vec2<VelocityOf<Real>>> World<Real>::particle_velocities() const;              \
+#define WEIR_INSTANTIATE(Real)                                                      \
+    template Status World<Real>::fill(const Box&, std::int32_t*, Liquid);           \
+    template Status World<Real>::add_particle(Vec2f, Vec2f, Liquid);                \
+    template Status World<Real>::remove_particle(std::int32_t);                     \
+    template View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const;  \
+    template View<Vec2<VelocityOf<Real>>> World<Real>::particle_velocities() const; \
     template View<Liquid> World<Real>::particle_kinds() const;
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -165,15 +165,12 @@ StepReport World<Real>::step(float dt_s, std::int32_t rung) {
     return report;
 }
 
-#define WEIR_INSTANTIATE(Real)                                \
-    template Status World<Real>::set_gravity(Vec2f);          \
+#define WEIR_INSTANTIATE(Real)                                                 \
+    template Status World<Real>::set_gravity(Vec2f);                           \
     template Status World<Real>::begin_step(float, StepReport*, std::int32_t); \
-    template bool World<Real>::advance(std::int32_t);         \
+    template bool World<Real>::advance(std::int32_t);                          \
     template StepReport World<Real>::step(float, std::int32_t);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
-WEIR_INSTANTIATE(SmallFixed)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir
