@@ -78,8 +78,7 @@ void answer_pressure(const CoupledSolve<Real>& solve) {
     });
 }
 
-/// Cells on which free bodies press are taken out of the other cells' sweeps. Where two bodies'
-/// rectangles overlap a cell is met twice.
+/// What the bodies push into a cell, as the pressure has changed their velocities.
 template <class Real>
 Face<Real> pushed_into(const CoupledSolve<Real>& solve, const Levers<Real>& levers) {
     Face<Real> sum = Face<Real>(0);
@@ -149,6 +148,8 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std
 
 }  // namespace
 
+/// Cells on which free bodies press are taken out of the other cells' sweeps. Where two bodies'
+/// rectangles overlap a cell is met twice.
 template <class Real>
 void set_aside(const CoupledSolve<Real>& solve) {
     for_each_cell(solve, [&](std::int32_t, std::int32_t, std::int32_t c) {

@@ -49,6 +49,12 @@ struct BodyLoad {
 static_assert(sizeof(BodyLoad<float>) <= kBodyLoadBytes<float>, "raise kBodyLoadBytes");
 static_assert(sizeof(BodyLoad<double>) <= kBodyLoadBytes<double>, "raise kBodyLoadBytes");
 
+/// What the tank's walls receive; the world has room for it.
+template <class Real>
+inline Impulse<Real>& tank_received(const BodyTable<Real>& table) {
+    return table.load[table.capacity].received;
+}
+
 /// From the body's origin to its centre of mass, in the tank's directions.
 template <class Real>
 inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Real>& load) {

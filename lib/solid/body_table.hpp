@@ -52,7 +52,8 @@ struct BodyTable {
     Vec2<Real>* placed = nullptr;   ///< the same vertices in the tank, at the current poses
     std::uint16_t* pieces = nullptr;
     ArrayView<std::uint16_t> scratch;  ///< of the decomposition
-    BodyLoad<Real>* load = nullptr;  ///< null: the world has no room for what bodies receive
+    /// What bodies receive, and behind them the tank. Null: the world has no room for it.
+    BodyLoad<Real>* load = nullptr;
     std::int32_t vertex_capacity = 0;
     std::int32_t vertices_used = 0;
 

@@ -155,6 +155,26 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
     each([&](const NodeBox& box) { recut(layers, box); });
 }
 
+/// Draws all static bodies anew, and the moving ones onto them.
+template <class Real>
+void redraw_static(Layers<Real>& layers, BodyTable<Real>& table) {
+    empty_static(layers);
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
+            draw(layers, table, slot, body.drawn, layers.static_distance,
+                 layers.static_nearest);
+        }
+    }
+    refresh(layers, table, everywhere(layers));
+}
+
+/// Thin walls are looked at where there are any.
+template <class Real>
+void show_thin_walls(Layers<Real>& layers) {
+    layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
+}
+
 }  // namespace
 
 template <class Real>
@@ -185,7 +205,7 @@ bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t 
         return false;
     }
     body.hollow = is_thin_all_over(layers.thin, table, slot);
-    layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
+    show_thin_walls(layers);
     return true;
 }
 
@@ -199,20 +219,6 @@ std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int3
     const std::int32_t nodes = draw(layers, table, slot, body.drawn, layers.static_distance,
                                     layers.static_nearest);
     return nodes + refresh(layers, table, body.drawn);
-}
-
-template <class Real>
-std::int32_t redraw_static(Layers<Real>& layers, BodyTable<Real>& table) {
-    empty_static(layers);
-    std::int32_t nodes = 0;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        const Body<Real>& body = table.body[slot];
-        if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
-            nodes += draw(layers, table, slot, body.drawn, layers.static_distance,
-                          layers.static_nearest);
-        }
-    }
-    return nodes + refresh(layers, table, everywhere(layers));
 }
 
 template <class Real>
@@ -287,22 +293,38 @@ std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table
     return static_cast<std::int32_t>(minimum<std::int64_t>(nodes, 0x7FFFFFFF));
 }
 
+/// The vertices of the others close up: records of thin edges, which name them, are kept anew.
 template <class Real>
-void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
-    const NodeBox drawn = table.body[slot].drawn;
-    table.body[slot].drawn = NodeBox{};
-    refresh(layers, table, drawn);
+void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
+    const bool fixed = table.body[slot].kind == BodyKind::fixed;
+    const bool thin = kHasThinWalls<Real> && layers.thin.capacity > 0;
+    if (thin) {
+        remove_thin_edges(layers.thin, table, slot);
+    }
+    if (!fixed) {
+        const NodeBox drawn = table.body[slot].drawn;
+        table.body[slot].drawn = NodeBox{};
+        refresh(layers, table, drawn);
+    }
+    remove(table, slot);
+    if (thin) {
+        relink_all(layers.thin, layers.shape, table);
+    }
+    if (fixed || thin) {
+        redraw_static(layers, table);
+    }
+    show_thin_walls(layers);
+    layers.walls.active = table.used > 0;
 }
 
 #define WEIR_INSTANTIATE(Real)                                                        \
     template void clear_layers(Layers<Real>&);                                        \
     template bool keep_thin_edges(Layers<Real>&, BodyTable<Real>&, std::int32_t);     \
     template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t); \
-    template std::int32_t redraw_static(Layers<Real>&, BodyTable<Real>&);             \
     template void redraw_all(Layers<Real>&, BodyTable<Real>&);                        \
     template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);              \
     template std::int32_t most_nodes(const Layers<Real>&, const BodyTable<Real>&);    \
-    template void erase_moving(Layers<Real>&, BodyTable<Real>&, std::int32_t);
+    template void remove_drawn(Layers<Real>&, BodyTable<Real>&, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -33,10 +33,6 @@ bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t 
 template <class Real>
 std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
 
-/// Draws all static bodies anew, after one was removed.
-template <class Real>
-std::int32_t redraw_static(Layers<Real>& layers, BodyTable<Real>& table);
-
 /// Draws everything anew from the bodies' poses alone: what merging step by step would have led to.
 template <class Real>
 void redraw_all(Layers<Real>& layers, BodyTable<Real>& table);
@@ -52,8 +48,8 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table);
 template <class Real>
 std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table);
 
-/// Takes a moving body out of the merged layer, before it is removed.
+/// Removes a body from the table and from all that was drawn of it.
 template <class Real>
-void erase_moving(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
+void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
 
 }  // namespace weir

@@ -68,6 +68,26 @@ void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer,
     found.note_all(simulation, report);
 }
 
+/// Moves a block of particles past thin walls, too. `before`: where they come from.
+template <class Real>
+TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
+                                     const Transfer<Real>& transfer, const ThinWalls<Real>& thin,
+                                     const Vec2<PositionOf<Real>>* before,
+                                     Particles<Real>& block) {
+    Vec2<VelocityOf<Real>> velocity[kBlock<Real>];
+    std::memcpy(velocity, block.velocity,
+                static_cast<std::size_t>(block.count) * sizeof velocity[0]);
+    TransferResult<Real> moved = grid_to_particle(simulation.grid, transfer, block);
+    Transfer<Real> again = transfer;
+    again.tank = nullptr;  // what hit its walls has been counted
+    const TransferResult<Real> beside =
+        gather_past_walls(simulation.grid, again, thin,
+                          transfer.dt_s * simulation.settings.gravity, before, velocity, block);
+    moved.far += beside.far;
+    moved.max_speed = maximum(moved.max_speed, beside.max_speed);
+    return moved;
+}
+
 /// Moves a block of particles and lets them meet the solids.
 template <class Real>
 void gather_block(Simulation<Real>& simulation, const Transfer<Real>& transfer,
@@ -76,26 +96,14 @@ void gather_block(Simulation<Real>& simulation, const Transfer<Real>& transfer,
     const Walls<Real>& walls = simulation.layers.walls;
     Particles<Real>& particles = simulation.particles;
     Vec2<PositionOf<Real>> before[kBlock<Real>];
-    Vec2<VelocityOf<Real>> velocity[kBlock<Real>];
     const std::int32_t first = places.first;
     const std::int32_t count = places.end - first;
     std::memcpy(before, particles.position + first,
                 static_cast<std::size_t>(count) * sizeof before[0]);
     Particles<Real> block = particles.part(first, count);
-    if (walls.thin != nullptr) {
-        std::memcpy(velocity, particles.velocity + first,
-                    static_cast<std::size_t>(count) * sizeof velocity[0]);
-    }
-    moved = grid_to_particle(simulation.grid, transfer, block);
-    if (walls.thin != nullptr) {
-        Transfer<Real> again = transfer;
-        again.tank = nullptr;  // what hit its walls has been counted
-        const TransferResult<Real> beside =
-            gather_past_walls(simulation.grid, again, *walls.thin,
-                              transfer.dt_s * simulation.settings.gravity, before, velocity, block);
-        moved.far += beside.far;
-        moved.max_speed = maximum(moved.max_speed, beside.max_speed);
-    }
+    moved = walls.thin != nullptr
+                ? move_past_walls(simulation, transfer, *walls.thin, before, block)
+                : grid_to_particle(simulation.grid, transfer, block);
     if (clock != nullptr) {
         clock->charge(Stage::grid_to_particle);
     }
@@ -157,7 +165,7 @@ void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work, StageCl
     Transfer<Real> transfer{dt_s, settings.flip_ratio,
                             minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
     if (simulation.bodies.load != nullptr) {
-        transfer.tank = &simulation.bodies.load[simulation.bodies.capacity].received;
+        transfer.tank = &tank_received(simulation.bodies);
         transfer.particle_mass = simulation.layers.walls.particle_mass;
     }
     prepare_gather(simulation.grid, work);

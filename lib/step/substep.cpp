@@ -191,8 +191,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure, work);
     grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid, work);
     if (plan.viscosity > Real(0)) {
-        Impulse<Real>* tank =
-            two_way ? &simulation.bodies.load[simulation.bodies.capacity].received : nullptr;
+        Impulse<Real>* tank = two_way ? &tank_received(simulation.bodies) : nullptr;
         diffuse_velocity(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s, grid,
                          tank, work);
     }

@@ -98,10 +98,6 @@ inline SampleLanes sample(const float* pairs_u, const float* pairs_v, std::int32
     return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
 }
 
-}  // namespace
-
-namespace {
-
 /// What a particle adds to the four rows of its stencils.
 struct Contribution {
     StencilPair at;

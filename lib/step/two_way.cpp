@@ -77,7 +77,7 @@ CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Rea
 template <class Real>
 void press_tank(Simulation<Real>& simulation, Seconds<Real> dt_s) {
     press_on_tank(simulation, pressed_cells(simulation, dt_s),
-                  simulation.bodies.load[simulation.bodies.capacity].received);
+                  tank_received(simulation.bodies));
 }
 
 template <class Real>

@@ -227,27 +227,10 @@ Status World<Real>::remove_body(BodyId id) {
         return known;
     }
     BodyTable<Real>& table = state_->simulation.bodies;
-    Layers<Real>& layers = state_->simulation.layers;
-    const bool fixed = table.body[id.slot].kind == BodyKind::fixed;
-    const bool thin = kHasThinWalls<Real> && layers.thin.capacity > 0;
-    if (thin) {
-        remove_thin_edges(layers.thin, table, id.slot);
-    }
-    if (!fixed) {
-        erase_moving(layers, table, id.slot);
-    }
-    remove(table, id.slot);
+    remove_drawn(state_->simulation.layers, table, id.slot);
     if (table.load != nullptr) {
         table.load[id.slot] = BodyLoad<Real>{};
     }
-    if (thin) {
-        relink_all(layers.thin, layers.shape, table);
-    }
-    if (fixed || thin) {
-        redraw_static(layers, table);
-    }
-    layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
-    layers.walls.active = table.used > 0;
     wake(*state_);
     return Status::ok;
 }

@@ -43,8 +43,7 @@ template <class Real>
 Status World<Real>::tank_force(BodyForce* force) const {
     const Status asked = check(state_, force);
     if (asked == Status::ok) {
-        const BodyTable<Real>& table = state_->simulation.bodies;
-        *force = in_metres(table.load[table.capacity].received, state_->def.cell_m,
+        *force = in_metres(tank_received(state_->simulation.bodies), state_->def.cell_m,
                            state_->stepped_s);
     }
     return asked;
