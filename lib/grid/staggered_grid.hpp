@@ -120,4 +120,30 @@ inline Real interpolate(const Field* field, std::int32_t stride, const Stencil<R
     return low + at.fy * (high - low);
 }
 
+template <class Real>
+struct Sample {
+    Real value;
+    Real slope_x;  ///< per cell
+    Real slope_y;
+};
+
+/// Bilinear value and its gradient, from the four nodes' numbers.
+template <class Real>
+inline Sample<Real> bilinear(SameAs<Real> lower_left, SameAs<Real> lower_right,
+                             SameAs<Real> upper_left, SameAs<Real> upper_right,
+                             const Stencil<Real>& at) {
+    const Real low_slope = lower_right - lower_left;
+    const Real high_slope = upper_right - upper_left;
+    const Real low = lower_left + at.fx * low_slope;
+    const Real high = upper_left + at.fx * high_slope;
+    const Real slope_y = high - low;
+    return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
+}
+
+template <class Field, class Real>
+inline Sample<Real> sample(const Field* field, std::int32_t stride, const Stencil<Real>& at) {
+    const Field* p = field + at.base;
+    return bilinear(p[0], p[1], p[stride], p[stride + 1], at);
+}
+
 }  // namespace weir

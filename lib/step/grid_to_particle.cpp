@@ -15,25 +15,6 @@ namespace {
 template <class Real>
 constexpr Real kSmoothing = Real(1.0 / 6.0);
 
-template <class Real>
-struct Sample {
-    Real value;
-    Real slope_x;
-    Real slope_y;
-};
-
-/// Bilinear value and its gradient, per cell.
-template <class Field, class Real>
-inline Sample<Real> sample(const Field* field, std::int32_t stride, const Stencil<Real>& at) {
-    const Field* p = field + at.base;
-    const Real low_slope = p[1] - p[0];
-    const Real high_slope = p[stride + 1] - p[stride];
-    const Real low = p[0] + at.fx * low_slope;
-    const Real high = p[stride] + at.fx * high_slope;
-    const Real slope_y = high - low;
-    return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
-}
-
 /// Lowest and highest of a face and the four around it.
 template <class Real>
 struct Range {

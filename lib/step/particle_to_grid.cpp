@@ -1,5 +1,6 @@
 #include "step/particle_to_grid.hpp"
 
+#include "step/scatter.hpp"
 #include "step/thin_transfer.hpp"
 #include "step/transfer_lanes.hpp"
 #include "step/transfer_packed.hpp"
@@ -8,40 +9,12 @@ namespace weir {
 
 namespace {
 
-template <class Mass, class Real>
-inline void scatter(Mass* mass, Real* momentum, std::int32_t stride, const Stencil<Real>& at,
-                    Real velocity) {
-    const Real w1 = at.fx * at.fy;
-    const Real right = at.fx - w1;                       // fx (1 − fy)
-    const Real upper = at.fy - w1;                       // (1 − fx) fy
-    const Real w0 = (Real(1) - at.fx) - upper;           // (1 − fx)(1 − fy)
-    Mass* m = mass + at.base;
-    Real* p = momentum + at.base;
-    m[0] += w0;
-    p[0] += w0 * velocity;
-    m[1] += right;
-    p[1] += right * velocity;
-    m[stride] += upper;
-    p[stride] += upper * velocity;
-    m[stride + 1] += w1;
-    p[stride + 1] += w1 * velocity;
-}
-
-/// The same, and the mass of a particle of that density.
-template <class Mass, class Real>
-inline void scatter_mixed(Mass* volume, Mass* mass, Real* momentum, std::int32_t stride,
-                          const Stencil<Real>& at, Real density, Real velocity) {
-    const Real w1 = at.fx * at.fy;
-    const Real right = at.fx - w1;
-    const Real upper = at.fy - w1;
-    const Real weight[] = {(Real(1) - at.fx) - upper, right, upper, w1};
-    const std::int32_t node[] = {at.base, at.base + 1, at.base + stride, at.base + stride + 1};
-    for (std::int32_t k = 0; k < 4; ++k) {
-        const Real share = weight[k] * density;
-        volume[node[k]] += weight[k];
-        mass[node[k]] += share;
-        momentum[node[k]] += share * velocity;
-    }
+template <class Real>
+void clear_faces(const StaggeredGrid<Real>& grid, const Part& rows) {
+    clear_rows(grid.shape, rows, grid.momentum_u());
+    clear_rows(grid.shape, rows, grid.momentum_v());
+    clear_rows(grid.shape, rows, grid.mass_u);
+    clear_rows(grid.shape, rows, grid.mass_v);
 }
 
 template <class Real>
@@ -50,10 +23,7 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
                          const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
     const Part rows = work.take(shape.ny + 2, shape.nx + 2);
-    clear_rows(shape, rows, grid.momentum_u());
-    clear_rows(shape, rows, grid.momentum_v());
-    clear_rows(shape, rows, grid.mass_u);
-    clear_rows(shape, rows, grid.mass_v);
+    clear_faces(grid, rows);
     clear_rows(shape, rows, grid.inverse_density_u);
     clear_rows(shape, rows, grid.inverse_density_v);
     const Part part = work.take(particles.count, 1);
@@ -65,10 +35,10 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
-        scatter_mixed(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), shape.stride,
-                      stencil_u(shape, x), density, v.x);
-        scatter_mixed(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), shape.stride,
-                      stencil_v(shape, x), density, v.y);
+        scatter_weighed<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), shape.stride,
+                              stencil_u(shape, x), density, v.x, kAllFour);
+        scatter_weighed<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), shape.stride,
+                              stencil_v(shape, x), density, v.y, kAllFour);
     }
     if (work.once(shape.border())) {
         StaggeredGrid<Real> by_mass = grid;
@@ -81,13 +51,10 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
 
 template <class Real>
 std::int32_t scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid,
-                        const ThinWalls<Real>* thin, Work work) {
+                                const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
     const Part rows = work.take(shape.ny + 2, shape.nx + 2);
-    clear_rows(shape, rows, grid.momentum_u());
-    clear_rows(shape, rows, grid.momentum_v());
-    clear_rows(shape, rows, grid.mass_u);
-    clear_rows(shape, rows, grid.mass_v);
+    clear_faces(grid, rows);
     const Part part = work.take(particles.count, 1);
     if constexpr (Stored<Real>::coarse) {
         return scatter_packed(particles.part(part.first, part.end - part.first), grid);

@@ -2,6 +2,7 @@
 
 #include "fluid/particles.hpp"
 #include "math/lanes.hpp"
+#include "step/scatter.hpp"
 #include "step/tank_walls.hpp"
 
 namespace weir {
@@ -11,15 +12,8 @@ namespace {
 /// Value and slopes from the four faces of a stencil, `step` numbers apart, of which `seen` tells
 /// those that count. At least one does.
 template <class Real>
-struct SeenSample {
-    Real value;
-    Real slope_x;
-    Real slope_y;
-};
-
-template <class Real>
-SeenSample<Real> sample_seen(const VelocityOf<Real>* field, std::int32_t step, std::int32_t stride,
-                             const Stencil<Real>& at, std::uint32_t seen) {
+Sample<Real> sample_seen(const VelocityOf<Real>* field, std::int32_t step, std::int32_t stride,
+                         const Stencil<Real>& at, std::uint32_t seen) {
     const VelocityOf<Real>* p = field + step * at.base;
     Real face[4] = {Real(p[0]), Real(p[step]), Real(p[step * stride]),
                     Real(p[step * (stride + 1)])};
@@ -37,12 +31,7 @@ SeenSample<Real> sample_seen(const VelocityOf<Real>* field, std::int32_t step, s
             }
         }
     }
-    const Real low_slope = face[1] - face[0];
-    const Real high_slope = face[3] - face[2];
-    const Real low = face[0] + at.fx * low_slope;
-    const Real high = face[2] + at.fx * high_slope;
-    const Real slope_y = high - low;
-    return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
+    return bilinear(face[0], face[1], face[2], face[3], at);
 }
 
 /// Where velocity and change of a component lie, and how many numbers apart two faces are.
@@ -66,31 +55,6 @@ void components(const StaggeredGrid<Real>& grid, Component<Real>& u, Component<R
     v = {grid.v, grid.mass_v, 1};
 }
 
-constexpr std::uint32_t kAllFour = 15U;
-
-/// One component. `mass` null: one liquid, whose count is its mass.
-template <class Real>
-void scatter_seen(VelocityOf<Real>* volume, VelocityOf<Real>* mass, Real* momentum,
-                  std::int32_t stride, const Stencil<Real>& at, Real density, Real velocity,
-                  std::uint32_t seen) {
-    const Real w1 = at.fx * at.fy;
-    const Real right = at.fx - w1;
-    const Real upper = at.fy - w1;
-    const Real weight[] = {(Real(1) - at.fx) - upper, right, upper, w1};
-    const std::int32_t node[] = {at.base, at.base + 1, at.base + stride, at.base + stride + 1};
-    for (std::uint32_t k = 0; k < 4; ++k) {
-        if ((seen >> k & 1U) == 0) {
-            continue;
-        }
-        const Real share = weight[k] * density;
-        volume[node[k]] += weight[k];
-        if (mass != nullptr) {
-            mass[node[k]] += share;
-        }
-        momentum[node[k]] += share * velocity;
-    }
-}
-
 }  // namespace
 
 template <class Real>
@@ -104,10 +68,10 @@ void scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>&
         const Real density = second ? second_density : Real(1);
         const std::uint32_t seen =
             beside_thin_wall(thin, s, x) ? seen_faces(thin, s, x) : 0xFFU;
-        scatter_seen<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), s.stride,
-                           stencil_u(s, x), density, v.x, seen & kAllFour);
-        scatter_seen<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), s.stride,
-                           stencil_v(s, x), density, v.y, seen >> 4U);
+        scatter_weighed<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), s.stride,
+                              stencil_u(s, x), density, v.x, seen & kAllFour);
+        scatter_weighed<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), s.stride,
+                              stencil_v(s, x), density, v.y, seen >> 4U);
     }
 }
 
@@ -138,12 +102,12 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         const Stencil<Real> at_v = stencil_v(s, x);
         const std::uint32_t seen_u = seen & kAllFour;
         const std::uint32_t seen_v = seen >> 4U;
-        const SeenSample<Real> u =
+        const Sample<Real> u =
             seen_u != 0 ? sample_seen<Real>(on_u.velocity, on_u.step, s.stride, at_u, seen_u)
-                        : SeenSample<Real>{v.x + fall.x, Real(0), Real(0)};
-        const SeenSample<Real> w =
+                        : Sample<Real>{v.x + fall.x, Real(0), Real(0)};
+        const Sample<Real> w =
             seen_v != 0 ? sample_seen<Real>(on_v.velocity, on_v.step, s.stride, at_v, seen_v)
-                        : SeenSample<Real>{v.y + fall.y, Real(0), Real(0)};
+                        : Sample<Real>{v.y + fall.y, Real(0), Real(0)};
         v.x = seen_u != 0
                   ? transfer.flip_ratio * v.x +
                         sample_seen<Real>(on_u.change, on_u.step, s.stride, at_u, seen_u).value

@@ -66,13 +66,13 @@ inline bool scatter(Speed* mass, Real* momentum, std::int32_t stride, const Poin
 }
 
 /// Of a field in 128ths.
-struct Sample {
+struct PackedSample {
     std::int32_t value;    ///< 2^−15
     std::int32_t slope_x;  ///< per cell, 128ths
     std::int32_t slope_y;
 };
 
-inline Sample sample(const Speed* field, std::int32_t stride, const Point& at) {
+inline PackedSample sample(const Speed* field, std::int32_t stride, const Point& at) {
     const Speed* p = field + at.base;
     const std::int32_t low_left = p[0].raw;
     const std::int32_t low_slope = p[1].raw - low_left;
@@ -102,7 +102,7 @@ Clock clock_of(Seconds<Real> dt_s) {
 }
 
 /// The way of second order along an axis, u dt + ½ dt² ∇u · u, in 2^−14 cells.
-inline std::int32_t way_along(const Clock& clock, std::int32_t way, const Sample& at,
+inline std::int32_t way_along(const Clock& clock, std::int32_t way, const PackedSample& at,
                               std::int32_t way_x, std::int32_t way_y) {
     const std::int32_t turn_x = (at.slope_x * clock.scale) >> (clock.shift + 5);
     const std::int32_t turn_y = (at.slope_y * clock.scale) >> (clock.shift + 5);
@@ -191,8 +191,8 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
         const Vec2<std::int32_t> velocity{
             (limits.flip * particles.velocity[k].x.raw + change_u * 64 + (1 << 13)) >> 14,
             (limits.flip * particles.velocity[k].y.raw + change_v * 64 + (1 << 13)) >> 14};
-        const Sample u = sample(grid.u, stride, at_u);
-        const Sample v = sample(grid.v, stride, at_v);
+        const PackedSample u = sample(grid.u, stride, at_u);
+        const PackedSample v = sample(grid.v, stride, at_v);
         const std::int32_t way_x = (((u.value + 128) >> 8) * clock.scale) >> clock.shift;
         const std::int32_t way_y = (((v.value + 128) >> 8) * clock.scale) >> clock.shift;
         Vec2<std::int32_t> way{way_x, way_y};
