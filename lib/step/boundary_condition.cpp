@@ -1,7 +1,7 @@
 #include "step/boundary_condition.hpp"
 
 #include "fluid/particles.hpp"
-#include "solid/reflect.hpp"
+#include "solid/face_axis.hpp"
 
 namespace weir {
 
@@ -40,12 +40,11 @@ struct Edge {
 
 template <class Real>
 Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& edge,
-                       Real distance, Vec2<Real> gradient) {
+                       Real distance, Vec2<Real> normal) {
     Mirror<Real> mirror;
     const Vec2<Real> face = edge.centre;
     mirror.face = face;
-    const Real steepness = length(gradient);
-    mirror.normal = steepness > Real(0) ? (Real(1) / steepness) * gradient : Vec2<Real>{};
+    mirror.normal = normal;
     mirror.wall = wall_velocity(walls, edge.a, edge.b, face);
     const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
     if (slot != kNoBody) {
@@ -153,57 +152,37 @@ bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_
     return !(distance < kDeepestMirror<Real>);
 }
 
-template <class Real>
-Real mirror_u(const Walls<Real>& walls, const Field<Real>& field, std::int32_t i,
-              std::int32_t j) {
+template <class Real, bool IsU>
+Real mirror_face(const FaceAxis<IsU, Real>& axis, const Field<Real>& field, std::int32_t i,
+                 std::int32_t j) {
     const GridShape& s = field.velocity.shape;
-    const std::int32_t low = s.index(i, j);
-    const std::int32_t high = low + s.stride;
-    const DistanceOf<Real>* d = walls.distance;
-    const Real distance = Real(0.5) * (d[low] + d[high]);
-    if (!is_mirrored<Real>(walls, walls.open_u[low], distance, low, high)) {
-        return field.velocity.u[low];
+    const std::int32_t face = s.index(i, j);
+    const std::int32_t other = face + axis.other_node();
+    const VelocityOf<Real>* own = IsU ? field.velocity.u : field.velocity.v;
+    const Real distance = axis.distance(face);
+    const Real open = axis.open()[face];
+    if (!is_mirrored<Real>(axis.walls, open, distance, face, other)) {
+        return own[face];
     }
-    const Vec2<Real> gradient{
-        Real(0.25) * ((d[low + 1] + d[high + 1]) - (d[low - 1] + d[high - 1])), d[high] - d[low]};
-    const Vec2<Real> face{static_cast<Real>(i), static_cast<Real>(j) + Real(0.5)};
-    Mirror<Real> mirror = mirror_of(s, walls, {face, low, high}, distance, gradient);
-    mirror.open = walls.open_u[low] > Real(0);
-    return near_liquid(s, field.level, mirror.point) ? field.value(field.velocity, mirror).x
-                                                     : field.velocity.u[low];
-}
-
-template <class Real>
-Real mirror_v(const Walls<Real>& walls, const Field<Real>& field, std::int32_t i,
-              std::int32_t j) {
-    const GridShape& s = field.velocity.shape;
-    const std::int32_t left = s.index(i, j);
-    const std::int32_t right = left + 1;
-    const DistanceOf<Real>* d = walls.distance;
-    const Real distance = Real(0.5) * (d[left] + d[right]);
-    if (!is_mirrored<Real>(walls, walls.open_v[left], distance, left, right)) {
-        return field.velocity.v[left];
-    }
-    const Vec2<Real> gradient{d[right] - d[left],
-                              Real(0.25) * ((d[left + s.stride] + d[right + s.stride]) -
-                                            (d[left - s.stride] + d[right - s.stride]))};
-    const Vec2<Real> face{static_cast<Real>(i) + Real(0.5), static_cast<Real>(j)};
-    Mirror<Real> mirror = mirror_of(s, walls, {face, left, right}, distance, gradient);
-    mirror.open = walls.open_v[left] > Real(0);
-    return near_liquid(s, field.level, mirror.point) ? field.value(field.velocity, mirror).y
-                                                     : field.velocity.v[left];
+    Mirror<Real> mirror =
+        mirror_of(s, axis.walls, {axis.centre(i, j), face, other}, distance, axis.normal(face));
+    mirror.open = open > Real(0);
+    return near_liquid(s, field.level, mirror.point) ? axis.of(field.value(field.velocity, mirror))
+                                                     : Real(own[face]);
 }
 
 template <class Real>
 void mirror_field(const Walls<Real>& walls, const Field<Real>& field, Work work,
                   PressureFields<Real>& fields, VelocityOf<Real>* u, VelocityOf<Real>* v) {
     const GridShape& s = field.velocity.shape;
+    const FaceAxis<true, Real> on_u{s, walls};
+    const FaceAxis<false, Real> on_v{s, walls};
     // All are computed before the first is written: they read each other.
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
             const std::int32_t c = s.index(i, j);
-            fields.divergence[c] = i > 0 ? mirror_u(walls, field, i, j) : Real(u[c]);
-            fields.inverse_diagonal[c] = j > 0 ? mirror_v(walls, field, i, j) : Real(v[c]);
+            fields.divergence[c] = i > 0 ? mirror_face(on_u, field, i, j) : Real(u[c]);
+            fields.inverse_diagonal[c] = j > 0 ? mirror_face(on_v, field, i, j) : Real(v[c]);
         });
     });
     for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {

@@ -2,7 +2,7 @@
 
 #include "grid/diffuse.hpp"
 #include "solid/body_force.hpp"
-#include "solid/reflect.hpp"
+#include "solid/face_axis.hpp"
 
 namespace weir {
 
@@ -12,56 +12,12 @@ namespace {
 template <class Real>
 constexpr Real kLeastWay = Real(0.05);
 
-/// One component's faces: their nodes, and the way to the next face across them.
-template <class Real>
-struct Axis {
-    const GridShape& s;
-    const Walls<Real>& walls;
-    bool is_u;
-
-    std::int32_t other_node() const { return is_u ? s.stride : 1; }
-    Vec2<Real> centre(std::int32_t i, std::int32_t j) const {
-        const Vec2<Real> corner{static_cast<Real>(i), static_cast<Real>(j)};
-        constexpr Real kHalf = Real(0.5);
-        return corner + (is_u ? Vec2<Real>{Real(0), kHalf} : Vec2<Real>{kHalf, Real(0)});
-    }
-    /// Faces beyond the tank's sides are images of those before them.
-    bool in_tank(std::int32_t i, std::int32_t j) const {
-        return is_u ? j >= 0 && j < s.ny : i >= 0 && i < s.nx;
-    }
-    Real of(Vec2<Real> v) const { return is_u ? v.x : v.y; }
-    Real distance(std::int32_t face) const {
-        const DistanceOf<Real>* d = walls.distance;
-        return Real(0.5) * (Real(d[face]) + Real(d[face + other_node()]));
-    }
-    Vec2<Real> gradient(std::int32_t face) const {
-        const DistanceOf<Real>* d = walls.distance + face;
-        const std::int32_t t = s.stride;
-        return is_u ? Vec2<Real>{Real(0.25) * ((d[1] + d[t + 1]) - (d[-1] + d[t - 1])),
-                                 d[t] - d[0]}
-                    : Vec2<Real>{d[1] - d[0], Real(0.25) * ((d[t] + d[t + 1]) -
-                                                            (d[-t] + d[1 - t]))};
-    }
-    Vec2<Real> normal(std::int32_t face) const {
-        const Vec2<Real> along = gradient(face);
-        const Real steepness = length(along);
-        return steepness > Real(0) ? (Real(1) / steepness) * along : Vec2<Real>{};
-    }
-    std::uint16_t sticking(std::int32_t face) const {
-        return sticking_body(walls, face, face + other_node());
-    }
-    Vec2<Real> wall(std::uint16_t slot, Vec2<Real> place, Vec2<Real> n) const {
-        const Body<Real>& body = walls.body[slot];
-        return surface_velocity(body.surface, velocity_at(body, place), n);
-    }
-};
-
 /// Calls visit(i, j, face) for the faces of a component that are no wall of the tank.
-template <class Real, class Visit>
-void for_each_face(const Axis<Real>& axis, Visit visit) {
+template <bool IsU, class Real, class Visit>
+void for_each_face(const FaceAxis<IsU, Real>& axis, Visit visit) {
     const GridShape& s = axis.s;
-    for (std::int32_t j = axis.is_u ? 0 : 1; j < s.ny; ++j) {
-        for (std::int32_t i = axis.is_u ? 1 : 0; i < s.nx; ++i) {
+    for (std::int32_t j = IsU ? 0 : 1; j < s.ny; ++j) {
+        for (std::int32_t i = IsU ? 1 : 0; i < s.nx; ++i) {
             visit(i, j, s.index(i, j));
         }
     }
@@ -82,11 +38,11 @@ Real share_at(Real d) {
 }
 
 /// Mean of the other component's four faces around a face, of those that are not closed.
-template <class Real>
-Real across_at(const Axis<Real>& axis, std::int32_t face, const VelocityOf<Real>* other) {
-    const std::int32_t back = axis.is_u ? 1 : axis.s.stride;
-    const std::int32_t up = axis.is_u ? axis.s.stride : 1;
-    const ShareOf<Real>* open = axis.is_u ? axis.walls.open_v : axis.walls.open_u;
+template <bool IsU, class Real>
+Real across_at(const FaceAxis<IsU, Real>& axis, std::int32_t face, const VelocityOf<Real>* other) {
+    const std::int32_t back = IsU ? 1 : axis.s.stride;
+    const std::int32_t up = IsU ? axis.s.stride : 1;
+    const ShareOf<Real>* open = IsU ? axis.walls.open_v : axis.walls.open_u;
     Real sum = Real(0);
     std::int32_t count = 0;
     const std::int32_t around[] = {face, face - back, face + up, face + up - back};
@@ -99,11 +55,11 @@ Real across_at(const Axis<Real>& axis, std::int32_t face, const VelocityOf<Real>
     return count > 0 ? part_of(sum, count) : Real(0);
 }
 
-template <class Real>
-void centre_component(const Axis<Real>& axis, const VelocityOf<Real>* own,
+template <bool IsU, class Real>
+void centre_component(const FaceAxis<IsU, Real>& axis, const VelocityOf<Real>* own,
                       const VelocityOf<Real>* other, VelocityOf<Real>* velocity,
                       VelocityOf<Real>* before) {
-    const ShareOf<Real>* open = axis.is_u ? axis.walls.open_u : axis.walls.open_v;
+    const ShareOf<Real>* open = axis.open();
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         if (!(open[face] > Real(0))) {
             return;
@@ -117,7 +73,7 @@ void centre_component(const Axis<Real>& axis, const VelocityOf<Real>* own,
         const Vec2<Real> tangent{-n.y, n.x};
         const Real here = own[face];
         const Real there = across_at(axis, face, other);
-        const Vec2<Real> liquid = axis.is_u ? Vec2<Real>{here, there} : Vec2<Real>{there, here};
+        const Vec2<Real> liquid = IsU ? Vec2<Real>{here, there} : Vec2<Real>{there, here};
         const Vec2<Real> on_wall = axis.centre(i, j) - d * n;
         const Real slip = dot(liquid - axis.wall(slot, on_wall, n), tangent);
         const Real less = ((Real(1) - share_at(d)) * slip) * axis.of(tangent);
@@ -135,8 +91,8 @@ struct Pull {
     std::uint16_t slot = kNoBody;
 };
 
-template <class Real>
-Pull<Real> pull_on(const Axis<Real>& axis, const FaceShare<Real>& share,
+template <bool IsU, class Real>
+Pull<Real> pull_on(const FaceAxis<IsU, Real>& axis, const FaceShare<Real>& share,
                    const VelocityOf<Real>* field, std::int32_t i, std::int32_t j, Real d) {
     const std::int32_t face = axis.s.index(i, j);
     const Real own = share.at(face);
@@ -170,8 +126,8 @@ Pull<Real> pull_on(const Axis<Real>& axis, const FaceShare<Real>& share,
     return pull;
 }
 
-template <class Real>
-void diffuse_component(const Axis<Real>& axis, const FaceShare<Real>& share, Real amount,
+template <bool IsU, class Real>
+void diffuse_component(const FaceAxis<IsU, Real>& axis, const FaceShare<Real>& share, Real amount,
                        const VelocityOf<Real>* field, VelocityOf<Real>* out) {
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         const Real d = axis.distance(face);
@@ -191,7 +147,7 @@ void diffuse_component(const Axis<Real>& axis, const FaceShare<Real>& share, Rea
             const Real lost = unbound - bound;
             receive(axis.walls, pull.slot, static_cast<Face<Real>>(share.at(face)),
                     axis.centre(i, j),
-                    axis.is_u ? Vec2<Real>{lost, Real(0)} : Vec2<Real>{Real(0), lost});
+                    IsU ? Vec2<Real>{lost, Real(0)} : Vec2<Real>{Real(0), lost});
         }
     });
 }
@@ -206,9 +162,9 @@ void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
     copy_rows(s, copied, grid.mass_u, fields.divergence);
     copy_rows(s, copied, grid.mass_v, fields.inverse_diagonal);
     if (work.once(s.size())) {
-        centre_component<Real>({s, walls, true}, fields.divergence, fields.inverse_diagonal,
+        centre_component<true, Real>({s, walls}, fields.divergence, fields.inverse_diagonal,
                                grid.u, grid.mass_u);
-        centre_component<Real>({s, walls, false}, fields.inverse_diagonal, fields.divergence,
+        centre_component<false, Real>({s, walls}, fields.inverse_diagonal, fields.divergence,
                                grid.v, grid.mass_v);
     }
 }
@@ -219,8 +175,8 @@ void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fiel
     const GridShape& s = grid.shape;
     const FaceShare<Real> on_u{fields.density, nullptr, 1};
     const FaceShare<Real> on_v{fields.density, nullptr, s.stride};
-    diffuse_component<Real>({s, walls, true}, on_u, amount, fields.divergence, grid.u);
-    diffuse_component<Real>({s, walls, false}, on_v, amount, fields.inverse_diagonal, grid.v);
+    diffuse_component<true, Real>({s, walls}, on_u, amount, fields.divergence, grid.u);
+    diffuse_component<false, Real>({s, walls}, on_v, amount, fields.inverse_diagonal, grid.v);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                            \
