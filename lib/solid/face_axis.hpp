@@ -1,4 +1,4 @@
-// Faces of one component beside solids: u where IsU, v otherwise.
+// Faces of one component beside solids.
 #pragma once
 
 #include "grid/staggered_grid.hpp"
@@ -8,23 +8,24 @@
 namespace weir {
 
 /// One component's faces: their nodes, and the way to the next face across them.
-template <bool IsU, class Real>
+template <class Real>
 struct FaceAxis {
     const GridShape& s;
     const Walls<Real>& walls;
+    bool is_u;  ///< else v
 
-    std::int32_t other_node() const { return IsU ? s.stride : 1; }
+    std::int32_t other_node() const { return is_u ? s.stride : 1; }
     Vec2<Real> centre(std::int32_t i, std::int32_t j) const {
         const Vec2<Real> corner{static_cast<Real>(i), static_cast<Real>(j)};
         constexpr Real kHalf = Real(0.5);
-        return corner + (IsU ? Vec2<Real>{Real(0), kHalf} : Vec2<Real>{kHalf, Real(0)});
+        return corner + (is_u ? Vec2<Real>{Real(0), kHalf} : Vec2<Real>{kHalf, Real(0)});
     }
     /// Faces beyond the tank's sides are images of those before them.
     bool in_tank(std::int32_t i, std::int32_t j) const {
-        return IsU ? j >= 0 && j < s.ny : i >= 0 && i < s.nx;
+        return is_u ? j >= 0 && j < s.ny : i >= 0 && i < s.nx;
     }
-    Real of(Vec2<Real> v) const { return IsU ? v.x : v.y; }
-    const ShareOf<Real>* open() const { return IsU ? walls.open_u : walls.open_v; }
+    Real of(Vec2<Real> v) const { return is_u ? v.x : v.y; }
+    const ShareOf<Real>* open() const { return is_u ? walls.open_u : walls.open_v; }
     Real distance(std::int32_t face) const {
         const DistanceOf<Real>* d = walls.distance;
         return Real(0.5) * (Real(d[face]) + Real(d[face + other_node()]));
@@ -32,10 +33,10 @@ struct FaceAxis {
     Vec2<Real> gradient(std::int32_t face) const {
         const DistanceOf<Real>* d = walls.distance + face;
         const std::int32_t t = s.stride;
-        return IsU ? Vec2<Real>{Real(0.25) * ((d[1] + d[t + 1]) - (d[-1] + d[t - 1])),
-                                d[t] - d[0]}
-                   : Vec2<Real>{d[1] - d[0], Real(0.25) * ((d[t] + d[t + 1]) -
-                                                           (d[-t] + d[1 - t]))};
+        return is_u ? Vec2<Real>{Real(0.25) * ((d[1] + d[t + 1]) - (d[-1] + d[t - 1])),
+                                 d[t] - d[0]}
+                    : Vec2<Real>{d[1] - d[0], Real(0.25) * ((d[t] + d[t + 1]) -
+                                                            (d[-t] + d[1 - t]))};
     }
     Vec2<Real> normal(std::int32_t face) const {
         const Vec2<Real> along = gradient(face);

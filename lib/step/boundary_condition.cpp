@@ -152,13 +152,13 @@ bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_
     return !(distance < kDeepestMirror<Real>);
 }
 
-template <class Real, bool IsU>
-Real mirror_face(const FaceAxis<IsU, Real>& axis, const Field<Real>& field, std::int32_t i,
+template <class Real>
+Real mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
                  std::int32_t j) {
     const GridShape& s = field.velocity.shape;
     const std::int32_t face = s.index(i, j);
     const std::int32_t other = face + axis.other_node();
-    const VelocityOf<Real>* own = IsU ? field.velocity.u : field.velocity.v;
+    const VelocityOf<Real>* own = axis.is_u ? field.velocity.u : field.velocity.v;
     const Real distance = axis.distance(face);
     const Real open = axis.open()[face];
     if (!is_mirrored<Real>(axis.walls, open, distance, face, other)) {
@@ -175,8 +175,8 @@ template <class Real>
 void mirror_field(const Walls<Real>& walls, const Field<Real>& field, Work work,
                   PressureFields<Real>& fields, VelocityOf<Real>* u, VelocityOf<Real>* v) {
     const GridShape& s = field.velocity.shape;
-    const FaceAxis<true, Real> on_u{s, walls};
-    const FaceAxis<false, Real> on_v{s, walls};
+    const FaceAxis<Real> on_u{s, walls, true};
+    const FaceAxis<Real> on_v{s, walls, false};
     // All are computed before the first is written: they read each other.
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {

@@ -13,11 +13,11 @@ template <class Real>
 constexpr Real kLeastWay = Real(0.05);
 
 /// Calls visit(i, j, face) for the faces of a component that are no wall of the tank.
-template <bool IsU, class Real, class Visit>
-void for_each_face(const FaceAxis<IsU, Real>& axis, Visit visit) {
+template <class Real, class Visit>
+void for_each_face(const FaceAxis<Real>& axis, Visit visit) {
     const GridShape& s = axis.s;
-    for (std::int32_t j = IsU ? 0 : 1; j < s.ny; ++j) {
-        for (std::int32_t i = IsU ? 1 : 0; i < s.nx; ++i) {
+    for (std::int32_t j = axis.is_u ? 0 : 1; j < s.ny; ++j) {
+        for (std::int32_t i = axis.is_u ? 1 : 0; i < s.nx; ++i) {
             visit(i, j, s.index(i, j));
         }
     }
@@ -38,11 +38,11 @@ Real share_at(Real d) {
 }
 
 /// Mean of the other component's four faces around a face, of those that are not closed.
-template <bool IsU, class Real>
-Real across_at(const FaceAxis<IsU, Real>& axis, std::int32_t face, const VelocityOf<Real>* other) {
-    const std::int32_t back = IsU ? 1 : axis.s.stride;
-    const std::int32_t up = IsU ? axis.s.stride : 1;
-    const ShareOf<Real>* open = IsU ? axis.walls.open_v : axis.walls.open_u;
+template <class Real>
+Real across_at(const FaceAxis<Real>& axis, std::int32_t face, const VelocityOf<Real>* other) {
+    const std::int32_t back = axis.is_u ? 1 : axis.s.stride;
+    const std::int32_t up = axis.is_u ? axis.s.stride : 1;
+    const ShareOf<Real>* open = axis.is_u ? axis.walls.open_v : axis.walls.open_u;
     Real sum = Real(0);
     std::int32_t count = 0;
     const std::int32_t around[] = {face, face - back, face + up, face + up - back};
@@ -55,8 +55,8 @@ Real across_at(const FaceAxis<IsU, Real>& axis, std::int32_t face, const Velocit
     return count > 0 ? part_of(sum, count) : Real(0);
 }
 
-template <bool IsU, class Real>
-void centre_component(const FaceAxis<IsU, Real>& axis, const VelocityOf<Real>* own,
+template <class Real>
+void centre_component(const FaceAxis<Real>& axis, const VelocityOf<Real>* own,
                       const VelocityOf<Real>* other, VelocityOf<Real>* velocity,
                       VelocityOf<Real>* before) {
     const ShareOf<Real>* open = axis.open();
@@ -73,7 +73,7 @@ void centre_component(const FaceAxis<IsU, Real>& axis, const VelocityOf<Real>* o
         const Vec2<Real> tangent{-n.y, n.x};
         const Real here = own[face];
         const Real there = across_at(axis, face, other);
-        const Vec2<Real> liquid = IsU ? Vec2<Real>{here, there} : Vec2<Real>{there, here};
+        const Vec2<Real> liquid = axis.is_u ? Vec2<Real>{here, there} : Vec2<Real>{there, here};
         const Vec2<Real> on_wall = axis.centre(i, j) - d * n;
         const Real slip = dot(liquid - axis.wall(slot, on_wall, n), tangent);
         const Real less = ((Real(1) - share_at(d)) * slip) * axis.of(tangent);
@@ -91,8 +91,8 @@ struct Pull {
     std::uint16_t slot = kNoBody;
 };
 
-template <bool IsU, class Real>
-Pull<Real> pull_on(const FaceAxis<IsU, Real>& axis, const FaceShare<Real>& share,
+template <class Real>
+Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
                    const VelocityOf<Real>* field, std::int32_t i, std::int32_t j, Real d) {
     const std::int32_t face = axis.s.index(i, j);
     const Real own = share.at(face);
@@ -126,8 +126,8 @@ Pull<Real> pull_on(const FaceAxis<IsU, Real>& axis, const FaceShare<Real>& share
     return pull;
 }
 
-template <bool IsU, class Real>
-void diffuse_component(const FaceAxis<IsU, Real>& axis, const FaceShare<Real>& share, Real amount,
+template <class Real>
+void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share, Real amount,
                        const VelocityOf<Real>* field, VelocityOf<Real>* out) {
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         const Real d = axis.distance(face);
@@ -147,7 +147,7 @@ void diffuse_component(const FaceAxis<IsU, Real>& axis, const FaceShare<Real>& s
             const Real lost = unbound - bound;
             receive(axis.walls, pull.slot, static_cast<Face<Real>>(share.at(face)),
                     axis.centre(i, j),
-                    IsU ? Vec2<Real>{lost, Real(0)} : Vec2<Real>{Real(0), lost});
+                    axis.is_u ? Vec2<Real>{lost, Real(0)} : Vec2<Real>{Real(0), lost});
         }
     });
 }
@@ -162,9 +162,9 @@ void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
     copy_rows(s, copied, grid.mass_u, fields.divergence);
     copy_rows(s, copied, grid.mass_v, fields.inverse_diagonal);
     if (work.once(s.size())) {
-        centre_component<true, Real>({s, walls}, fields.divergence, fields.inverse_diagonal,
+        centre_component<Real>({s, walls, true}, fields.divergence, fields.inverse_diagonal,
                                grid.u, grid.mass_u);
-        centre_component<false, Real>({s, walls}, fields.inverse_diagonal, fields.divergence,
+        centre_component<Real>({s, walls, false}, fields.inverse_diagonal, fields.divergence,
                                grid.v, grid.mass_v);
     }
 }
@@ -175,8 +175,8 @@ void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fiel
     const GridShape& s = grid.shape;
     const FaceShare<Real> on_u{fields.density, nullptr, 1};
     const FaceShare<Real> on_v{fields.density, nullptr, s.stride};
-    diffuse_component<true, Real>({s, walls}, on_u, amount, fields.divergence, grid.u);
-    diffuse_component<false, Real>({s, walls}, on_v, amount, fields.inverse_diagonal, grid.v);
+    diffuse_component<Real>({s, walls, true}, on_u, amount, fields.divergence, grid.u);
+    diffuse_component<Real>({s, walls, false}, on_v, amount, fields.inverse_diagonal, grid.v);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                            \

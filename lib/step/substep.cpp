@@ -192,8 +192,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid, work);
     if (plan.viscosity > Real(0)) {
         Impulse<Real>* tank = two_way ? &tank_received(simulation.bodies) : nullptr;
-        diffuse_velocity(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s, grid,
-                         tank, work);
+        const auto stage = Solids ? diffuse_velocity<Real> : diffuse_velocity_in_open<Real>;
+        stage(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s, grid, tank,
+              work);
     }
     clock.charge(Stage::grid_update);
 

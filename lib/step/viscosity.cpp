@@ -32,14 +32,13 @@ void drag_on_tank(const Borders<Real>& b, const GridShape& s, const FaceShare<Re
     }
 }
 
-}  // namespace
-
-template <class Real>
-void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
-                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
-                      Impulse<Real>* tank, Work work) {
+template <bool Solids, class Real>
+void diffuse_faces(const Borders<Real>& borders, const Walls<Real>& walls,
+                   PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
+                   Impulse<Real>* tank, Work work) {
     const GridShape& s = grid.shape;
-    if (walls.sticking) {
+    const bool sticking = Solids && walls.sticking;
+    if (sticking) {
         centre_at_walls(walls, fields, grid, work);
     }
     if (work.once(2 * s.border())) {
@@ -49,12 +48,13 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
     const Part copied = work.take(s.ny + 2, s.nx + 2);
     copy_rows(s, copied, grid.u, fields.divergence);
     copy_rows(s, copied, grid.v, fields.inverse_diagonal);
-    const FaceShare<Real> on_u{fields.density, walls.active ? walls.open_u : nullptr, 1};
-    const FaceShare<Real> on_v{fields.density, walls.active ? walls.open_v : nullptr, s.stride};
+    const bool cut = Solids && walls.active;
+    const FaceShare<Real> on_u{fields.density, cut ? walls.open_u : nullptr, 1};
+    const FaceShare<Real> on_v{fields.density, cut ? walls.open_v : nullptr, s.stride};
     const Part rows = work.take(s.ny, s.nx);
     diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, fields.divergence, grid.u);
     diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, fields.inverse_diagonal, grid.v);
-    if (walls.sticking && work.once(s.size())) {
+    if (sticking && work.once(s.size())) {
         diffuse_to_walls(walls, fields, amount, grid);
     }
     if (tank != nullptr && work.once(2 * s.border())) {
@@ -65,10 +65,29 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                        \
-    template void diffuse_velocity(const Borders<Real>&, const Walls<Real>&,          \
-                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&, \
-                                   Impulse<Real>*, Work);
+}  // namespace
+
+template <class Real>
+void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
+                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
+                      Impulse<Real>* tank, Work work) {
+    diffuse_faces<true>(borders, walls, fields, amount, grid, tank, work);
+}
+
+template <class Real>
+void diffuse_velocity_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
+                              PressureFields<Real>& fields, Real amount,
+                              StaggeredGrid<Real>& grid, Impulse<Real>* tank, Work work) {
+    diffuse_faces<false>(borders, walls, fields, amount, grid, tank, work);
+}
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template void diffuse_velocity(const Borders<Real>&, const Walls<Real>&,                \
+                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&,       \
+                                   Impulse<Real>*, Work);                                   \
+    template void diffuse_velocity_in_open(const Borders<Real>&, const Walls<Real>&,        \
+                                           PressureFields<Real>&, Real,                     \
+                                           StaggeredGrid<Real>&, Impulse<Real>*, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -19,4 +19,10 @@ void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
                       PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
                       Impulse<Real>* tank = nullptr, Work work = {});
 
+/// The same where there are no solids: a program that adds none links nothing of them.
+template <class Real>
+void diffuse_velocity_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
+                              PressureFields<Real>& fields, Real amount,
+                              StaggeredGrid<Real>& grid, Impulse<Real>* tank, Work work);
+
 }  // namespace weir
