@@ -13,9 +13,11 @@ namespace {
 /// Of gnuplot, before they come again: then lines are dashed.
 constexpr std::size_t kColours = 8;
 
-std::string folder_of(const std::string& path) {
+/// Where the CSV goes, and the pictures beside it.
+const std::string& with_folder(const std::string& path) {
     const std::filesystem::path p(path);
-    return (p.parent_path() / p.stem()).string();
+    std::filesystem::create_directories(p.parent_path() / p.stem());
+    return path;
 }
 
 const double* limit_at(const Metric& metric, int cells) {
@@ -37,18 +39,7 @@ std::string plain(std::string text) {
 
 }  // namespace
 
-Report::Report(const std::string& path) : folder_(folder_of(path)) {
-    std::filesystem::create_directories(folder_);
-    csv_ = std::fopen(path.c_str(), "w");
-    if (csv_ == nullptr) {
-        throw std::runtime_error("cannot write " + path);
-    }
-    std::fprintf(csv_, "name,value,unit,target,ok\n");
-}
-
-Report::~Report() {
-    std::fclose(csv_);
-}
+Report::Report(const std::string& path) : measure::Report(with_folder(path)) {}
 
 void Report::heading(const std::string& text) const {
     std::printf("\n%s\n  %-52s %12s %12s %12s %12s %10s\n", text.c_str(), "", "aligned", "shifted",
@@ -56,22 +47,12 @@ void Report::heading(const std::string& text) const {
     std::fflush(stdout);
 }
 
-void Report::row(const std::string& name, double value, const std::string& unit,
-                 const double* limit) {
+void Report::row(const std::string& name, double value, const char* unit, const double* limit) {
     if (limit == nullptr) {
-        std::fprintf(csv_, "%s,%.6g,%s,,\n", name.c_str(), value, unit.c_str());
+        measure::Report::row(name, value, unit);
     } else {
-        const bool ok = std::fabs(value) <= *limit;
-        std::fprintf(csv_, "%s,%.6g,%s,<=%g,%s\n", name.c_str(), value, unit.c_str(), *limit,
-                     ok ? "yes" : "short");
-        ++(ok ? met_ : short_);
-        if (!ok) {
-            char text[160];
-            std::snprintf(text, sizeof text, "%-60s %11.4g  <= %g", name.c_str(), value, *limit);
-            short_names_.emplace_back(text);
-        }
+        measure::Report::row(name, value, unit, "<=", *limit, std::fabs(value) <= *limit);
     }
-    std::fflush(csv_);
 }
 
 void Report::worst_of(const std::string& prefix, const Metric& metric, int cells,
@@ -140,7 +121,7 @@ void Report::convergence(const std::string& prefix, const std::vector<int>& cell
 void Report::plot(const std::string& name, const std::string& x_label,
                   const std::string& y_label, const std::vector<Curve>& curves,
                   const std::string& extra) {
-    const std::string base = folder_ + "/" + plain(name);
+    const std::string base = stem() + "/" + plain(name);
     std::FILE* data = std::fopen((base + ".dat").c_str(), "w");
     std::FILE* script = std::fopen((base + ".gp").c_str(), "w");
     if (data == nullptr || script == nullptr) {
@@ -173,7 +154,7 @@ void Report::plot(const std::string& name, const std::string& x_label,
     std::fclose(data);
     std::fclose(script);
     const std::string command =
-        "cd '" + folder_ + "' && gnuplot '" + plain(name) + ".gp' 2> /dev/null";
+        "cd '" + stem() + "' && gnuplot '" + plain(name) + ".gp' 2> /dev/null";
     if (std::system(command.c_str()) != 0) {
         std::printf("  (not drawn: %s.gp)\n", base.c_str());
     }
@@ -181,15 +162,12 @@ void Report::plot(const std::string& name, const std::string& x_label,
 
 void Report::broken(const std::string& what) {
     std::printf("  BROKEN: %s\n", what.c_str());
-    std::fprintf(csv_, "%s,1,1,==0,short\n", plain(what).c_str());
+    measure::Report::row(plain(what), 1.0, "1", "==", 0.0, false);
     broken_ = true;
 }
 
 void Report::summary() {
-    std::printf("\n%d targets met, %d short\n", met_, short_);
-    for (const std::string& name : short_names_) {
-        std::printf("  short: %s\n", name.c_str());
-    }
+    measure::Report::summary();
     std::vector<Curve> curves;
     for (const auto& [name, ratios] : over_target_) {
         if (*std::max_element(ratios.y.begin(), ratios.y.end()) > 1.0) {

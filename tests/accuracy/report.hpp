@@ -1,7 +1,6 @@
 // The table for people, the CSV for programs, the curves for gnuplot.
 #pragma once
 
-#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "analysis.hpp"
 #include "case.hpp"
+#include "measure/report.hpp"
 
 namespace accuracy {
 
@@ -27,18 +27,14 @@ struct Curve {
     int colour = 0;  ///< gnuplot's line colour; 0: its next one, black for points
 };
 
-class Report {
+class Report : public measure::Report {
 public:
     /// Writes `path` and, beside it, a folder of curves and pictures of the same name.
     explicit Report(const std::string& path);
-    Report(const Report&) = delete;
-    Report& operator=(const Report&) = delete;
-    ~Report();
 
     void heading(const std::string& text) const;
     /// A line of the CSV; `limit` empty where there is none. Not printed.
-    void row(const std::string& name, double value, const std::string& unit,
-             const double* limit);
+    void row(const std::string& name, double value, const char* unit, const double* limit);
     /// A line of the table and of the CSV: a figure for each lattice, the worst counts.
     void worst_of(const std::string& prefix, const Metric& metric, int cells,
                   const std::vector<double>& per_lattice);
@@ -60,12 +56,7 @@ public:
     void summary();
 
 private:
-    std::FILE* csv_ = nullptr;
-    std::string folder_;
     bool broken_ = false;
-    int met_ = 0;
-    int short_ = 0;
-    std::vector<std::string> short_names_;
     std::map<std::string, Signal> over_target_;  ///< by metric: cells, |error| / target
 };
 

@@ -26,12 +26,16 @@ void Report::heading(const std::string& text) const {
 void Report::figure(const std::string& name, double value, const char* unit) {
     std::printf("  %-62s %12.5g %s\n", name.c_str(), value, unit);
     std::fflush(stdout);
-    std::fprintf(csv_, "%s,%.7g,%s,,\n", name.c_str(), value, unit);
-    std::fflush(csv_);
+    row(name, value, unit);
 }
 
 void Report::row(const std::string& name, const char* value) {
     std::fprintf(csv_, "%s,%s,1,,\n", name.c_str(), value);
+    std::fflush(csv_);
+}
+
+void Report::row(const std::string& name, double value, const char* unit) {
+    std::fprintf(csv_, "%s,%.7g,%s,,\n", name.c_str(), value, unit);
     std::fflush(csv_);
 }
 

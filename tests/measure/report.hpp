@@ -31,8 +31,9 @@ public:
     void summary() const;
 
 protected:
-    /// Of the CSV alone; `value` any text. @return `ok`.
+    /// Of the CSV alone: any text, a figure, a figure with a target. @return `ok`.
     void row(const std::string& name, const char* value);
+    void row(const std::string& name, double value, const char* unit);
     bool row(const std::string& name, double value, const char* unit, const char* sign,
              double limit, bool ok);
 
