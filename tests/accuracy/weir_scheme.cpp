@@ -6,6 +6,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "measure/world_memory.hpp"
 #include "weir/weir.hpp"
 #include "world/world_state.hpp"
 
@@ -47,16 +48,11 @@ template <class Real>
 class WeirScheme final : public Scheme {
 public:
     explicit WeirScheme(weir::Pressure pressure) : pressure_(pressure) {}
-    WeirScheme(const WeirScheme&) = delete;
-    WeirScheme& operator=(const WeirScheme&) = delete;
-    ~WeirScheme() override { release(); }
 
     void start(const Setup& setup, const Particles& particles) override {
         const weir::WorldDef def = definition(setup, pressure_, particles.size());
-        const std::size_t bytes = weir::world_bytes<Real>(def.capacity);
-        release();
-        memory_ = ::operator new(bytes, std::align_val_t{weir::world_alignment});
-        check(world_.init(def, memory_, bytes));
+        memory_ = measure::memory_for<Real>(def);
+        check(world_.init(def, memory_.data(), memory_.size()));
         for (const Particle& p : particles) {
             check(world_.add_particle({narrow(p.x.x), narrow(p.x.y)},
                                       {narrow(p.v.x), narrow(p.v.y)}));
@@ -133,20 +129,16 @@ private:
         }
         return weir::clamp(Real(x), weir::kWallGap<Real>, Real(cells) - weir::kWallGap<Real>);
     }
-    State& state() { return *std::launder(static_cast<State*>(memory_)); }
+    State& state() { return *std::launder(static_cast<State*>(static_cast<void*>(memory_.data()))); }
     static void check(weir::Status status) {
         if (status != weir::Status::ok) {
             throw std::runtime_error(weir::status_text(status));
         }
     }
-    void release() {
-        ::operator delete(memory_, std::align_val_t{weir::world_alignment});
-        memory_ = nullptr;
-    }
 
     weir::Pressure pressure_;
     weir::World<Real> world_{};
-    void* memory_ = nullptr;
+    measure::WorldMemory memory_;
     float step_ = 0.0F;
     bool periodic_x_ = false;
     bool periodic_y_ = false;

@@ -12,10 +12,10 @@
 #include <ctime>
 #include <map>
 #include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "port/port.hpp"
 #include "runners.hpp"
 #include "weir/weir.hpp"
@@ -44,12 +44,9 @@ public:
         def.keep_sorted = particles >= 100000;
         def.ticks = port::ticks;
         def.parallel_for = shared ? port::parallel_for : nullptr;
-        const std::size_t bytes = weir::world_bytes<float>(def.capacity);
-        memory_.reset(static_cast<std::byte*>(
-            ::operator new(bytes, std::align_val_t{weir::world_alignment})));
-        bytes_ = bytes;
+        memory_ = measure::memory_for<float>(def);
         const float size = kCell * static_cast<float>(side);
-        sound_ = world_.init(def, memory_.get(), bytes) == weir::Status::ok &&
+        sound_ = world_.init(def, memory_.data(), memory_.size()) == weir::Status::ok &&
                  (!solids || put_solids(size)) &&
                  world_.fill({{0.0F, 0.0F}, {size, static_cast<float>(particles) * 0.25F * kCell /
                                                        static_cast<float>(side)}}) ==
@@ -60,16 +57,10 @@ public:
     }
 
     bool sound() const { return sound_; }
-    std::size_t bytes() const { return bytes_; }
+    std::size_t bytes() const { return memory_.size(); }
     weir::StepReport step() { return world_.step(kFrame); }
 
 private:
-    struct Release {
-        void operator()(std::byte* memory) const {
-            ::operator delete(memory, std::align_val_t{weir::world_alignment});
-        }
-    };
-
     bool put_solids(float size) {
         const weir::Vec2f ramp[] = {{0.0F, 0.0F}, {0.4F * size, 0.0F}, {0.4F * size, 0.2F * size}};
         const weir::Vec2f block[] = {{-0.1F * size, -0.05F * size}, {0.1F * size, -0.05F * size},
@@ -85,8 +76,7 @@ private:
                world_.add_moving_body(turning, &id) == weir::Status::ok;
     }
 
-    std::unique_ptr<std::byte, Release> memory_;
-    std::size_t bytes_ = 0;
+    measure::WorldMemory memory_;
     weir::World<float> world_;
     bool sound_ = false;
 };

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <cstdio>
-#include <new>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "paper_scaling.hpp"
 #include "weir/weir.hpp"
 
@@ -76,13 +76,6 @@ private:
 
 class WeirRunner final : public Runner {
 public:
-    WeirRunner() = default;
-    WeirRunner(const WeirRunner&) = delete;
-    WeirRunner& operator=(const WeirRunner&) = delete;
-    ~WeirRunner() override {
-        ::operator delete(memory_, std::align_val_t{weir::world_alignment});
-    }
-
     weir::Status set_up(const Scene& scene, bool interaction) {
         weir::WorldDef def;
         def.capacity.particles = static_cast<std::int32_t>(scene.particles.size());
@@ -96,9 +89,8 @@ public:
         }
         def.cell_m = scene.cell_m;
         def.gravity_mps2 = {0.0F, -scene.gravity_mps2};
-        const std::size_t bytes = weir::world_bytes<float>(def.capacity);
-        memory_ = ::operator new(bytes, std::align_val_t{weir::world_alignment});
-        weir::Status status = world_.init(def, memory_, bytes);
+        memory_ = measure::memory_for<float>(def);
+        weir::Status status = world_.init(def, memory_.data(), memory_.size());
         for (std::size_t k = 0; interaction && k < scene.solids.size(); ++k) {
             status = status == weir::Status::ok ? add(scene.solids[k], scene.cell_m) : status;
         }
@@ -138,7 +130,7 @@ private:
     }
 
     weir::World<float> world_{};
-    void* memory_ = nullptr;
+    measure::WorldMemory memory_;
 };
 
 }  // namespace

@@ -4,10 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
-#include <new>
 
-#include "weir/weir.hpp"
+#include "measure/world_memory.hpp"
 
 namespace skip {
 
@@ -127,11 +125,9 @@ extern "C" __attribute__((noinline)) void weir_skip_measured(World<float>& world
 
 Run run(const Case& which, Way way) {
     Scene scene = scene_of(which.name, way);
-    const std::size_t bytes = world_bytes<float>(scene.def.capacity);
-    const std::unique_ptr<void, void (*)(void*)> memory(
-        std::aligned_alloc(world_alignment, bytes), std::free);
+    const auto memory = measure::memory_for<float>(scene.def);
     World<float> world;
-    require(world.init(scene.def, memory.get(), bytes));
+    require(world.init(scene.def, memory.data(), memory.size()));
     for (int k = 0; k < scene.bodies; ++k) {
         BodyId id;
         scene.body.motion.position_m = scene.places[k];
@@ -145,7 +141,7 @@ Run run(const Case& which, Way way) {
     Run result;
     const auto start = std::chrono::steady_clock::now();
     weir_skip_measured(world, scene, result);
-    result.world_bytes = bytes;
+    result.world_bytes = memory.size();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

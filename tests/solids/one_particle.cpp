@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "problems.hpp"
 #include "vessel.hpp"
 
@@ -42,7 +43,7 @@ public:
         def.capacity.vertices = 4;
         def.contour = contour;
         def.gravity_mps2 = {};
-        memory_.resize(weir::world_bytes<float>(def.capacity) / sizeof(Line) + 1);
+        memory_ = measure::memory_for<float>(def);
         std::vector<weir::Vec2f> ring;
         for (const Vec p : half_plane(n)) {
             ring.push_back({static_cast<float>(p.x) * kCell_m, static_cast<float>(p.y) * kCell_m});
@@ -51,7 +52,7 @@ public:
         body.polygon = {ring.data(), 4};
         body.surface.restitution = 1.0F;
         weir::BodyId id;
-        ok_ = world_.init(def, memory_.data(), memory_.size() * sizeof(Line)) ==
+        ok_ = world_.init(def, memory_.data(), memory_.size()) ==
                   weir::Status::ok &&
               world_.add_static_body(body, &id) == weir::Status::ok;
     }
@@ -97,11 +98,8 @@ public:
     bool ok() const { return ok_; }
 
 private:
-    struct alignas(weir::world_alignment) Line {
-        std::byte bytes[weir::world_alignment];
-    };
     Vec n_;
-    std::vector<Line> memory_;
+    measure::WorldMemory memory_;
     weir::World<float> world_{};
     bool ok_ = false;
 };

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
-#include <new>
 #include <stdexcept>
 
 #include "math/vec2.hpp"
+#include "measure/world_memory.hpp"
 
 namespace solids {
 
@@ -67,20 +66,14 @@ PourResult pour(const ListedPolygon& drawn) {
     def.capacity.particles = 4000;
     def.capacity.bodies = 1;
     def.capacity.vertices = weir::kMaxBodyVertices;
-    const std::size_t bytes = weir::world_bytes<float>(def.capacity);
-    const auto release = [](std::byte* memory) {
-        ::operator delete(memory, std::align_val_t{weir::world_alignment});
-    };
-    const std::unique_ptr<std::byte, decltype(release)> memory(
-        static_cast<std::byte*>(::operator new(bytes, std::align_val_t{weir::world_alignment})),
-        release);
+    const auto memory = measure::memory_for<float>(def);
     weir::World<float> world;
     const auto require = [&](weir::Status status) {
         if (status != weir::Status::ok) {
             throw std::runtime_error(polygon.name + ": " + weir::status_text(status));
         }
     };
-    require(world.init(def, memory.get(), bytes));
+    require(world.init(def, memory.data(), memory.size()));
     std::vector<weir::View<weir::Vec2f>> views;
     weir::BodyDef body = body_of(polygon, views);
     const weir::Vec2f at{12.3F, 2.7F};  // off the grid's lines

@@ -1,12 +1,10 @@
 // A world in memory of its own, for problems of whole worlds.
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <new>
 #include <stdexcept>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "weir/weir.hpp"
 
 namespace solids {
@@ -20,22 +18,14 @@ inline void require(weir::Status status) {
 template <class Real>
 class Tank {
 public:
-    explicit Tank(const weir::WorldDef& def) : bytes_(weir::world_bytes<Real>(def.capacity)) {
-        memory_.reset(static_cast<std::byte*>(
-            ::operator new(bytes_, std::align_val_t{weir::world_alignment})));
-        require(world_.init(def, memory_.get(), bytes_));
+    explicit Tank(const weir::WorldDef& def) : memory_(measure::memory_for<Real>(def)) {
+        require(world_.init(def, memory_.data(), memory_.size()));
     }
     weir::World<Real>* operator->() { return &world_; }
     weir::World<Real>& operator*() { return world_; }
 
 private:
-    struct Release {
-        void operator()(std::byte* memory) const {
-            ::operator delete(memory, std::align_val_t{weir::world_alignment});
-        }
-    };
-    std::size_t bytes_;
-    std::unique_ptr<std::byte, Release> memory_;
+    measure::WorldMemory memory_;
     weir::World<Real> world_;
 };
 

@@ -2,12 +2,11 @@
 // straight and leaning. Nothing passes, the level stays, and the dry side knows nothing of it.
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "problems.hpp"
 #include "weir/weir.hpp"
 
@@ -68,11 +67,8 @@ void hold(Report& report, const Wall& wall, std::int32_t steps) {
     def.capacity.bodies = 1;
     def.capacity.vertices = 8;
     def.capacity.wall_edges = 700;
-    std::vector<std::byte> memory(weir::world_bytes<float>(def.capacity) + 16);
+    const auto memory = measure::memory_for<float>(def);
     weir::World<float> world;
-    void* aligned = memory.data();
-    std::size_t room = memory.size();
-    std::align(weir::world_alignment, room - 16, aligned, room);
     const std::string name = std::string("thin.") + wall.name;
     const float foot = 20.37F;
     const float length = 1.5F * static_cast<float>(rows);
@@ -88,7 +84,7 @@ void hold(Report& report, const Wall& wall, std::int32_t steps) {
     body.motion.position_m = {foot * kCell, 0.0F};
     body.motion.angle_rad = wall.lean_rad;
     weir::BodyId id;
-    if (world.init(def, aligned, room) != weir::Status::ok ||
+    if (world.init(def, memory.data(), memory.size()) != weir::Status::ok ||
         world.add_static_body(body, &id) != weir::Status::ok) {
         report.holds(name + ".set_up", false);
         return;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "measure/random.hpp"
+#include "measure/world_memory.hpp"
 #include "problems.hpp"
 #include "weir/weir.hpp"
 
@@ -181,11 +181,8 @@ public:
         def.flip_ratio = 1.0F;
         def.cfl = 2.0F;
         def.max_substeps = 2;
-        memory_.resize(weir::world_bytes<float>(def.capacity) + weir::world_alignment);
-        void* aligned = memory_.data();
-        std::size_t room = memory_.size();
-        std::align(weir::world_alignment, room - weir::world_alignment, aligned, room);
-        ready_ = world_.init(def, aligned, room) == weir::Status::ok;
+        memory_ = measure::memory_for<float>(def);
+        ready_ = world_.init(def, memory_.data(), memory_.size()) == weir::Status::ok;
         const std::int32_t bodies = random_.integer(2, 5);
         if (divided_) {
             add(divider(random_));
@@ -307,7 +304,7 @@ private:
     }
 
     Random random_;
-    std::vector<std::byte> memory_;
+    measure::WorldMemory memory_;
     weir::World<float> world_;
     std::vector<Shape> shapes_;
     std::vector<std::int32_t> inside_for_;  ///< steps, by particle

@@ -66,8 +66,8 @@ Pool::Pool(const Vessel& vessel) : vessel_(vessel) {
     }
     const Vec down = vessel.gravity_tilts ? vessel.turned({0.0, -9.81}) : Vec{0.0, -9.81};
     def.gravity_mps2 = weir::convert<float>(down);
-    memory_.resize(weir::world_bytes<float>(def.capacity) / sizeof(Line) + 1);
-    require(world_.init(def, memory_.data(), memory_.size() * sizeof(Line)));
+    memory_ = measure::memory_for<float>(def);
+    require(world_.init(def, memory_.data(), memory_.size()));
     for (const Points& wall : vessel.walls) {
         std::vector<weir::Vec2f> ring;
         for (const Vec p : wall) {

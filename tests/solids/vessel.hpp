@@ -4,9 +4,9 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "node_field.hpp"
 #include "weir/weir.hpp"
 
@@ -54,11 +54,8 @@ public:
     const weir::StepReport& report() const { return report_; }
 
 private:
-    struct alignas(weir::world_alignment) Line {
-        std::byte bytes[weir::world_alignment];
-    };
     Vessel vessel_;
-    std::vector<Line> memory_;
+    measure::WorldMemory memory_;
     weir::World<float> world_{};
     weir::StepReport report_{};
 };

@@ -55,10 +55,10 @@ weir::WorldDef tank_def(const Scheme& scheme, std::int32_t cells_x, std::int32_t
 template <class Real>
 Tank<Real>::Tank(const weir::WorldDef& def, unsigned char dirt)
     : def_(def),
-      memory_(weir::world_bytes<Real>(def.capacity) / sizeof(Line)),
+      memory_(measure::memory_for<Real>(def)),
       gravity_mps2_(def.gravity_mps2) {
-    std::memset(static_cast<void*>(memory_.data()), dirt, memory_.size() * sizeof(Line));
-    require(world_.init(def, memory_.data(), memory_.size() * sizeof(Line)));
+    std::memset(memory_.data(), dirt, memory_.size());
+    require(world_.init(def, memory_.data(), memory_.size()));
 }
 
 template <class Real>

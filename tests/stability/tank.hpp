@@ -2,11 +2,11 @@
 // are written in cells; a cell's edge is a power of two of a metre, so nothing is rounded between.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "weir/weir.hpp"
 
 namespace stability {
@@ -108,9 +108,6 @@ public:
     std::int32_t particles() const { return expected_; }
 
 private:
-    struct alignas(weir::world_alignment) Line {
-        std::byte bytes[weir::world_alignment];
-    };
     weir::BodyId add_body(const Ring& ring, const weir::Motion& motion, float restitution,
                           bool moving);
     bool consistent(const weir::StepReport& report, float dt_s, double fastest) const;
@@ -123,7 +120,7 @@ private:
     }
 
     weir::WorldDef def_;
-    std::vector<Line> memory_;
+    measure::WorldMemory memory_;
     weir::World<Real> world_;
     weir::Vec2f gravity_mps2_;
     std::int32_t expected_ = 0;

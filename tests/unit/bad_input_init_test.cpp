@@ -2,10 +2,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "bad_input.hpp"
+#include "measure/world_memory.hpp"
 
 namespace weir {
 namespace {
@@ -243,11 +243,8 @@ TEST(BadInput, LimitsAreInside) {
     const auto accepted = [](const std::function<void(WorldDef&)>& change) {
         WorldDef def = small_def();
         change(def);
-        std::vector<std::byte> memory(world_bytes<float>(def.capacity) + world_alignment);
-        void* start = memory.data();
-        std::size_t room = memory.size();
-        std::align(world_alignment, world_bytes<float>(def.capacity), start, room);
-        return World<float>().init(def, start, world_bytes<float>(def.capacity));
+        const auto memory = measure::memory_for<float>(def);
+        return World<float>().init(def, memory.data(), memory.size());
     };
     EXPECT_EQ(accepted([](WorldDef& def) { def.capacity.cells_x = kMinCells; }), Status::ok);
     EXPECT_EQ(accepted([](WorldDef& def) { def.capacity.cells_y = kMinCells; }), Status::ok);

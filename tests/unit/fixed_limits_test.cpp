@@ -1,5 +1,6 @@
 // What fixed point refuses beyond what floats do, and what it saturates at.
 #include "bad_input.hpp"
+#include "measure/world_memory.hpp"
 
 namespace weir {
 
@@ -7,12 +8,9 @@ namespace {
 
 template <class Real>
 Status init(const WorldDef& def) {
-    std::vector<std::byte> memory(world_bytes<Real>(def.capacity) + world_alignment);
-    void* start = memory.data();
-    std::size_t room = memory.size();
-    std::align(world_alignment, world_bytes<Real>(def.capacity), start, room);
+    const auto memory = measure::memory_for<Real>(def);
     World<Real> world;
-    return world.init(def, start, room);
+    return world.init(def, memory.data(), memory.size());
 }
 
 template <class Real, class Change>

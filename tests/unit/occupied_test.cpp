@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <memory>
 #include <vector>
 
 #include "step/occupied.hpp"
@@ -15,7 +14,7 @@ namespace {
 /// tank may be any larger.
 template <class Real>
 struct CornerPool {
-    std::vector<std::byte> memory;
+    measure::WorldMemory memory;
     World<Real> world;
 
     CornerPool(std::int32_t cells_x, std::int32_t cells_y) {
@@ -26,11 +25,8 @@ struct CornerPool {
         def.capacity.bodies = 1;
         def.capacity.vertices = 4;
         def.cell_m = 0.02F;
-        memory.resize(world_bytes<Real>(def.capacity) + world_alignment);
-        void* start = memory.data();
-        std::size_t room = memory.size();
-        start = std::align(world_alignment, room - world_alignment, start, room);
-        EXPECT_EQ(world.init(def, start, room), Status::ok);
+        memory = measure::memory_for<Real>(def);
+        EXPECT_EQ(world.init(def, memory.data(), memory.size()), Status::ok);
         const Vec2f wall[] = {{0.50F, -0.02F}, {0.60F, -0.02F}, {0.60F, 1.10F}, {0.50F, 1.10F}};
         BodyDef body;
         body.polygon = {wall, 4};

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "pressure/level_packed.hpp"
 #include "pressure/surface_level.hpp"
 #include "step/transfer_packed.hpp"
@@ -105,11 +106,9 @@ TEST(Packed, ACrowdIsReportedAndComesApart) {
     def.capacity.cells_y = 16;
     def.capacity.particles = 1000;
     def.gravity_mps2 = {0.0F, -100.0F};
-    std::vector<std::byte> memory(world_bytes<SmallFixed>(def.capacity) + world_alignment);
-    const std::size_t spare = world_alignment - reinterpret_cast<std::uintptr_t>(memory.data()) %
-                                                    world_alignment;
+    const auto memory = measure::memory_for<SmallFixed>(def);
     World<SmallFixed> world;
-    ASSERT_EQ(world.init(def, memory.data() + spare, memory.size() - spare), Status::ok);
+    ASSERT_EQ(world.init(def, memory.data(), memory.size()), Status::ok);
     for (int k = 0; k < 1000; ++k) {
         const Vec2f at{0.16F + 0.0006F * static_cast<float>(k % 32),
                        0.16F + 0.0006F * static_cast<float>(k / 32)};

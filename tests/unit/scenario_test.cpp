@@ -20,9 +20,9 @@ using scenes::Scenario;
 class Play {
 public:
     explicit Play(const Scenario& scenario)
-        : scenario_(scenario), memory_(world_bytes<float>(scenario.def.capacity) / 16) {
+        : scenario_(scenario), memory_(measure::memory_for<float>(scenario.def)) {
         const Status ready =
-            scenes::begin(scenario_, memory_.data(), memory_.size() * 16, stage_);
+            scenes::begin(scenario_, memory_.data(), memory_.size(), stage_);
         EXPECT_EQ(ready, Status::ok) << status_text(ready);
         particles_ = stage_.world.particle_positions().size;
     }
@@ -63,11 +63,8 @@ public:
     }
 
 private:
-    struct alignas(world_alignment) Line {
-        std::byte bytes[16];
-    };
     Scenario scenario_;
-    std::vector<Line> memory_;
+    measure::WorldMemory memory_;
     scenes::Stage stage_;
     std::int32_t particles_ = 0;
     std::int32_t step_ = 0;

@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <memory>
-#include <new>
 #include <vector>
 
+#include "measure/world_memory.hpp"
 #include "weir/weir.hpp"
 
 namespace weir {
@@ -16,29 +15,21 @@ namespace weir {
 template <class Real>
 class TestWorld {
 public:
-    explicit TestWorld(const WorldDef& def) : def_(def), bytes_(world_bytes<Real>(def.capacity)) {
-        memory_.reset(static_cast<std::byte*>(
-            ::operator new(bytes_, std::align_val_t{world_alignment})));
+    explicit TestWorld(const WorldDef& def) : def_(def), memory_(measure::memory_for<Real>(def)) {
         const Status ready = init_again();
         EXPECT_EQ(ready, Status::ok) << status_text(ready);
     }
 
-    Status init_again() { return world_.init(def_, memory_.get(), bytes_); }
-    std::byte* memory() { return memory_.get(); }
+    Status init_again() { return world_.init(def_, memory_.data(), memory_.size()); }
+    std::byte* memory() { return memory_.data(); }
     World<Real>* operator->() { return &world_; }
     const World<Real>* operator->() const { return &world_; }
     World<Real>& operator*() { return world_; }
     const World<Real>& operator*() const { return world_; }
 
 private:
-    struct Release {
-        void operator()(std::byte* memory) const {
-            ::operator delete(memory, std::align_val_t{world_alignment});
-        }
-    };
     WorldDef def_;
-    std::size_t bytes_;
-    std::unique_ptr<std::byte, Release> memory_;
+    measure::WorldMemory memory_;
     World<Real> world_;
 };
 
