@@ -23,6 +23,7 @@ inline constexpr bool kHasLanes<float> = true;
 
 using Lanes = float __attribute__((vector_size(16)));
 using LaneMask = std::int32_t __attribute__((vector_size(16)));
+using WideLanes = std::int64_t __attribute__((vector_size(16)));
 
 /// From any address, in order.
 inline Lanes load_lanes(const float* from) {
@@ -51,6 +52,39 @@ template <int I, int J, int K, int L>
 inline Lanes shuffle(Lanes a, Lanes b) {
     return __builtin_shufflevector(a, b, I, J, K, L);
 }
+
+/// Every second of eight numbers, from the first one on and from the second one on.
+struct EvenOdd {
+    Lanes even;
+    Lanes odd;
+};
+inline EvenOdd load_eight(const float* from) {
+    const Lanes a = load_lanes(from);
+    const Lanes b = load_lanes(from + 4);
+    return {shuffle<0, 2, 4, 6>(a, b), shuffle<1, 3, 5, 7>(a, b)};
+}
+
+/// Eight numbers that 16 bits hold.
+using ShortLanes = std::int16_t __attribute__((vector_size(16)));
+
+/// Two numbers again and again.
+inline ShortLanes pairs_of_shorts(std::int32_t first, std::int32_t second) {
+    const auto a = static_cast<std::int16_t>(first);
+    const auto b = static_cast<std::int16_t>(second);
+    return ShortLanes{a, b, a, b, a, b, a, b};
+}
+/// a₀ · f₀ + a₁ · f₁ and, above it, a₂ · f₂ + a₃ · f₃, of lanes that 16 bits hold.
+inline std::uint64_t two_sums_of_products(LaneMask a, ShortLanes f) {
+#if defined(__SSE2__)
+    const ShortLanes shorts = __builtin_ia32_packssdw128(a, a);
+    const auto sums = reinterpret_cast<WideLanes>(__builtin_ia32_pmaddwd128(shorts, f));
+    return static_cast<std::uint64_t>(sums[0]);
+#else
+    const auto low = static_cast<std::uint32_t>(a[0] * f[0] + a[1] * f[1]);
+    const auto high = static_cast<std::uint32_t>(a[2] * f[2] + a[3] * f[3]);
+    return static_cast<std::uint64_t>(high) << 32U | low;
+#endif
+}
 inline bool all_true(LaneMask mask) {
 #if defined(__SSE2__)
     Lanes signs;
@@ -68,6 +102,24 @@ inline bool any_true(LaneMask mask) {
 #else
     return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 #endif
+}
+/// A bit for each lane that is true, the lowest for lane 0.
+inline std::uint32_t bits_of(LaneMask mask) {
+#if defined(__SSE2__)
+    Lanes signs;
+    __builtin_memcpy(&signs, &mask, sizeof signs);
+    return static_cast<std::uint32_t>(__builtin_ia32_movmskps(signs));
+#else
+    return (static_cast<std::uint32_t>(mask[0]) & 1U) | (static_cast<std::uint32_t>(mask[1]) & 2U) |
+           (static_cast<std::uint32_t>(mask[2]) & 4U) | (static_cast<std::uint32_t>(mask[3]) & 8U);
+#endif
+}
+/// Calls visit(k) for each lane k that is true, in order.
+template <class Visit>
+inline void for_each_true(LaneMask mask, const Visit& visit) {
+    for (std::uint32_t bits = bits_of(mask); bits != 0; bits &= bits - 1) {
+        visit(__builtin_ctz(bits));
+    }
 }
 /// Whether any lane has its sign set; a negative zero may count as one.
 inline bool any_negative(Lanes a) {
@@ -87,7 +139,11 @@ inline Lanes clamp(Lanes value, Lanes low, Lanes high) {
     return value < low ? low : (high < value ? high : value);
 }
 inline Lanes square_root(Lanes a) {
+#if defined(__SSE2__)
+    return __builtin_ia32_sqrtps(a);
+#else
     return Lanes{square_root(a[0]), square_root(a[1]), square_root(a[2]), square_root(a[3])};
+#endif
 }
 inline Lanes absolute(Lanes a) {
     LaneMask bits;

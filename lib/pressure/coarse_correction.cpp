@@ -1,5 +1,6 @@
 #include "pressure/coarse_correction.hpp"
 
+#include "pressure/coarse_faces.hpp"
 #include "pressure/coarse_seams.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
@@ -21,147 +22,6 @@ Real over_relaxation(std::int32_t rows) {
 template <class Real>
 void clear(Real* field, const GridShape& shape) {
     clear_rows(shape, {0, shape.ny + 2}, field);
-}
-
-/// What `residual` holds during the set-up: 0 for an empty patch, 1 for a full one, and this.
-template <class Real>
-constexpr Real kPartly = Real(0.5);
-
-/// Centre of a patch's liquid.
-template <class Real>
-void find_centre(const GridShape& s, const PressureFields<Real>& fields, const Patch& patch,
-                 CoarseGrid<Real>& coarse) {
-    std::int32_t count = 0;
-    std::int32_t columns = 0;
-    std::int32_t rows = 0;
-    for (std::int32_t y = 0; y < patch.height; ++y) {
-        const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            if (inverse[x] != Real(0)) {
-                count += 1;
-                columns += x;
-                rows += y;
-            }
-        }
-    }
-    const bool full = count == patch.width * patch.height;
-    coarse.residual[patch.q] = full ? Real(1) : (count > 0 ? kPartly<Real> : Real(0));
-    coarse.centre_x[patch.q] = part_of(static_cast<Real>(columns), maximum(count, 1));
-    coarse.centre_y[patch.q] = part_of(static_cast<Real>(rows), maximum(count, 1));
-}
-
-template <class Real>
-struct Face {
-    Real open;
-    Real light;  ///< 1/density
-};
-
-/// Faces across one axis, and what belongs to it.
-template <class Real>
-struct Axis {
-    const PressureFields<Real>& fields;
-    CoarseGrid<Real>& coarse;
-    std::int32_t back;         ///< from a cell to the one before it
-    std::int32_t coarse_back;
-    const Real* centre;
-    Real* weight;
-    Real* reach;
-
-    void add(std::int32_t q, Face<Real> face, Real distance) const {
-        weight[q] += face.open * face.light / distance;
-        if (reach != weight) {
-            reach[q] += face.open / distance;
-        }
-    }
-};
-
-/// Where a cell of coarse cell q meets air the pressure is held at 0, as far away as the surface
-/// is from q's centre: on q's face if there is only air that way, otherwise (a bubble, a notch) on
-/// the diagonal alone.
-template <class Real>
-void hold(const Axis<Real>& axis, Face<Real> face, std::int32_t cell, std::int32_t air,
-          Real outward, std::int32_t q, bool forward) {
-    const Real level = axis.fields.level[cell];
-    const Real distance =
-        liquid_fraction(level, axis.fields.level[air], face.open) + maximum(Real(0), outward);
-    const std::int32_t beyond = forward ? q + axis.coarse_back : q - axis.coarse_back;
-    if (axis.coarse.residual[beyond] > Real(0)) {
-        axis.coarse.inverse_diagonal[q] += face.open * face.light / distance;
-    } else {
-        axis.add(forward ? beyond : q, face, distance);
-    }
-}
-
-/// Whether a face matters to the coarse grid: between two of its liquid cells, or at the surface.
-inline bool counts(bool wet_before, bool wet, bool between) {
-    return wet != wet_before || (wet && between);
-}
-
-/// Adds the face between cell `c` and the one before it. `at`: its place in its patch along the
-/// axis; `before`: cells along the axis in the patch before, if the face lies between two.
-template <class Real>
-void add_face(const Axis<Real>& axis, Face<Real> face, std::int32_t c, std::int32_t at,
-              std::int32_t before, std::int32_t q) {
-    const std::int32_t b = c - axis.back;
-    const bool wet_b = axis.fields.level[b] > Real(0);
-    const bool wet_c = axis.fields.level[c] > Real(0);
-    if (!(face.open > Real(0))) {
-        return;
-    }
-    const bool between = at == 0;
-    const std::int32_t p = between ? q - axis.coarse_back : q;
-    const std::int32_t at_b = between ? before - 1 : at - 1;
-    if (wet_b && wet_c) {
-        if (between) {
-            const Real distance = static_cast<Real>(before) + (axis.centre[q] - axis.centre[p]);
-            axis.add(q, face, maximum(Real(1), distance));
-        }
-    } else if (wet_b) {
-        hold(axis, face, b, c, static_cast<Real>(at_b) - axis.centre[p], p, true);
-    } else {
-        hold(axis, face, c, b, axis.centre[q] - static_cast<Real>(at), q, false);
-    }
-}
-
-/// Faces before the cells of a patch. In one that is full or empty only those to the patches before
-/// it matter.
-template <bool Solids, bool Mixed, class Real>
-void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFields<Real>& fields,
-               const Patch& patch, CoarseGrid<Real>& coarse) {
-    const GridShape& s = weights.grid.shape;
-    const std::int32_t up = coarse.shape.stride;
-    const bool mixed = coarse.residual[patch.q] == kPartly<Real>;
-    const Axis<Real> along_x{fields, coarse, 1, 1, coarse.centre_x,
-                             coarse.weight_u, coarse.reach_u};
-    const Axis<Real> along_y{fields, coarse, s.stride, up, coarse.centre_y,
-                             coarse.weight_v, coarse.reach_v};
-    // Across a seam the patch before is the last one, which may have fewer cells.
-    const std::int32_t left =
-        patch.i > 0 ? kCoarseEdge : s.nx - kCoarseEdge * (coarse.shape.nx - 1);
-    const std::int32_t below =
-        patch.j > 0 ? kCoarseEdge : s.ny - kCoarseEdge * (coarse.shape.ny - 1);
-    const auto wet = [&](std::int32_t c) { return fields.level[c] > Real(0); };
-    for (std::int32_t y = 0; y < patch.height; ++y) {
-        const std::int32_t row = s.index(patch.i, patch.j + y);
-        const std::int32_t last = mixed ? patch.width : 1;
-        for (std::int32_t x = weights.has_left(patch.i) ? 0 : 1; x < last; ++x) {
-            const std::int32_t c = row + x;
-            if (counts(wet(c - 1), wet(c), x == 0)) {
-                const Face<Real> face{weights.open_u(c), weights.light_u(c)};
-                add_face(along_x, face, c, x, left, patch.q);
-            }
-        }
-        if (y > 0 ? !mixed : !weights.has_lower(patch.j)) {
-            continue;
-        }
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            const std::int32_t c = row + x;
-            if (counts(wet(c - s.stride), wet(c), y == 0)) {
-                const Face<Real> face{weights.open_v(c), weights.light_v(c)};
-                add_face(along_y, face, c, y, below, patch.q);
-            }
-        }
-    }
 }
 
 /// How a patch's cells share in its own and its neighbours' unknowns: linear between the centres,
@@ -193,12 +53,52 @@ private:
     }
 };
 
+#if WEIR_HAS_LANES
+/// `gather_residual` of a patch of full width. `walls` null: no solids.
+void gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* walls,
+                     const GridShape& s, const Patch& patch, const Shares<float>& to,
+                     CoarseGrid<float>& coarse) {
+    static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
+    float* const own = coarse.residual + patch.q;
+    const float* open_u = walls != nullptr ? walls->open_u : nullptr;
+    const float* open_v = walls != nullptr ? walls->open_v : nullptr;
+    const Lanes of_beside = load_lanes(to.of_beside);
+    LaneMask on_right;
+    for (std::int32_t x = 0; x < kCoarseEdge; ++x) {
+        on_right[x] = to.beside[x] > patch.q ? -1 : 0;
+    }
+    float* vertical = coarse.residual + to.above[0];
+    ResidualSums sums{{0.0F, own[-1], own[1], *vertical}};
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        float* const next = coarse.residual + to.above[y];
+        if (next != vertical) {
+            *vertical = sums.sums[3];
+            vertical = next;
+            sums.sums[3] = *vertical;
+        }
+        const std::int32_t c = s.index(patch.i, patch.j + y);
+        sums.add(residual_of_four(fields, open_u, open_v, s.stride, c), of_beside, on_right,
+                 all_lanes(to.of_above[y]));
+    }
+    *own += sums.sums[0];
+    own[-1] = sums.sums[1];
+    own[1] = sums.sums[2];
+    *vertical = sums.sums[3];
+}
+#endif
+
 template <bool Solids, bool Mixed, class Real>
 void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
                      const PressureFields<Real>& fields, const Patch& patch,
                      CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
     const Shares<Real> to(coarse, patch.q);
+    if constexpr (kHasLanes<Real> && !Mixed) {
+        if (patch.width == kCoarseEdge) {
+            gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, patch, to, coarse);
+            return;
+        }
+    }
     Real own = Real(0);
     for (std::int32_t y = 0; y < patch.height; ++y) {
         for (std::int32_t x = 0; x < patch.width; ++x) {
@@ -233,7 +133,14 @@ void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const Real row = own + from.of_above[y] * (e[from.above[y]] - own);
         const std::int32_t c = s.index(patch.i, patch.j + y);
-        for (std::int32_t x = 0; x < patch.width; ++x) {
+        std::int32_t x = 0;
+        if constexpr (kHasLanes<Real>) {
+            if (patch.width == kCoarseEdge) {
+                correct_four(fields, all_lanes(row) + load_lanes(column), c);
+                x = kCoarseEdge;
+            }
+        }
+        for (; x < patch.width; ++x) {
             if (fields.inverse_diagonal[c + x] != Real(0)) {
                 fields.pressure[c + x] += row + column[x];
             }
@@ -250,8 +157,12 @@ void relax(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
     const Part part = work.take(2 * kCoarseSweeps * depth, (s.nx + 1) / 2);
     for (std::int32_t at = part.first; at < part.end; ++at) {
         const std::int32_t j = coarse.first_row + at % depth;
-        for (std::int32_t i = (j + at / depth) & 1; i < s.nx; i += 2) {
-            const std::int32_t q = s.index(i, j);
+        const std::int32_t end = s.index(s.nx, j);
+        std::int32_t q = s.index((j + at / depth) & 1, j);
+        if constexpr (kHasLanes<Real>) {
+            q = relax_coarse_row(coarse, omega, q, end);
+        }
+        for (; q < end; q += 2) {
             const Real inverse = coarse.inverse_diagonal[q];
             if (inverse == Real(0)) {
                 continue;

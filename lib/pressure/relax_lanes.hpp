@@ -18,17 +18,6 @@ std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
 
 #if WEIR_HAS_LANES
 
-/// Every second of eight numbers, from the first one on and from the second one on.
-struct EvenOdd {
-    Lanes even;
-    Lanes odd;
-};
-inline EvenOdd load_eight(const float* from) {
-    const Lanes a = load_lanes(from);
-    const Lanes b = load_lanes(from + 4);
-    return {shuffle<0, 2, 4, 6>(a, b), shuffle<1, 3, 5, 7>(a, b)};
-}
-
 template <bool Solids>
 std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
                        const float* open_v, float omega, std::int32_t stride, std::int32_t c,

@@ -9,13 +9,17 @@ namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// As `level_of_density`: all three pieces, of which each lane takes its own.
+/// As `level_of_density`: all three pieces, of which each lane takes its own; where all are nearly
+/// full, the one for that.
 inline Lanes level_of_density(Lanes density) {
     const Lanes one = all_lanes(1.0F);
     const Lanes full = clamp(density, all_lanes(0.0F), one);
     const LaneMask upper = full > all_lanes(0.5F);
     const Lanes g = upper ? one - full : full;
     const Lanes low = all_lanes(1.5F) - square_root(all_lanes(8.0F) * g);
+    if (all_true(upper & (g < all_lanes(0.03125F)))) {
+        return low;
+    }
     const Lanes steep = all_lanes(1.5F) * g - all_lanes(0.03125F);
     const Lanes middle = (all_lanes(0.875F) - square_root(maximum(steep, all_lanes(0.0F)))) *
                          all_lanes(static_cast<float>(4.0 / 3.0));
@@ -53,13 +57,18 @@ inline std::int32_t density_row(const StaggeredGrid<float>& grid, const float* f
     return c;
 }
 
-/// Whether one of four cells is air and has a liquid neighbour.
-inline bool any_beside_liquid(const float* level, std::int32_t stride, std::int32_t c) {
+/// Which of four cells are air and have a liquid neighbour; `all_around`: nothing else.
+inline LaneMask beside_liquid(const float* level, std::int32_t stride, std::int32_t c,
+                              bool all_around) {
     const Lanes zero = all_lanes(0.0F);
-    const Lanes highest = maximum(
-        maximum(load_lanes(level + c - 1), load_lanes(level + c + 1)),
-        maximum(load_lanes(level + c - stride), load_lanes(level + c + stride)));
-    return any_true((load_lanes(level + c) <= zero) & (highest > zero));
+    const Lanes left = load_lanes(level + c - 1);
+    const Lanes right = load_lanes(level + c + 1);
+    const Lanes lower = load_lanes(level + c - stride);
+    const Lanes upper = load_lanes(level + c + stride);
+    const Lanes highest =
+        all_around ? minimum(minimum(left, right), minimum(lower, upper))
+                   : maximum(maximum(left, right), maximum(lower, upper));
+    return (load_lanes(level + c) <= zero) & (highest > zero);
 }
 
 #endif

@@ -98,23 +98,27 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
 template <class Real>
 void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
                   const Part& rows, LevelOf<Real>* level) {
+    const auto fill = [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+        if (level[c] <= Real(0) && surrounded(s, borders, walls, level, i, j)) {
+            level[c] = kFilledLevel<Real>;
+        }
+    };
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx;) {
-            std::int32_t end = s.nx;
-            if constexpr (kHasLanes<Real>) {
-                if (i + 4 <= s.nx) {
-                    end = i + 4;
-                    i = any_beside_liquid(level, s.stride, s.index(i, j)) ? i : end;
-                }
-            }
-            for (; i < end; ++i) {
+        std::int32_t i = 0;
+        if constexpr (kHasLanes<Real>) {
+            const bool inner_row = !walls.active && j > 0 && j + 1 < s.ny;
+            for (; i + 4 <= s.nx; i += 4) {
+                // Four open faces want liquid behind all of them.
+                const bool inner = inner_row && i > 0 && i + 4 < s.nx;
                 const std::int32_t c = s.index(i, j);
-                if (Stored<Real>::coarse && !beside_liquid(level, s.stride, c)) {
-                    continue;
-                }
-                if (level[c] <= Real(0) && surrounded(s, borders, walls, level, i, j)) {
-                    level[c] = kFilledLevel<Real>;
-                }
+                for_each_true(beside_liquid(level, s.stride, c, inner),
+                              [&](std::int32_t k) { fill(i + k, j, c + k); });
+            }
+        }
+        for (; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if (!Stored<Real>::coarse || beside_liquid(level, s.stride, c)) {
+                fill(i, j, c);
             }
         }
     }

@@ -124,11 +124,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
         const Real rise = pressure_rise(fields, face - back, face, open);
         return component.light != nullptr ? Real(component.light[face]) * rise : rise;
     };
-    const auto one = [&](std::int32_t i, std::int32_t j) {
-        const std::int32_t face = s.index(i, j);
-        if (wet(face) || empty(face)) {
-            return;
-        }
+    const auto extend = [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         Real sum = Real(0);
         Real count = Real(0);
         const auto look = [&](bool exists, std::int32_t neighbour) {
@@ -151,16 +147,15 @@ void extrapolate_component(const Component<Real>& component, const PressureField
         }
     };
     for (std::int32_t j = maximum(component.first_j, rows.first); j < rows.end; ++j) {
-        for (std::int32_t i = component.first_i; i < s.nx;) {
-            std::int32_t end = s.nx;
-            if constexpr (kHasLanes<Real>) {
-                if (i + 4 <= s.nx) {
-                    end = i + 4;
-                    i = any_in_spray(level, back, s.index(i, j)) ? i : end;
-                }
-            }
-            for (; i < end; ++i) {
-                one(i, j);
+        const std::int32_t row = s.index(0, j);
+        std::int32_t face = row + component.first_i;
+        if constexpr (kHasLanes<Real>) {
+            face = each_in_spray(level, back, face, row + s.nx,
+                                 [&](std::int32_t at) { extend(at - row, j, at); });
+        }
+        for (; face < row + s.nx; ++face) {
+            if (!wet(face) && !empty(face)) {
+                extend(face - row, j, face);
             }
         }
     }

@@ -15,19 +15,38 @@ namespace {
 
 /// Both stencils of a particle, as lanes: u, u, v, v.
 struct StencilPair {
-    std::int32_t u;  ///< bases
-    std::int32_t v;
+    std::uint32_t u;  ///< bases, before what `Strides` puts in front of both fields
+    std::uint32_t v;
     Lanes fx;
     Lanes fy;
 };
 
+/// From a stencil's lower nodes to its upper ones, and its base from its column and row.
+struct Strides {
+    std::int32_t up;
+    ShortLanes factors;
+
+    explicit Strides(std::int32_t stride)
+        : up(2 * stride), factors(pairs_of_shorts(1, stride)) {}
+    /// Where the base of u stencils, or v stencils, counts from.
+    template <class Float>
+    static Float* of_u(Float* pairs) {
+        return pairs + 2;
+    }
+    template <class Float>
+    Float* of_v(Float* pairs) const {
+        return pairs + up;
+    }
+};
+
 /// Of a particle at lanes 0 and 1: stencil_u and stencil_v.
-inline StencilPair stencils(std::int32_t stride, Lanes position) {
-    const Lanes shifted = shuffle<0, 0, 1, 1>(position, position) + Lanes{0.0F, 0.5F, 0.5F, 0.0F};
+inline StencilPair stencils(const Strides& strides, Lanes position) {
+    const Lanes shifted = shuffle<0, 1, 0, 1>(position, position) + Lanes{0.0F, 0.5F, 0.5F, 0.0F};
     const LaneMask node = __builtin_convertvector(shifted, LaneMask);
     const Lanes f = shifted - __builtin_convertvector(node, Lanes);
-    return {node[2] * stride + node[0] + 1, (node[3] + 1) * stride + node[1],
-            shuffle<0, 0, 1, 1>(f, f), shuffle<2, 2, 3, 3>(f, f)};
+    const std::uint64_t bases = two_sums_of_products(node, strides.factors);
+    return {static_cast<std::uint32_t>(bases), static_cast<std::uint32_t>(bases >> 32U),
+            shuffle<0, 0, 2, 2>(f, f), shuffle<1, 1, 3, 3>(f, f)};
 }
 
 inline void add(float* to, Lanes what) {
@@ -80,14 +99,15 @@ struct SampleLanes {
     Lanes slope_y;
 };
 
-inline SampleLanes sample(const float* pairs_u, const float* pairs_v, std::int32_t stride,
+/// `pairs_u`, `pairs_v`: where bases count from.
+inline SampleLanes sample(const float* pairs_u, const float* pairs_v, const Strides& strides,
                           const StencilPair& at) {
-    const float* u = pairs_u + 2 * at.u;
-    const float* v = pairs_v + 2 * at.v;
+    const float* u = pairs_u + 2 * static_cast<std::size_t>(at.u);
+    const float* v = pairs_v + 2 * static_cast<std::size_t>(at.v);
     const Lanes low_u = load_lanes(u);
     const Lanes low_v = load_lanes(v);
-    const Lanes high_u = load_lanes(u + 2 * stride);
-    const Lanes high_v = load_lanes(v + 2 * stride);
+    const Lanes high_u = load_lanes(u + strides.up);
+    const Lanes high_v = load_lanes(v + strides.up);
     const Lanes low_left = shuffle<0, 1, 4, 5>(low_u, low_v);
     const Lanes high_left = shuffle<0, 1, 4, 5>(high_u, high_v);
     const Lanes low_slope = shuffle<2, 3, 6, 7>(low_u, low_v) - low_left;
@@ -108,19 +128,19 @@ struct Contribution {
 };
 
 inline Contribution contribution(const float* position, const float* velocities,
-                                 std::int32_t stride) {
-    const StencilPair at = stencils(stride, load_pair(position));
-    const Lanes v = load_pair(velocities);
-    const Lanes velocity = shuffle<0, 0, 1, 1>(v, v);
+                                 const Strides& strides) {
+    const StencilPair at = stencils(strides, load_pair(position));
+    const Lanes one = all_lanes(1.0F);
     const Lanes w1 = at.fx * at.fy;
     const Lanes right = at.fx - w1;
     const Lanes upper = at.fy - w1;
-    const Lanes w0 = (all_lanes(1.0F) - at.fx) - upper;
+    const Lanes w0 = (one - at.fx) - upper;
     // Each weight once as it is and once with the velocity: mass, momentum.
-    const Lanes left_lower = shuffle<0, 5, 2, 7>(w0, w0 * velocity);
-    const Lanes right_lower = shuffle<0, 5, 2, 7>(right, right * velocity);
-    const Lanes left_upper = shuffle<0, 5, 2, 7>(upper, upper * velocity);
-    const Lanes right_upper = shuffle<0, 5, 2, 7>(w1, w1 * velocity);
+    const Lanes given = shuffle<0, 4, 1, 5>(one, load_pair(velocities));
+    const Lanes left_lower = w0 * given;
+    const Lanes right_lower = right * given;
+    const Lanes left_upper = upper * given;
+    const Lanes right_upper = w1 * given;
     return {at, shuffle<0, 1, 4, 5>(left_lower, right_lower),
             shuffle<0, 1, 4, 5>(left_upper, right_upper),
             shuffle<2, 3, 6, 7>(left_lower, right_lower),
@@ -129,15 +149,19 @@ inline Contribution contribution(const float* position, const float* velocities,
 
 void scatter_all(const Particles<float>& particles, const Part& part, std::int32_t stride,
                  float* pairs_u, float* pairs_v) {
+    const Strides strides(stride);
+    const Vec2<float>* position = particles.position;
+    const Vec2<float>* velocity = particles.velocity;
+    pairs_u = strides.of_u(pairs_u);
+    pairs_v = strides.of_v(pairs_v);
     for (std::int32_t k = part.first; k < part.end; ++k) {
-        const Contribution c =
-            contribution(&particles.position[k].x, &particles.velocity[k].x, stride);
-        float* u = pairs_u + 2 * c.at.u;
-        float* w = pairs_v + 2 * c.at.v;
+        const Contribution c = contribution(&position[k].x, &velocity[k].x, strides);
+        float* u = pairs_u + 2 * static_cast<std::size_t>(c.at.u);
+        float* w = pairs_v + 2 * static_cast<std::size_t>(c.at.v);
         add(u, c.lower_u);
-        add(u + 2 * stride, c.upper_u);
+        add(u + strides.up, c.upper_u);
         add(w, c.lower_v);
-        add(w + 2 * stride, c.upper_v);
+        add(w + strides.up, c.upper_v);
     }
 }
 
@@ -172,6 +196,7 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
     const auto high = static_cast<float>(rows.end);
     const std::int32_t first = rows.first * stride;
     const std::int32_t end = rows.end * stride;
+    const Strides strides(stride);
     // A particle in row j of the cells gives to rows j … j + 2 of the arrays.
     for (std::int32_t k = 0; k < particles.count; k += kTogether) {
         const Span& span = spans[k / kTogether];
@@ -189,16 +214,18 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
                 continue;
             }
             const Contribution c =
-                contribution(&particles.position[n].x, &particles.velocity[n].x, stride);
+                contribution(&particles.position[n].x, &particles.velocity[n].x, strides);
             const auto give = [&](float* pairs, std::int32_t entry, Lanes what) {
                 if (entry >= first && entry < end) {
                     add(pairs + 2 * entry, what);
                 }
             };
-            give(pairs_u, c.at.u, c.lower_u);
-            give(pairs_u, c.at.u + stride, c.upper_u);
-            give(pairs_v, c.at.v, c.lower_v);
-            give(pairs_v, c.at.v + stride, c.upper_v);
+            const std::int32_t u = static_cast<std::int32_t>(c.at.u) + 1;
+            const std::int32_t v = static_cast<std::int32_t>(c.at.v) + stride;
+            give(pairs_u, u, c.lower_u);
+            give(pairs_u, u + stride, c.upper_u);
+            give(pairs_v, v, c.lower_v);
+            give(pairs_v, v + stride, c.upper_v);
         }
     }
 }
@@ -284,8 +311,9 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
                                       const Transfer<float>& transfer,
                                       Particles<float>& particles) {
     const GridShape& s = grid.shape;
-    const float* pairs_u = grid.pairs;
-    const float* pairs_v = grid.u;
+    const Strides strides(s.stride);
+    const float* pairs_u = strides.of_u(static_cast<const float*>(grid.pairs));
+    const float* pairs_v = strides.of_v(static_cast<const float*>(grid.u));
     const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
     const Lanes lowest = all_lanes(kWallGap<float>);
     const Lanes highest = Lanes{size.x, size.y, size.x, size.y} - lowest;
@@ -294,7 +322,6 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
     const Lanes flip_ratio = all_lanes(transfer.flip_ratio);
     const Lanes dt = all_lanes(transfer.dt_s);
     const Lanes half_dt = all_lanes(0.5F * transfer.dt_s);
-    const std::int32_t stride = s.stride;
     const std::int32_t count = particles.count;
     Vec2<float>* position = particles.position;
     Vec2<float>* velocity = particles.velocity;
@@ -303,7 +330,7 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
     for (std::int32_t k = 0; k < count; ++k) {
         const Lanes x = load_pair(&position[k].x);
         const Lanes v = load_pair(&velocity[k].x);
-        const SampleLanes at = sample(pairs_u, pairs_v, stride, stencils(stride, x));
+        const SampleLanes at = sample(pairs_u, pairs_v, strides, stencils(strides, x));
         const Lanes turned = at.slope_x * shuffle<0, 0, 0, 0>(at.value, at.value) +
                              at.slope_y * shuffle<2, 2, 2, 2>(at.value, at.value);
         const Lanes along = at.value + half_dt * turned;

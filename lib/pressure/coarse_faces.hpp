@@ -1,0 +1,193 @@
+// The coarse grid's equations: where the liquid of each coarse cell has its centre, and how the
+// faces of its cells join it to its neighbours and to the surface.
+#pragma once
+
+#include "pressure/coarse_lanes.hpp"
+#include "pressure/face_weights.hpp"
+#include "pressure/patches.hpp"
+#include "pressure/projection.hpp"
+
+namespace weir {
+
+/// What `residual` holds during the set-up: 0 for an empty patch, 1 for a full one, and this.
+template <class Real>
+constexpr Real kPartly = Real(0.5);
+
+/// Centre of a full patch.
+template <class Real>
+constexpr Real kMiddle = Real(0.5 * (kCoarseEdge - 1));
+
+inline bool is_square(const Patch& patch) {
+    return patch.width == kCoarseEdge && patch.height == kCoarseEdge;
+}
+
+/// Centre of a patch's liquid.
+template <class Real>
+void find_centre(const GridShape& s, const PressureFields<Real>& fields, const Patch& patch,
+                 CoarseGrid<Real>& coarse) {
+    if constexpr (kHasLanes<Real>) {
+        if (is_square(patch) && all_liquid(fields.inverse_diagonal, s.stride,
+                                           s.index(patch.i, patch.j), kCoarseEdge)) {
+            coarse.residual[patch.q] = Real(1);
+            coarse.centre_x[patch.q] = kMiddle<Real>;
+            coarse.centre_y[patch.q] = kMiddle<Real>;
+            return;
+        }
+    }
+    std::int32_t count = 0;
+    std::int32_t columns = 0;
+    std::int32_t rows = 0;
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
+        for (std::int32_t x = 0; x < patch.width; ++x) {
+            if (inverse[x] != Real(0)) {
+                count += 1;
+                columns += x;
+                rows += y;
+            }
+        }
+    }
+    const bool full = count == patch.width * patch.height;
+    coarse.residual[patch.q] = full ? Real(1) : (count > 0 ? kPartly<Real> : Real(0));
+    coarse.centre_x[patch.q] = part_of(static_cast<Real>(columns), maximum(count, 1));
+    coarse.centre_y[patch.q] = part_of(static_cast<Real>(rows), maximum(count, 1));
+}
+
+template <class Real>
+struct CoarseFace {
+    Real open;
+    Real light;  ///< 1/density
+};
+
+/// Faces across one axis, and what belongs to it.
+template <class Real>
+struct CoarseAxis {
+    const PressureFields<Real>& fields;
+    CoarseGrid<Real>& coarse;
+    std::int32_t back;         ///< from a cell to the one before it
+    std::int32_t coarse_back;
+    const Real* centre;
+    Real* weight;
+    Real* reach;
+
+    void add(std::int32_t q, CoarseFace<Real> face, Real distance) const {
+        weight[q] += face.open * face.light / distance;
+        if (reach != weight) {
+            reach[q] += face.open / distance;
+        }
+    }
+};
+
+/// Where a cell of coarse cell q meets air the pressure is held at 0, as far away as the surface
+/// is from q's centre: on q's face if there is only air that way, otherwise (a bubble, a notch) on
+/// the diagonal alone.
+template <class Real>
+void hold(const CoarseAxis<Real>& axis, CoarseFace<Real> face, std::int32_t cell, std::int32_t air,
+          Real outward, std::int32_t q, bool forward) {
+    const Real level = axis.fields.level[cell];
+    const Real distance =
+        liquid_fraction(level, axis.fields.level[air], face.open) + maximum(Real(0), outward);
+    const std::int32_t beyond = forward ? q + axis.coarse_back : q - axis.coarse_back;
+    if (axis.coarse.residual[beyond] > Real(0)) {
+        axis.coarse.inverse_diagonal[q] += face.open * face.light / distance;
+    } else {
+        axis.add(forward ? beyond : q, face, distance);
+    }
+}
+
+/// Whether a face matters to the coarse grid: between two of its liquid cells, or at the surface.
+inline bool counts(bool wet_before, bool wet, bool between) {
+    return wet != wet_before || (wet && between);
+}
+
+/// Adds the face between cell `c` and the one before it. `at`: its place in its patch along the
+/// axis; `before`: cells along the axis in the patch before, if the face lies between two.
+template <class Real>
+void add_face(const CoarseAxis<Real>& axis, CoarseFace<Real> face, std::int32_t c, std::int32_t at,
+              std::int32_t before, std::int32_t q) {
+    const std::int32_t b = c - axis.back;
+    const bool wet_b = axis.fields.level[b] > Real(0);
+    const bool wet_c = axis.fields.level[c] > Real(0);
+    if (!(face.open > Real(0))) {
+        return;
+    }
+    const bool between = at == 0;
+    const std::int32_t p = between ? q - axis.coarse_back : q;
+    const std::int32_t at_b = between ? before - 1 : at - 1;
+    if (wet_b && wet_c) {
+        if (between) {
+            const Real distance = static_cast<Real>(before) + (axis.centre[q] - axis.centre[p]);
+            axis.add(q, face, maximum(Real(1), distance));
+        }
+    } else if (wet_b) {
+        hold(axis, face, b, c, static_cast<Real>(at_b) - axis.centre[p], p, true);
+    } else {
+        hold(axis, face, c, b, axis.centre[q] - static_cast<Real>(at), q, false);
+    }
+}
+
+/// Whether a patch and the two before it are full: nothing but faces between them is to be found.
+template <class Real>
+bool among_full(const Patch& patch, const CoarseGrid<Real>& coarse) {
+    const Real* full = coarse.residual;
+    return full[patch.q] == Real(1) && full[patch.q - 1] == Real(1) &&
+           full[patch.q - coarse.shape.stride] == Real(1) && is_square(patch) && patch.i > 0 &&
+           patch.j > 0;
+}
+
+/// Faces before the cells of a patch. In one that is full or empty only those to the patches before
+/// it matter.
+template <bool Solids, bool Mixed, class Real>
+void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFields<Real>& fields,
+               const Patch& patch, CoarseGrid<Real>& coarse) {
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t up = coarse.shape.stride;
+    const bool mixed = coarse.residual[patch.q] == kPartly<Real>;
+    const CoarseAxis<Real> along_x{fields, coarse, 1, 1, coarse.centre_x,
+                             coarse.weight_u, coarse.reach_u};
+    const CoarseAxis<Real> along_y{fields, coarse, s.stride, up, coarse.centre_y,
+                             coarse.weight_v, coarse.reach_v};
+    if (kHasLanes<Real> && among_full(patch, coarse)) {  // not worth its code where that is scarce
+        const auto join = [&](const CoarseAxis<Real>& axis, CoarseFace<Real> face) {
+            if (face.open > Real(0)) {
+                axis.add(patch.q, face, Real(kCoarseEdge));  // from middle to middle
+            }
+        };
+        for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
+            const std::int32_t u = s.index(patch.i, patch.j + k);
+            const std::int32_t v = s.index(patch.i + k, patch.j);
+            join(along_x, {weights.open_u(u), weights.light_u(u)});
+            join(along_y, {weights.open_v(v), weights.light_v(v)});
+        }
+        return;
+    }
+    // Across a seam the patch before is the last one, which may have fewer cells.
+    const std::int32_t left =
+        patch.i > 0 ? kCoarseEdge : s.nx - kCoarseEdge * (coarse.shape.nx - 1);
+    const std::int32_t below =
+        patch.j > 0 ? kCoarseEdge : s.ny - kCoarseEdge * (coarse.shape.ny - 1);
+    const auto wet = [&](std::int32_t c) { return fields.level[c] > Real(0); };
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        const std::int32_t row = s.index(patch.i, patch.j + y);
+        const std::int32_t last = mixed ? patch.width : 1;
+        for (std::int32_t x = weights.has_left(patch.i) ? 0 : 1; x < last; ++x) {
+            const std::int32_t c = row + x;
+            if (counts(wet(c - 1), wet(c), x == 0)) {
+                const CoarseFace<Real> face{weights.open_u(c), weights.light_u(c)};
+                add_face(along_x, face, c, x, left, patch.q);
+            }
+        }
+        if (y > 0 ? !mixed : !weights.has_lower(patch.j)) {
+            continue;
+        }
+        for (std::int32_t x = 0; x < patch.width; ++x) {
+            const std::int32_t c = row + x;
+            if (counts(wet(c - s.stride), wet(c), y == 0)) {
+                const CoarseFace<Real> face{weights.open_v(c), weights.light_v(c)};
+                add_face(along_y, face, c, y, below, patch.q);
+            }
+        }
+    }
+}
+
+}  // namespace weir
