@@ -10,9 +10,18 @@ inline std::int32_t rounded_shift(std::int32_t value, int shift) {
     return (value + (1 << (shift - 1)) + (value >> 31)) >> shift;
 }
 
-/// As a 16-bit number.
+/// As a number of so many bits.
+template <int Bits>
+inline std::int32_t saturated(std::int32_t value) {
+#if defined(__ARM_FEATURE_SAT)
+    return __builtin_arm_ssat(value, Bits);
+#else
+    constexpr std::int32_t kMost = (1 << (Bits - 1)) - 1;
+    return clamp(value, -kMost - 1, kMost);
+#endif
+}
 inline std::int16_t short_of(std::int32_t value) {
-    return static_cast<std::int16_t>(clamp(value, -0x8000, 0x7FFF));
+    return static_cast<std::int16_t>(saturated<16>(value));
 }
 
 /// Factor, in 128ths, times value; |factor| < 2^15. In two halves where the product is too long.

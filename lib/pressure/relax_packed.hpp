@@ -9,9 +9,8 @@
 
 namespace weir {
 
-/// Pressures and residuals stay below these, raw: no sum of four overflows.
+/// Pressures stay below this, raw: no sum of four overflows.
 inline constexpr std::int32_t kMostPressureRaw = (1 << 28) - (1 << 23);
-inline constexpr std::int32_t kMostResidualRaw = 1 << 21;
 
 /// A pressure to start from. In a tank without a surface that a body presses on it would grow
 /// without end, and no fixed-point number could hold the sum of four.
@@ -49,8 +48,18 @@ inline std::int32_t neighbours(const Real* p, const Walls<Real>& walls, std::int
 /// What a cell's pressure becomes: p += ω (Σ p − divergence − n p) / n. The factor ω / n, in
 /// 256ths, may be coarse, since where the residual is 0 nothing moves; n may not.
 inline std::int32_t relaxed(std::int32_t here, std::int32_t residual, std::int32_t factor) {
-    const std::int32_t limited = clamp(residual, -kMostResidualRaw, kMostResidualRaw);
-    return clamp(here + ((limited * factor + 128) >> 8), -kMostPressureRaw, kMostPressureRaw);
+    return saturated<29>(here + ((saturated<22>(residual) * factor + 128) >> 8));
+}
+
+/// A cell with no weight in between: `Sides` of its faces are open, and liquid is behind each.
+template <int Sides, class Real>
+inline void relax_plain(Real* here, std::int32_t stride, std::int32_t divergence,
+                        std::int32_t factor) {
+    // In two's complement: with pressures at their limits it may wrap around, and is limited.
+    const auto at = [&](std::int32_t step) { return static_cast<std::uint32_t>(here[step].raw); };
+    const std::uint32_t sum = (at(-1) + at(1)) + (at(-stride) + at(stride));
+    const std::uint32_t flow = static_cast<std::uint32_t>(divergence) * 512U;
+    here->raw = relaxed(here->raw, static_cast<std::int32_t>(sum - flow - Sides * at(0)), factor);
 }
 
 /// A cell at the surface or at a wall; `step`: ω in 1/2^15ths.
@@ -72,26 +81,32 @@ template <bool Solids, class Real>
 void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls, Real omega,
                       std::int32_t stride, std::int32_t c, std::int32_t end) {
     Real* p = fields.pressure;
+    const VelocityOf<Real>* divergence = fields.divergence;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal;
     const std::int32_t step = omega.raw >> 1;  // ω in 1/2^15ths, so that ω / n has 8 bits
     const std::int32_t step_of_4 = step / 512;
+    const std::int32_t step_of_3 = step / 384;
     for (; c < end; c += 2) {
         const std::int32_t kept = diagonal[c].raw;
         if (kept == 512) {
-            const std::int32_t sum = (p[c - 1].raw + p[c + 1].raw) +
-                                     (p[c - stride].raw + p[c + stride].raw);
-            const std::int32_t flow = std::int32_t{fields.divergence[c].raw} * 512;
-            const std::int32_t here = p[c].raw;
-            p[c].raw = relaxed(here, sum - flow - 4 * here, step_of_4);
+            relax_plain<4>(p + c, stride, divergence[c].raw, step_of_4);
+        } else if (kept == 384) {
+            relax_plain<3>(p + c, stride, divergence[c].raw, step_of_3);
         } else if (kept != 0) {
             relax_rare<Solids>(fields, walls, step, stride, c);
         }
     }
 }
 
-/// Puts up the equations of some rows: flow out of each cell, its diagonal, pressure to start from.
+/// A pressure to start from.
+inline SmallFixed rescaled(SmallFixed last, SmallFixed rescale) {
+    return rescale.raw == 1 << 16 ? last : bounded(last * rescale);
+}
+
+/// The equation of a liquid cell that has air, a wall or the tank's end beside it.
 template <bool Solids, class Weights, class Fields>
-void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
+[[gnu::noinline]] void build_rare(const Weights& weights, std::int32_t i, std::int32_t j,
+                                  Fields& fields) {
     using Real = SmallFixed;
     const Walls<Real>& walls = weights.walls;
     const StaggeredGrid<Real>& grid = weights.grid;
@@ -99,47 +114,86 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
     const auto share = [](bool inside, const ShareOf<Real>* open, std::int32_t face) {
         return !inside ? 0 : (Solids ? static_cast<std::int32_t>(open[face].raw) : 128);
     };
-    const Real rescale = fields.solve.rescale;
+    const std::int32_t c = s.index(i, j);
+    const std::int32_t up = c + s.stride;
+    const std::int32_t level = fields.level[c].raw;
+    const Faces<std::int32_t> w{share(weights.has_left(i), walls.open_u, c),
+                                share(weights.has_right(i), walls.open_u, c + 1),
+                                share(weights.has_lower(j), walls.open_v, c),
+                                share(weights.has_upper(j), walls.open_v, up)};
+    const auto part = [&](std::int32_t weight, std::int32_t neighbour) {
+        const std::int32_t there = fields.level[neighbour].raw;
+        return there > 0 || weight == 0 ? weight
+                                        : packed_coefficient(weight, weight, level, there);
+    };
+    const std::int32_t diagonal = (part(w.left, c - 1) + part(w.right, c + 1)) +
+                                  (part(w.lower, c - s.stride) + part(w.upper, up));
+    if (diagonal == 0) {
+        fields.inverse_diagonal[c].raw = 0;
+        fields.pressure[c].raw = 0;
+        return;
+    }
+    const bool wide = !Solids || untouched(walls, c, up);
+    const std::int32_t along_x = w.right * grid.u[c + 1].raw - w.left * grid.u[c].raw;
+    const std::int32_t along_y = w.upper * grid.v[up].raw - w.lower * grid.v[c].raw;
+    std::int32_t flow = rounded_shift(along_x + along_y, 7);
+    if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
+        flow += rounded_shift(wall_flow(s, walls, i, j).raw, 9);
+    }
+    fields.divergence[c].raw = short_of(flow);
+    fields.inverse_diagonal[c].raw = short_of(wide ? diagonal : -diagonal);
+    fields.pressure[c] = rescaled(fields.pressure[c], fields.solve.rescale);
+}
+
+/// Puts up the equations of some rows: flow out of each cell, its diagonal, pressure to start from.
+template <bool Solids, class Weights, class Fields>
+void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
+    const StaggeredGrid<SmallFixed>& grid = weights.grid;
+    const GridShape& s = grid.shape;
+    const auto* level = fields.level;
+    const Walls<SmallFixed>& walls = weights.walls;
+    const auto open = [&](std::int32_t c) {
+        return !Solids || (untouched(walls, c, c + s.stride) &&
+                           !(walls.moving && touches_wall(walls, c)));
+    };
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        const bool inner_row = weights.has_lower(j) && weights.has_upper(j);
+        bool wet = false;
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            const std::int32_t level = fields.level[c].raw;
-            const Real last = fields.pressure[c];
-            fields.inverse_diagonal[c].raw = 0;
-            fields.pressure[c].raw = 0;
-            if (level <= 0) {
-                continue;
-            }
             const std::int32_t up = c + s.stride;
-            const Faces<std::int32_t> w{share(weights.has_left(i), walls.open_u, c),
-                                        share(weights.has_right(i), walls.open_u, c + 1),
-                                        share(weights.has_lower(j), walls.open_v, c),
-                                        share(weights.has_upper(j), walls.open_v, up)};
-            const auto part = [&](std::int32_t weight, std::int32_t neighbour) {
-                const std::int32_t there = fields.level[neighbour].raw;
-                return there > 0 || weight == 0
-                           ? weight
-                           : packed_coefficient(weight, weight, level, there);
-            };
-            const std::int32_t diagonal = (part(w.left, c - 1) + part(w.right, c + 1)) +
-                                          (part(w.lower, c - s.stride) + part(w.upper, up));
-            if (diagonal == 0) {
+            if (level[c].raw <= 0) {
+                fields.inverse_diagonal[c].raw = 0;
+                fields.pressure[c].raw = 0;
                 continue;
             }
-            const bool wide = !Solids || untouched(walls, c, up);
-            const std::int32_t along_x = w.right * grid.u[c + 1].raw - w.left * grid.u[c].raw;
-            const std::int32_t along_y = w.upper * grid.v[up].raw - w.lower * grid.v[c].raw;
-            std::int32_t flow = rounded_shift(along_x + along_y, 7);
-            if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
-                flow += rounded_shift(wall_flow(s, walls, i, j).raw, 9);
+            if (inner_row && level[c - 1].raw > 0 && level[c + 1].raw > 0 && level[up].raw > 0 &&
+                level[c - s.stride].raw > 0 && weights.has_left(i) && weights.has_right(i) &&
+                open(c)) {
+                fields.divergence[c].raw = short_of((grid.u[c + 1].raw - grid.u[c].raw) +
+                                                    (grid.v[up].raw - grid.v[c].raw));
+                fields.inverse_diagonal[c].raw = 512;
+                fields.pressure[c] = rescaled(fields.pressure[c], fields.solve.rescale);
+            } else {
+                build_rare<Solids>(weights, i, j, fields);
             }
-            fields.divergence[c].raw = short_of(flow);
-            fields.inverse_diagonal[c].raw = short_of(wide ? diagonal : -diagonal);
-            fields.pressure[c] = bounded(rescale.raw == 1 << 16 ? last : last * rescale);
+            wet = wet || fields.inverse_diagonal[c].raw != 0;
+        }
+        if (wet) {
             fields.solve.first_row = minimum(fields.solve.first_row, j);
             fields.solve.last_row = j;
         }
     }
+}
+
+/// Diagonal × pressure less the neighbours'.
+template <bool Solids, class Real>
+[[gnu::noinline]] std::int32_t pull_rare(const PressureFields<Real>& fields,
+                                         const Walls<Real>& walls, std::int32_t stride,
+                                         std::int32_t c) {
+    const std::int32_t kept = fields.inverse_diagonal[c].raw;
+    return fixed::subtract(times_diagonal(kept < 0 ? -kept : kept, fields.pressure[c].raw),
+                           neighbours<Solids>(fields.pressure, walls, c, stride, kept));
 }
 
 /// Sums pᵀb and pᵀAp over the cells of some rows, in the same unit and as fine as 32-bit products
@@ -147,19 +201,24 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
 template <bool Solids, class Real>
 void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, std::int32_t stride,
                   std::int32_t first, std::int32_t end, Solve<Real>& solve) {
+    std::int64_t wanted = 0;
+    std::int64_t there = 0;
     for (std::int32_t c = first; c < end; ++c) {
         const std::int32_t kept = fields.inverse_diagonal[c].raw;
         if (kept == 0) {
             continue;
         }
-        const std::int32_t here = fields.pressure[c].raw;
+        const Real* at = fields.pressure + c;
         const std::int32_t pull =
-            fixed::subtract(times_diagonal(kept < 0 ? -kept : kept, here),
-                            neighbours<Solids>(fields.pressure, walls, c, stride, kept));
-        const std::int32_t p = short_of(rounded_shift(here, 10));
-        solve.wanted.raw -= p * fields.divergence[c].raw;
-        solve.there.raw += p * short_of(rounded_shift(clamp(pull, -(1 << 24), 1 << 24), 9));
+            kept == 512 ? fixed::subtract(4 * at->raw, (at[-1].raw + at[1].raw) +
+                                                           (at[-stride].raw + at[stride].raw))
+                        : pull_rare<Solids>(fields, walls, stride, c);
+        const std::int32_t p = short_of(rounded_shift(at->raw, 10));
+        wanted += p * fields.divergence[c].raw;
+        there += p * short_of(rounded_shift(saturated<25>(pull), 9));
     }
+    solve.wanted.raw -= wanted;
+    solve.there.raw += there;
 }
 
 /// A small world has no coarse grid: so many sweeps take its place.

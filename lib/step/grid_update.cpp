@@ -4,13 +4,17 @@
 
 #include "math/packed_arithmetic.hpp"
 #include "pressure/projection.hpp"
+#include "step/extrapolate_packed.hpp"
 #include "step/face_lanes.hpp"
 
 namespace weir {
 
 namespace {
 
-/// The face's momentum, read as bytes: packed velocities are written over momenta already read.
+/// Packed velocities are written over momenta already read.
+using AliasedRaw [[gnu::may_alias]] = std::int32_t;
+
+/// The face's momentum, read as bytes.
 template <class Real>
 Real momentum_at(const Real* momentum, std::int32_t face) {
     Real value;
@@ -52,12 +56,11 @@ void update_packed(const SmallFixed* momentum, VelocityOf<SmallFixed>* mass, con
             velocity[face].raw = 0;
             continue;
         }
-        SmallFixed sum;
-        __builtin_memcpy(&sum, momentum + face, sizeof sum);
+        const std::int32_t sum = reinterpret_cast<const AliasedRaw*>(momentum)[face];
         const std::uint32_t divisor = static_cast<std::uint32_t>(m) * 4U;
-        const auto size = static_cast<std::int32_t>(
-            (fixed::magnitude(sum.raw) + divisor / 2U) / divisor);
-        const std::int32_t before = sum.raw < 0 ? -size : size;
+        const auto size =
+            static_cast<std::int32_t>((fixed::magnitude(sum) + divisor / 2U) / divisor);
+        const std::int32_t before = sum < 0 ? -size : size;
         mass[face].raw = short_of(before);
         velocity[face].raw = short_of(before + faster);
     }
@@ -201,6 +204,10 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
                  const PressureFields<Real>& fields, bool velocity_itself,
                  StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
+    if constexpr (Stored<Real>::coarse) {
+        extrapolate_packed(borders, walls, fields, work.take(s.ny, s.nx), grid);
+        return;
+    }
     const ShareOf<Real>* open_u = walls.active ? walls.open_u : nullptr;
     const ShareOf<Real>* open_v = walls.active ? walls.open_v : nullptr;
     const Component<Real> u{grid.u, grid.inverse_density_u, open_u,    1, borders.wrap_x ? 0 : 1,

@@ -25,16 +25,26 @@ Vec2<Position> furthest(const Vec2<Position>* position, std::int32_t count) {
     return furthest(position, 0, count, {});
 }
 
-/// Of packed places the raw numbers tell.
+/// Of packed places the raw numbers tell. Four at a time: the loop costs as much as they do.
 template <>
 Vec2<PositionOf<SmallFixed>> furthest(const Vec2<PositionOf<SmallFixed>>* position,
                                       std::int32_t first, std::int32_t count,
                                       Vec2<PositionOf<SmallFixed>> so_far) {
-    std::int32_t x = so_far.x.raw;
-    std::int32_t y = so_far.y.raw;
-    for (std::int32_t k = first; k < count; ++k) {
-        x = maximum(x, position[k].x.raw);
-        y = maximum(y, position[k].y.raw);
+    std::uint32_t x = so_far.x.raw;
+    std::uint32_t y = so_far.y.raw;
+    std::int32_t k = first;
+    const auto look = [&](std::int32_t n) {
+        x = maximum<std::uint32_t>(x, position[n].x.raw);
+        y = maximum<std::uint32_t>(y, position[n].y.raw);
+    };
+    for (; k + 4 <= count; k += 4) {
+        look(k);
+        look(k + 1);
+        look(k + 2);
+        look(k + 3);
+    }
+    for (; k < count; ++k) {
+        look(k);
     }
     return {PositionOf<SmallFixed>::of_raw(static_cast<std::uint16_t>(x)),
             PositionOf<SmallFixed>::of_raw(static_cast<std::uint16_t>(y))};

@@ -17,7 +17,7 @@ static_assert(Real(Speed::of_raw(1)).raw == 512, "velocities are 128ths");
 static_assert(Stored<Real>::particle_mass == 2, "256 units of mass a particle");
 
 /// Mass of 32 particles: 8 times what a full cell's faces hold.
-constexpr std::int32_t kFull = 0x2000;
+constexpr std::uint32_t kFull = 0x2000;
 
 /// A point among the faces of a kind, in 256ths.
 struct Point {
@@ -36,33 +36,79 @@ inline Point on_v(std::int32_t stride, std::int32_t x, std::int32_t y) {
     return point_of(stride, x + 128, y, stride);
 }
 
-/// `velocity`: of the particle, in 512ths. False: the faces are full.
-inline bool scatter(Speed* mass, Real* momentum, std::int32_t stride, const Point& at,
-                    std::int32_t velocity) {
-    Speed* m = mass + at.base;
-    Speed* m_above = m + stride;
-    const std::int32_t m0 = m[0].raw;
-    const std::int32_t m1 = m[1].raw;
-    const std::int32_t m2 = m_above[0].raw;
-    const std::int32_t m3 = m_above[1].raw;
-    if ((m0 | m1 | m2 | m3) >= kFull) {
+/// What the four faces around a point get, 256ths that add up to 256.
+struct Weights {
+    std::int32_t lower_left;
+    std::int32_t lower_right;
+    std::int32_t upper_left;
+    std::int32_t upper_right;
+};
+
+inline Weights weights_of(const Point& at) {
+    const std::int32_t both = (at.fx * at.fy + 128) >> 8;
+    const std::int32_t upper = at.fy - both;
+    return {256 - at.fx - upper, at.fx - both, upper, both};
+}
+
+/// Adds to the masses of four faces. False: one of them is full.
+inline bool add_masses(Speed* low, Speed* high, const Weights& w) {
+#if defined(__ARM_FEATURE_UNALIGNED) && defined(__ARMEL__)
+    // Two in a word: they are not negative, and the sums have room.
+    std::uint32_t lower = 0;
+    std::uint32_t upper = 0;
+    __builtin_memcpy(&lower, low, sizeof lower);
+    __builtin_memcpy(&upper, high, sizeof upper);
+    if (((lower | upper) & (0x10000U - kFull) * 0x10001U) != 0) {
         return false;
     }
-    const std::int32_t w3 = (at.fx * at.fy + 128) >> 8;
-    const std::int32_t w1 = at.fx - w3;
-    const std::int32_t w2 = at.fy - w3;
-    const std::int32_t w0 = 256 - at.fx - w2;
-    m[0].raw = static_cast<std::int16_t>(m0 + w0);
-    m[1].raw = static_cast<std::int16_t>(m1 + w1);
-    m_above[0].raw = static_cast<std::int16_t>(m2 + w2);
-    m_above[1].raw = static_cast<std::int16_t>(m3 + w3);
-    Real* p = momentum + at.base;
-    p[0].raw += w0 * velocity;
-    p[1].raw += w1 * velocity;
-    p += stride;
-    p[0].raw += w2 * velocity;
-    p[1].raw += w3 * velocity;
+    lower += static_cast<std::uint32_t>(w.lower_left + w.lower_right * 0x10000);
+    upper += static_cast<std::uint32_t>(w.upper_left + w.upper_right * 0x10000);
+    __builtin_memcpy(static_cast<void*>(low), &lower, sizeof lower);
+    __builtin_memcpy(static_cast<void*>(high), &upper, sizeof upper);
+#else
+    const std::int32_t m0 = low[0].raw;
+    const std::int32_t m1 = low[1].raw;
+    const std::int32_t m2 = high[0].raw;
+    const std::int32_t m3 = high[1].raw;
+    if (static_cast<std::uint32_t>(m0 | m1 | m2 | m3) >= kFull) {
+        return false;
+    }
+    low[0].raw = static_cast<std::int16_t>(m0 + w.lower_left);
+    low[1].raw = static_cast<std::int16_t>(m1 + w.lower_right);
+    high[0].raw = static_cast<std::int16_t>(m2 + w.upper_left);
+    high[1].raw = static_cast<std::int16_t>(m3 + w.upper_right);
+#endif
     return true;
+}
+
+/// One component of all particles to its faces, `mass` and `momentum` from the first of which.
+/// Both in one loop want more registers than there are. @return how often faces were full.
+template <bool OnU>
+std::int32_t scatter(const Particles<Real>& particles, Speed* mass, Real* momentum,
+                     std::int32_t stride) {
+    const Vec2<Place>* place = particles.position;
+    const Vec2<Place>* end = place + particles.count;
+    const Vec2<Speed>* velocity = particles.velocity;
+    std::int32_t refused = 0;
+    for (; place != end; ++place, ++velocity) {
+        const std::int32_t x = place->x.raw + (OnU ? 0 : 128);
+        const std::int32_t y = place->y.raw + (OnU ? 128 : 0);
+        const Point at = point_of(stride, x, y, 0);
+        const Weights w = weights_of(at);
+        Speed* m = mass + at.base;
+        if (!add_masses(m, m + stride, w)) {
+            ++refused;
+            continue;
+        }
+        const std::int32_t v = (OnU ? velocity->x.raw : velocity->y.raw) * 4;  // 512ths
+        Real* p = momentum + at.base;
+        p[0].raw += w.lower_left * v;
+        p[1].raw += w.lower_right * v;
+        p += stride;
+        p[0].raw += w.upper_left * v;
+        p[1].raw += w.upper_right * v;
+    }
+    return refused;
 }
 
 /// Of a field in 128ths.
@@ -155,23 +201,8 @@ Limits limits_of(const GridShape& s, const Transfer<Real>& transfer) {
 
 std::int32_t scatter_packed(const Particles<Real>& particles, StaggeredGrid<Real>& grid) {
     const std::int32_t stride = grid.shape.stride;
-    const std::int32_t count = particles.count;
-    Real* momentum_u = grid.momentum_u();
-    Real* momentum_v = grid.momentum_v();
-    std::int32_t refused = 0;
-    for (std::int32_t k = 0; k < count; ++k) {
-        const std::int32_t x = particles.position[k].x.raw;
-        const std::int32_t y = particles.position[k].y.raw;
-        refused += scatter(grid.mass_u, momentum_u, stride, on_u(stride, x, y),
-                           particles.velocity[k].x.raw * 4)
-                       ? 0
-                       : 1;
-        refused += scatter(grid.mass_v, momentum_v, stride, on_v(stride, x, y),
-                           particles.velocity[k].y.raw * 4)
-                       ? 0
-                       : 1;
-    }
-    return refused;
+    return scatter<true>(particles, grid.mass_u + 1, grid.momentum_u() + 1, stride) +
+           scatter<false>(particles, grid.mass_v + stride, grid.momentum_v() + stride, stride);
 }
 
 TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
