@@ -85,6 +85,17 @@ inline std::uint64_t two_sums_of_products(LaneMask a, ShortLanes f) {
     return static_cast<std::uint64_t>(high) << 32U | low;
 #endif
 }
+/// Sums of two products: of a's first two lanes and its last two, and of b's.
+inline LaneMask sums_of_products(LaneMask a, LaneMask b, ShortLanes f) {
+#if defined(__SSE2__)
+    return __builtin_ia32_pmaddwd128(__builtin_ia32_packssdw128(a, b), f);
+#else
+    const std::int32_t x = f[0];
+    const std::int32_t y = f[1];
+    return __builtin_shufflevector(a, b, 0, 2, 4, 6) * LaneMask{x, x, x, x} +
+           __builtin_shufflevector(a, b, 1, 3, 5, 7) * LaneMask{y, y, y, y};
+#endif
+}
 inline bool all_true(LaneMask mask) {
 #if defined(__SSE2__)
     Lanes signs;

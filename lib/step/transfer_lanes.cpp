@@ -5,49 +5,13 @@
 
 #include <cstring>
 
-#include "step/tank_walls.hpp"
+#include "step/stencil_lanes.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
 
 namespace {
-
-/// Both stencils of a particle, as lanes: u, u, v, v.
-struct StencilPair {
-    std::uint32_t u;  ///< bases, before what `Strides` puts in front of both fields
-    std::uint32_t v;
-    Lanes fx;
-    Lanes fy;
-};
-
-/// From a stencil's lower nodes to its upper ones, and its base from its column and row.
-struct Strides {
-    std::int32_t up;
-    ShortLanes factors;
-
-    explicit Strides(std::int32_t stride)
-        : up(2 * stride), factors(pairs_of_shorts(1, stride)) {}
-    /// Where the base of u stencils, or v stencils, counts from.
-    template <class Float>
-    static Float* of_u(Float* pairs) {
-        return pairs + 2;
-    }
-    template <class Float>
-    Float* of_v(Float* pairs) const {
-        return pairs + up;
-    }
-};
-
-/// Of a particle at lanes 0 and 1: stencil_u and stencil_v.
-inline StencilPair stencils(const Strides& strides, Lanes position) {
-    const Lanes shifted = shuffle<0, 1, 0, 1>(position, position) + Lanes{0.0F, 0.5F, 0.5F, 0.0F};
-    const LaneMask node = __builtin_convertvector(shifted, LaneMask);
-    const Lanes f = shifted - __builtin_convertvector(node, Lanes);
-    const std::uint64_t bases = two_sums_of_products(node, strides.factors);
-    return {static_cast<std::uint32_t>(bases), static_cast<std::uint32_t>(bases >> 32U),
-            shuffle<0, 0, 2, 2>(f, f), shuffle<1, 1, 3, 3>(f, f)};
-}
 
 inline void add(float* to, Lanes what) {
     store_lanes(to, load_lanes(to) + what);
@@ -89,33 +53,6 @@ void pack(const float* first, const float* second, const Part& part, float* pair
         pairs[2 * k] = first[k];
         pairs[2 * k + 1] = second[k];
     }
-}
-
-/// Bilinear value and slopes of velocity and change on both kinds of faces: lanes u, change of u,
-/// v, change of v.
-struct SampleLanes {
-    Lanes value;
-    Lanes slope_x;
-    Lanes slope_y;
-};
-
-/// `pairs_u`, `pairs_v`: where bases count from.
-inline SampleLanes sample(const float* pairs_u, const float* pairs_v, const Strides& strides,
-                          const StencilPair& at) {
-    const float* u = pairs_u + 2 * static_cast<std::size_t>(at.u);
-    const float* v = pairs_v + 2 * static_cast<std::size_t>(at.v);
-    const Lanes low_u = load_lanes(u);
-    const Lanes low_v = load_lanes(v);
-    const Lanes high_u = load_lanes(u + strides.up);
-    const Lanes high_v = load_lanes(v + strides.up);
-    const Lanes low_left = shuffle<0, 1, 4, 5>(low_u, low_v);
-    const Lanes high_left = shuffle<0, 1, 4, 5>(high_u, high_v);
-    const Lanes low_slope = shuffle<2, 3, 6, 7>(low_u, low_v) - low_left;
-    const Lanes high_slope = shuffle<2, 3, 6, 7>(high_u, high_v) - high_left;
-    const Lanes low = low_left + at.fx * low_slope;
-    const Lanes high = high_left + at.fx * high_slope;
-    const Lanes slope_y = high - low;
-    return {low + at.fy * slope_y, low_slope + at.fy * (high_slope - low_slope), slope_y};
 }
 
 /// What a particle adds to the four rows of its stencils.
@@ -305,55 +242,6 @@ void pair_fields(StaggeredGrid<float>& grid, Work work) {
     each_row(work, grid.shape, [&](const Part& entries) {
         pack(grid.v, grid.mass_v, entries, grid.u);
     });
-}
-
-TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
-                                      const Transfer<float>& transfer,
-                                      Particles<float>& particles) {
-    const GridShape& s = grid.shape;
-    const Strides strides(s.stride);
-    const float* pairs_u = strides.of_u(static_cast<const float*>(grid.pairs));
-    const float* pairs_v = strides.of_v(static_cast<const float*>(grid.u));
-    const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
-    const Lanes lowest = all_lanes(kWallGap<float>);
-    const Lanes highest = Lanes{size.x, size.y, size.x, size.y} - lowest;
-    const float near = minimum(transfer.near, transfer.limit);
-    const Lanes limit{near, near, transfer.limit, transfer.limit};
-    const Lanes flip_ratio = all_lanes(transfer.flip_ratio);
-    const Lanes dt = all_lanes(transfer.dt_s);
-    const Lanes half_dt = all_lanes(0.5F * transfer.dt_s);
-    const std::int32_t count = particles.count;
-    Vec2<float>* position = particles.position;
-    Vec2<float>* velocity = particles.velocity;
-    Lanes fastest = all_lanes(0.0F);
-    TransferResult<float> result;
-    for (std::int32_t k = 0; k < count; ++k) {
-        const Lanes x = load_pair(&position[k].x);
-        const Lanes v = load_pair(&velocity[k].x);
-        const SampleLanes at = sample(pairs_u, pairs_v, strides, stencils(strides, x));
-        const Lanes turned = at.slope_x * shuffle<0, 0, 0, 0>(at.value, at.value) +
-                             at.slope_y * shuffle<2, 2, 2, 2>(at.value, at.value);
-        const Lanes along = at.value + half_dt * turned;
-        const Lanes change = shuffle<1, 3, 1, 3>(at.value, at.value);
-        const Lanes faster = flip_ratio * v + change;
-        const Lanes both = shuffle<0, 2, 4, 5>(along, faster);
-        const Lanes speed = absolute(both);
-        const Lanes moved = x + dt * both;
-        const Lanes twice = shuffle<0, 1, 0, 1>(moved, moved);
-        if (all_true((speed <= limit) & (twice >= lowest) & (twice <= highest))) {
-            fastest = maximum(fastest, speed);
-            store_pair(&position[k].x, moved);
-            store_pair(&velocity[k].x, faster);
-            continue;
-        }
-        Vec2<float> to{x[0], x[1]};
-        Vec2<float> then{faster[0], faster[1]};
-        advect(size, {transfer, particles.kind_at(k)}, {both[0], both[1]}, to, then, result);
-        position[k] = to;
-        velocity[k] = then;
-    }
-    result.max_speed = maximum(result.max_speed, maximum(fastest[2], fastest[3]));
-    return result;
 }
 
 #endif
