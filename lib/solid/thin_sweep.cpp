@@ -75,6 +75,26 @@ Nearest<Real> first_wall(const Journey<Real>& journey, Vec2<Real> to) {
     return nearest;
 }
 
+/// Height of the place that a particle has got to over a wall that it met, `vertex` on it.
+template <class Real>
+Real height_over(const ThinWalls<Real>& thin, const ThinStop<Real>& stop, std::int32_t hit,
+                 std::int32_t vertex) {
+    return static_cast<Real>(dot(stop.place - thin.vertex[vertex], stop.normal[hit]));
+}
+
+/// Of the walls that a particle met, one that sliding along the others has brought it back to: so
+/// near that rounding, when that wall next moves, could put it on the other side. −1: none.
+template <class Real>
+std::int32_t wall_too_near(const ThinWalls<Real>& thin, const ThinStop<Real>& stop,
+                           const std::int32_t* vertex) {
+    for (std::int32_t hit = 0; hit < stop.count; ++hit) {
+        if (absolute(height_over(thin, stop, hit, vertex[hit])) < Real(0.5) * kClearance<Real>) {
+            return hit;
+        }
+    }
+    return -1;
+}
+
 }  // namespace
 
 template <class Real>
@@ -83,19 +103,27 @@ bool keep_side(const ThinWalls<Real>& thin, const GridShape& shape, const Body<R
     const Journey<Real> journey{thin, shape, bodies, before, follow};
     stop.place = after;
     Vec2<Real> carried = before;
+    std::int32_t vertex[kMostHits];
     for (stop.count = 0; stop.count < kMostHits; ++stop.count) {
+        const std::int32_t hit = stop.count;
         const Nearest<Real> wall = first_wall(journey, stop.place);
-        if (wall.edge == nullptr) {
-            return true;
+        if (wall.edge != nullptr) {
+            const Vec2<Real> left = left_normal(thin, *wall.edge);
+            stop.slot[hit] = wall.edge->slot;
+            stop.normal[hit] = wall.crossing.from_left ? left : Vec2<Real>{} - left;
+            vertex[hit] = wall.edge->from;
+            carried = wall.from;
+        } else {
+            const std::int32_t again = wall_too_near(thin, stop, vertex);
+            if (again < 0) {
+                return true;
+            }
+            stop.slot[hit] = stop.slot[again];
+            stop.normal[hit] = stop.normal[again];
+            vertex[hit] = vertex[again];
         }
-        const Vec2<Real> left = left_normal(thin, *wall.edge);
-        const Vec2<Real> normal = wall.crossing.from_left ? left : Vec2<Real>{} - left;
-        const Real depth = dot(stop.place - thin.vertex[wall.edge->from], normal);
-        stop.place =
-            within_tank(shape, stop.place + (kClearance<Real> - depth) * normal);
-        stop.slot[stop.count] = wall.edge->slot;
-        stop.normal[stop.count] = normal;
-        carried = wall.from;
+        const Real short_of_it = kClearance<Real> - height_over(thin, stop, hit, vertex[hit]);
+        stop.place = within_tank(shape, stop.place + short_of_it * stop.normal[hit]);
     }
     // In a corner too narrow to slide along: back to where it was, as the wall took it along.
     const Vec2<Real> places[] = {within_tank(shape, carried), before};

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "math/vec2.hpp"
-#include "solid/thin_sight.hpp"
+#include "measure/random.hpp"
+#include "solid/thin_sweep.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
 #include "world/world_state.hpp"
@@ -182,6 +183,38 @@ TEST(ThinWalls, ParticlesKeepTheirSide) {
                 << k << " at " << x.x << ' ' << x.y;
         }
     }
+}
+
+/// Sliding along the second of two walls may lead back to the first: so near to it that rounding
+/// decides on which side a particle is, once that wall moves.
+TEST(ThinWalls, WhoSlidesAlongTwoWallsKeepsItsDistanceToBoth) {
+    TestWorld<float> world(tank());
+    Ring upright = {{16.1F, -8}, {16.4F, 40}};
+    Ring leaning = {{-8, 9}, {40, 23}};
+    const Ring outline[] = {upright, leaning};  // cells
+    add(*world, line_of(upright));
+    add(*world, line_of(leaning));
+    const auto& state = *reinterpret_cast<const detail::WorldState<float>*>(world.memory());
+    measure::Random random(7);
+    int met_both = 0;
+    for (int trial = 0; trial < 100000; ++trial) {
+        const Vec2<float> before{random.uniform(15.5F, 17.0F), random.uniform(15.0F, 17.0F)};
+        const Vec2<float> after = before + Vec2<float>{random.uniform(-0.5F, 0.5F),
+                                                       random.uniform(-0.5F, 0.5F)};
+        ThinStop<float> stop;
+        ASSERT_TRUE(keep_side(state.simulation.layers.thin, state.simulation.layers.shape,
+                              state.simulation.layers.walls.body, before, after, false, stop));
+        bool met[2] = {false, false};
+        for (int hit = 0; hit < stop.count; ++hit) {
+            const std::uint16_t slot = stop.slot[hit];
+            met[slot] = true;
+            const bool stays = stop.place.x == before.x && stop.place.y == before.y;
+            EXPECT_TRUE(stays || dot(stop.place - outline[slot][0], stop.normal[hit]) > 9.0e-4F)
+                << before.x << ' ' << before.y << " to " << after.x << ' ' << after.y;
+        }
+        met_both += met[0] && met[1] ? 1 : 0;
+    }
+    EXPECT_GT(met_both, 1000);
 }
 
 TEST(ThinWalls, AMovingLineTakesAlongWhatItMeets) {
