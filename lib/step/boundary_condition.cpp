@@ -1,6 +1,7 @@
 #include "step/boundary_condition.hpp"
 
 #include "fluid/particles.hpp"
+#include "math/lanes.hpp"
 #include "solid/face_axis.hpp"
 
 namespace weir {
@@ -152,33 +153,41 @@ bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_
     return !(distance < kDeepestMirror<Real>);
 }
 
+/// Where a face takes its velocity from. False: it keeps its own.
 template <class Real>
-Real mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
-                 std::int32_t j) {
-    const GridShape& s = field.velocity.shape;
-    const std::int32_t face = s.index(i, j);
+bool is_image(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32_t i,
+              std::int32_t j, Mirror<Real>& mirror) {
+    const std::int32_t face = axis.s.index(i, j);
     const std::int32_t other = face + axis.other_node();
-    const VelocityOf<Real>* own = axis.is_u ? field.velocity.u : field.velocity.v;
     const Real distance = axis.distance(face);
     const Real open = axis.open()[face];
     if (!is_mirrored<Real>(axis.walls, open, distance, face, other)) {
-        return own[face];
+        return false;
     }
-    Mirror<Real> mirror =
-        mirror_of(s, axis.walls, {axis.centre(i, j), face, other}, distance, axis.normal(face));
+    mirror = mirror_of(axis.s, axis.walls, {axis.centre(i, j), face, other}, distance,
+                       axis.normal(face));
     mirror.open = open > Real(0);
-    return near_liquid(s, field.level, mirror.point) ? axis.of(field.value(field.velocity, mirror))
-                                                     : Real(own[face]);
+    return near_liquid(axis.s, level, mirror.point);
 }
 
 template <class Real>
-void mirror_field(const Walls<Real>& walls, const Field<Real>& field, Work work,
-                  PressureFields<Real>& fields, VelocityOf<Real>* u, VelocityOf<Real>* v) {
+Real mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
+                 std::int32_t j) {
+    const VelocityOf<Real>* own = axis.is_u ? field.velocity.u : field.velocity.v;
+    Mirror<Real> mirror;
+    return is_image(axis, field.level, i, j, mirror) ? axis.of(field.value(field.velocity, mirror))
+                                                     : Real(own[axis.s.index(i, j)]);
+}
+
+template <class Real>
+void mirror_field(const Walls<Real>& walls, const Field<Real>& field, const Part& computed,
+                  Work work, PressureFields<Real>& fields, VelocityOf<Real>* u,
+                  VelocityOf<Real>* v) {
     const GridShape& s = field.velocity.shape;
     const FaceAxis<Real> on_u{s, walls, true};
     const FaceAxis<Real> on_v{s, walls, false};
     // All are computed before the first is written: they read each other.
-    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+    work.share(computed, s.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
             const std::int32_t c = s.index(i, j);
             fields.divergence[c] = i > 0 ? mirror_face(on_u, field, i, j) : Real(u[c]);
@@ -192,15 +201,90 @@ void mirror_field(const Walls<Real>& walls, const Field<Real>& field, Work work,
     });
 }
 
+/// Rows further apart than this do not read each other: the mirror point of the deepest face is
+/// twice kDeepestMirror away, and its stencil begins a cell further on.
+constexpr std::int32_t kRowsHeld = 5;
+/// Rows that are computed and not yet written find room in as many rows of scratch, by turns: two
+/// numbers a face, twice.
+constexpr std::int32_t kTurns = 8;
+
+/// One component of both fields, on the same faces.
+template <class Real>
+struct BothFields {
+    FaceAxis<Real> axis;
+    VelocityOf<Real>* now;
+    VelocityOf<Real>* was;
+    VelocityOf<Real>* scratch;
+
+    VelocityOf<Real>& held(std::int32_t i, std::int32_t j, std::int32_t which) const {
+        return scratch[axis.s.index(i, 2 * (j % kTurns) + which)];
+    }
+    void write(std::int32_t i, std::int32_t j) const {
+        const std::int32_t face = axis.s.index(i, j);
+        now[face] = held(i, j, 0);
+        was[face] = held(i, j, 1);
+    }
+};
+
+/// Both fields in one look at each face: what is computed is written as soon as no other row reads
+/// what stood there.
+template <class Real>
+void mirror_together(const Walls<Real>& walls, PressureFields<Real>& fields,
+                     StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    const Velocity<Real> now{s, grid.u, grid.v};
+    const Velocity<Real> was{s, grid.mass_u, grid.mass_v};
+    const BothFields<Real> components[] = {
+        {{s, walls, true}, grid.u, grid.mass_u, fields.divergence},
+        {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal}};
+    const auto compute = [&](const BothFields<Real>& of, std::int32_t i, std::int32_t j) {
+        const std::int32_t face = s.index(i, j);
+        Mirror<Real> mirror;
+        const bool inner = of.axis.is_u ? i > 0 : j > 0;
+        const bool image = inner && is_image(of.axis, fields.level, i, j, mirror);
+        of.held(i, j, 0) = image ? of.axis.of(mirrored(now, mirror)) : Real(of.now[face]);
+        of.held(i, j, 1) = image ? of.axis.of(before(was, mirror)) : Real(of.was[face]);
+    };
+    for (std::int32_t front = 0; front < s.ny + kRowsHeld; ++front) {
+        if (front < s.ny) {
+            for_each_near(s, walls, {front, front + 1}, [&](std::int32_t i, std::int32_t j) {
+                compute(components[0], i, j);
+                compute(components[1], i, j);
+            });
+        }
+        if (front >= kRowsHeld) {
+            const std::int32_t done = front - kRowsHeld;
+            for_each_near(s, walls, {done, done + 1}, [&](std::int32_t i, std::int32_t j) {
+                components[0].write(i, j);
+                components[1].write(i, j);
+            });
+        }
+    }
+}
+
 }  // namespace
 
 template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid, Work work) {
-    const Field<Real> now{{grid.shape, grid.u, grid.v}, fields.level, mirrored<Real>};
-    const Field<Real> was{{grid.shape, grid.mass_u, grid.mass_v}, fields.level, before<Real>};
-    mirror_field(walls, now, work, fields, grid.u, grid.v);
-    mirror_field(walls, was, work, fields, grid.mass_u, grid.mass_v);
+    const GridShape& s = grid.shape;
+    const Field<Real> now{{s, grid.u, grid.v}, fields.level, mirrored<Real>};
+    const Field<Real> was{{s, grid.mass_u, grid.mass_v}, fields.level, before<Real>};
+    const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
+    Part rows = work.take(s.ny, s.nx);
+    if constexpr (kHasLanes<Real>) {  // others have little room for code
+        const bool whole = enough && rows.first == 0 && rows.end == s.ny;
+        if (whole && s.ny >= 2 * kTurns && work.pieces(s.ny, s.nx, 1) <= 1) {
+            mirror_together(walls, fields, grid);
+            for (std::int32_t loop = 1; loop < 4; ++loop) {
+                work.take(s.ny, s.nx);
+            }
+            return;
+        }
+    }
+    mirror_field(walls, now, rows, work, fields, grid.u, grid.v);
+    rows = work.take(s.ny, s.nx);
+    mirror_field(walls, was, rows, work, fields, grid.mass_u, grid.mass_v);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                \
