@@ -67,6 +67,19 @@ inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32
     return clamp(e, -kWindow<Real>, kWindow<Real>);
 }
 
+/// Whether there is anything but solid in a patch.
+template <class Real>
+bool has_room(const GridShape& s, const Walls<Real>& walls, const Patch& patch) {
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        for (std::int32_t x = 0; x < patch.width; ++x) {
+            if (walls.full_density[s.index(patch.i + x, patch.j + y)] > Real(0)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// Mean excess of a patch's liquid cells; 0 in air. `overfull` grows by the patch's liquid cells if
 /// they have not the room for what is in them.
 template <bool Solids, class Real>
@@ -74,19 +87,17 @@ Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
              const PressureFields<Real>& f, std::int32_t& overfull) {
     Real sum = Real(0);
     std::int32_t count = 0;
-    bool open = !Solids;
     for (std::int32_t y = 0; y < patch.height; ++y) {
         std::int32_t x = 0;
         if constexpr (kHasLanes<Real>) {
             if (patch.width == kCoarseEdge) {
                 const std::int32_t c = s.index(patch.i, patch.j + y);
-                add_row_of_patch(f, walls.full_density, kCellWindow<Real>, c, sum, count, open);
+                add_row_of_patch(f, kCellWindow<Real>, c, sum, count);
                 x = kCoarseEdge;
             }
         }
         for (; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
-            open = open || walls.full_density[c] > Real(0);
             if (f.level[c] > Real(0)) {
                 sum += clamp<Real>(f.divergence[c], -kCellWindow<Real>, kCellWindow<Real>);
                 count += 1;
@@ -94,7 +105,7 @@ Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
         }
     }
     if (count == 0) {
-        return open ? Real(0) : kSolidPatch<Real>;
+        return !Solids || has_room(s, walls, patch) ? Real(0) : kSolidPatch<Real>;
     }
     const Real mean = part_of(sum, count);
     overfull += count >= kLeastOverfull && mean >= kOverfull<Real> ? count : 0;

@@ -44,16 +44,14 @@ inline std::int32_t excess_lanes(const PressureFields<float>& f, std::int32_t st
 }
 
 /// Adds the excess of a row of a patch, four cells of which the liquid ones count, each cut to the
-/// window. `open`: so far; then `full_density` is not read.
-inline void add_row_of_patch(const PressureFields<float>& f, const float* full_density,
-                             float window, std::int32_t c, float& sum, std::int32_t& count,
-                             bool& open) {
+/// window.
+inline void add_row_of_patch(const PressureFields<float>& f, float window, std::int32_t c,
+                             float& sum, std::int32_t& count) {
     const LaneMask liquid = load_lanes(f.level + c) > all_lanes(0.0F);
     count -= liquid[0] + liquid[1] + liquid[2] + liquid[3];
     const Lanes cut = clamp(load_lanes(f.divergence + c), all_lanes(-window), all_lanes(window));
     const Lanes said = liquid ? cut : all_lanes(0.0F);
     sum = (((sum + said[0]) + said[1]) + said[2]) + said[3];
-    open = open || any_true(load_lanes(full_density + c) > all_lanes(0.0F));
 }
 
 /// velocity −= speed · (difference of the excess + along) on four faces, but for closed ones.

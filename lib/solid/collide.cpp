@@ -2,6 +2,7 @@
 
 #include "solid/body_force.hpp"
 #include "solid/first_entry.hpp"
+#include "solid/near_wall_lanes.hpp"
 #include "solid/reflect.hpp"
 #include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
@@ -235,6 +236,11 @@ std::int32_t last_near_wall(const GridShape& shape, const std::uint8_t* cell_cas
                             const Vec2<Real>* position, std::int32_t count) {
     const std::int32_t stride = shape.stride;
     const std::uint8_t* origin = cell_case + shape.index(0, 0);
+    if constexpr (kHasLanes<Real>) {
+        if (maximum(stride, shape.ny) < 0x8000) {
+            count = last_four_near_wall(origin, stride, position, count);
+        }
+    }
     while (--count >= 0) {
         const Vec2<Real> x = position[count];
         if (origin[static_cast<std::int32_t>(x.y) * stride + static_cast<std::int32_t>(x.x)] !=

@@ -78,6 +78,42 @@ std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::in
     return walls.nearest[deepest];
 }
 
+/// Whether a point is in front of the contour of its cell by more than rounding, where the contour
+/// is one line: nearly all that are asked for are. Across a corner the line is where the distance,
+/// linear from the corner's node on, is 0. False: the contour must be found.
+template <class Real>
+bool clearly_outside(std::uint8_t which, const Real (&d)[4], Vec2<Real> f) {
+    constexpr Real kClear = Real(1.0 / 128.0);
+    const auto corner = [&](std::int32_t node, std::int32_t beside, std::int32_t over, Real x,
+                            Real y) {
+        const Vec2<Real> slope{d[beside] - d[node], d[over] - d[node]};
+        return d[node] + (slope.x * x + slope.y * y) >
+               kClear * (absolute(slope.x) + absolute(slope.y));
+    };
+    // Height over the line between the crossings of two opposite edges.
+    const auto height = [&](std::int32_t low, std::int32_t high, std::int32_t low_end,
+                            std::int32_t high_end, Real along, Real up) {
+        const Real first = d[low] / (d[low] - d[high]);
+        const Real last = d[low_end] / (d[low_end] - d[high_end]);
+        return up - (first + (last - first) * along);
+    };
+    switch (which) {
+        case 1:
+        case 14: return corner(0, 1, 3, f.x, f.y);
+        case 2:
+        case 13: return corner(1, 0, 2, Real(1) - f.x, f.y);
+        case 4:
+        case 11: return corner(2, 3, 1, Real(1) - f.x, Real(1) - f.y);
+        case 8:
+        case 7: return corner(3, 2, 0, f.x, Real(1) - f.y);
+        case 3: return height(0, 3, 1, 2, f.x, f.y) > kClear;
+        case 12: return height(0, 3, 1, 2, f.x, f.y) < -kClear;
+        case 9: return height(0, 1, 3, 2, f.y, f.x) > kClear;
+        case 6: return height(0, 1, 3, 2, f.y, f.x) < -kClear;
+        default: return false;
+    }
+}
+
 /// Where a particle stands: in the open, or behind the contour of its cell.
 template <class Real>
 struct Standing {
@@ -107,6 +143,9 @@ Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<R
         return at;
     }
     const CellView<Real> cell = cell_of(shape, walls, x);
+    if (clearly_outside(at.which, cell.corner, cell.local)) {
+        return at;
+    }
     at.hit = hit_in(cell, at.which);
     at.inside = at.hit.distance < Real(0) || (at.which == kCellInside && !walls.binary);
     if (at.inside && at.which != kCellInside && !walls.binary) {

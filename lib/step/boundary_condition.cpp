@@ -22,9 +22,12 @@ struct Velocity {
 
 template <class Real>
 struct Mirror {
-    Vec2<Real> face;
+    std::int32_t face;
+    bool is_u;             ///< the face
     Vec2<Real> normal;
     Vec2<Real> point;      ///< in the liquid
+    Stencil<Real> at_u;    ///< around it
+    Stencil<Real> at_v;
     Vec2<Real> wall;       ///< velocity of the wall there
     Real ratio = Real(0);  ///< depth of the face over distance of the mirror point
     bool sticks = false;   ///< the wall's own velocity on the wall, not slip
@@ -42,9 +45,10 @@ struct Edge {
 template <class Real>
 Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& edge,
                        Real distance, Vec2<Real> normal) {
-    Mirror<Real> mirror;
+    Mirror<Real> mirror{};
     const Vec2<Real> face = edge.centre;
-    mirror.face = face;
+    mirror.face = edge.a;
+    mirror.is_u = edge.b - edge.a != 1;
     mirror.normal = normal;
     mirror.wall = wall_velocity(walls, edge.a, edge.b, face);
     const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
@@ -56,8 +60,7 @@ Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<
     }
     const Real depth = mirror.sticks ? -distance : -minimum(distance, Real(0));
     const Real reach = maximum(depth, kLeastReach<Real>);
-    const Vec2<Real> point = face + (depth + reach) * mirror.normal;
-    mirror.point = within_tank(s, point);
+    mirror.point = within_tank(s, face + (depth + reach) * mirror.normal);
     mirror.ratio = depth / reach;
     return mirror;
 }
@@ -82,16 +85,27 @@ bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> poin
 }
 
 template <class Real>
-Vec2<Real> at_point(const Velocity<Real>& grid, Vec2<Real> point) {
-    const GridShape& s = grid.shape;
-    return {interpolate(grid.u, s.stride, stencil_u(s, point)),
-            interpolate(grid.v, s.stride, stencil_v(s, point))};
+Vec2<Real> at_mirror(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    return {interpolate(grid.u, grid.shape.stride, mirror.at_u),
+            interpolate(grid.v, grid.shape.stride, mirror.at_v)};
+}
+
+/// The face's own component, and the mean of the other's four faces around it.
+template <class Real>
+Vec2<Real> at_face(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    const std::int32_t stride = grid.shape.stride;
+    const std::int32_t face = mirror.face;
+    constexpr Real kHalf = Real(0.5);
+    if (mirror.is_u) {
+        return {grid.u[face], interpolate(grid.v, stride, Stencil<Real>{face - 1, kHalf, kHalf})};
+    }
+    return {interpolate(grid.u, stride, Stencil<Real>{face - stride, kHalf, kHalf}), grid.v[face]};
 }
 
 /// What is at the face itself, along the wall's normal and in its frame.
 template <class Real>
 Real own_towards(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const Vec2<Real> own = at_point(grid, within_tank(grid.shape, mirror.face)) - mirror.wall;
+    const Vec2<Real> own = at_face(grid, mirror) - mirror.wall;
     return dot(own, mirror.normal);
 }
 
@@ -107,7 +121,7 @@ Vec2<Real> stuck(const Mirror<Real>& mirror, Vec2<Real> liquid, Real towards) {
 /// Velocity that a face in a solid takes: mirrored about the wall, in the wall's frame.
 template <class Real>
 Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const Vec2<Real> liquid = at_point(grid, mirror.point);
+    const Vec2<Real> liquid = at_mirror(grid, mirror);
     const Real normal_part = dot(liquid - mirror.wall, mirror.normal);
     if (mirror.sticks) {
         return stuck(mirror, liquid, mirror.open ? own_towards(grid, mirror)
@@ -121,11 +135,11 @@ Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
 /// that was faster, so that the change brakes; mirrored, too, where the liquid sticks.
 template <class Real>
 Vec2<Real> before(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const Vec2<Real> liquid = at_point(grid, mirror.point) - mirror.wall;
+    const Vec2<Real> liquid = at_mirror(grid, mirror) - mirror.wall;
     if (mirror.sticks) {
         return stuck(mirror, liquid + mirror.wall, own_towards(grid, mirror));
     }
-    const Vec2<Real> own = at_point(grid, within_tank(grid.shape, mirror.face)) - mirror.wall;
+    const Vec2<Real> own = at_face(grid, mirror) - mirror.wall;
     const Real towards = dot(own, mirror.normal);
     const Real liquid_towards = dot(liquid, mirror.normal);
     const Vec2<Real> along = own - towards * mirror.normal;
@@ -167,7 +181,12 @@ bool is_image(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32
     mirror = mirror_of(axis.s, axis.walls, {axis.centre(i, j), face, other}, distance,
                        axis.normal(face));
     mirror.open = open > Real(0);
-    return near_liquid(axis.s, level, mirror.point);
+    if (!near_liquid(axis.s, level, mirror.point)) {
+        return false;
+    }
+    mirror.at_u = stencil_u(axis.s, mirror.point);
+    mirror.at_v = stencil_v(axis.s, mirror.point);
+    return true;
 }
 
 template <class Real>

@@ -68,15 +68,27 @@ void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer,
     found.note_all(simulation, report);
 }
 
+/// Room for up to so many copies, which is not emptied before it is used.
+template <class Value, std::int32_t Most>
+class Copies {
+public:
+    const Value* of(const Value* from, std::int32_t count) {
+        std::memcpy(bytes_, from, static_cast<std::size_t>(count) * sizeof(Value));
+        return reinterpret_cast<const Value*>(bytes_);
+    }
+
+private:
+    alignas(Value) unsigned char bytes_[Most * sizeof(Value)];
+};
+
 /// Moves a block of particles past thin walls, too. `before`: where they come from.
 template <class Real>
 TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
                                      const Transfer<Real>& transfer, const ThinWalls<Real>& thin,
                                      const Vec2<PositionOf<Real>>* before,
                                      Particles<Real>& block) {
-    Vec2<VelocityOf<Real>> velocity[kBlock<Real>];
-    std::memcpy(velocity, block.velocity,
-                static_cast<std::size_t>(block.count) * sizeof velocity[0]);
+    Copies<Vec2<VelocityOf<Real>>, kBlock<Real>> copies;
+    const Vec2<VelocityOf<Real>>* velocity = copies.of(block.velocity, block.count);
     TransferResult<Real> moved = grid_to_particle(simulation.grid, transfer, block);
     Transfer<Real> again = transfer;
     again.tank = nullptr;  // what hit its walls has been counted
@@ -95,11 +107,10 @@ void gather_block(Simulation<Real>& simulation, const Transfer<Real>& transfer,
                   TransferResult<Real>& moved, CollideResult<Real>& collisions) {
     const Walls<Real>& walls = simulation.layers.walls;
     Particles<Real>& particles = simulation.particles;
-    Vec2<PositionOf<Real>> before[kBlock<Real>];
     const std::int32_t first = places.first;
     const std::int32_t count = places.end - first;
-    std::memcpy(before, particles.position + first,
-                static_cast<std::size_t>(count) * sizeof before[0]);
+    Copies<Vec2<PositionOf<Real>>, kBlock<Real>> copies;
+    const Vec2<PositionOf<Real>>* before = copies.of(particles.position + first, count);
     Particles<Real> block = particles.part(first, count);
     moved = walls.thin != nullptr
                 ? move_past_walls(simulation, transfer, *walls.thin, before, block)

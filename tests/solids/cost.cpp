@@ -102,8 +102,15 @@ void cost_of_solids(Report& report, const Effort&) {
         report.at_most(name + ".time_with_over_without", time_ratio(scene), "1", 1.03);
     }
     const double few = instructions("250", true);
-    report.at_most("cost.still_polygons_1000_over_250", instructions("1000", true) / few, "1",
-                   1.02);
+    const double many = instructions("1000", true);
+    const double few_without = instructions("250", false);
+    const double many_without = instructions("1000", false);
+    report.at_most("cost.still_polygons_1000_over_250", many / few, "1", 1.02);
+    report.figure("cost.their_liquid_without_them", many_without / few_without, "1");
+    report.figure("cost.still_polygons_250.with_over_without", few / few_without, "1");
+    report.figure("cost.still_polygons_1000.with_over_without", many / many_without, "1");
+    report.at_most("cost.still_solids_as_1000_polygons_over_250", instructions("250cut", true) / few,
+                   "1", 1.02);
     const double turning = instructions("250turning", true);
     report.figure("cost.250_turning_over_still", turning / few, "1");
     report.figure("cost.1000_turning_over_250_turning", instructions("1000turning", true) / turning,
