@@ -23,7 +23,6 @@ inline constexpr bool kHasLanes<float> = true;
 
 using Lanes = float __attribute__((vector_size(16)));
 using LaneMask = std::int32_t __attribute__((vector_size(16)));
-using WideLanes = std::int64_t __attribute__((vector_size(16)));
 
 /// From any address, in order.
 inline Lanes load_lanes(const float* from) {
@@ -64,38 +63,6 @@ inline EvenOdd load_eight(const float* from) {
     return {shuffle<0, 2, 4, 6>(a, b), shuffle<1, 3, 5, 7>(a, b)};
 }
 
-/// Eight numbers that 16 bits hold.
-using ShortLanes = std::int16_t __attribute__((vector_size(16)));
-
-/// Two numbers again and again.
-inline ShortLanes pairs_of_shorts(std::int32_t first, std::int32_t second) {
-    const auto a = static_cast<std::int16_t>(first);
-    const auto b = static_cast<std::int16_t>(second);
-    return ShortLanes{a, b, a, b, a, b, a, b};
-}
-/// a₀ · f₀ + a₁ · f₁ and, above it, a₂ · f₂ + a₃ · f₃, of lanes that 16 bits hold.
-inline std::uint64_t two_sums_of_products(LaneMask a, ShortLanes f) {
-#if defined(__SSE2__)
-    const ShortLanes shorts = __builtin_ia32_packssdw128(a, a);
-    const auto sums = reinterpret_cast<WideLanes>(__builtin_ia32_pmaddwd128(shorts, f));
-    return static_cast<std::uint64_t>(sums[0]);
-#else
-    const auto low = static_cast<std::uint32_t>(a[0] * f[0] + a[1] * f[1]);
-    const auto high = static_cast<std::uint32_t>(a[2] * f[2] + a[3] * f[3]);
-    return static_cast<std::uint64_t>(high) << 32U | low;
-#endif
-}
-/// Sums of two products: of a's first two lanes and its last two, and of b's.
-inline LaneMask sums_of_products(LaneMask a, LaneMask b, ShortLanes f) {
-#if defined(__SSE2__)
-    return __builtin_ia32_pmaddwd128(__builtin_ia32_packssdw128(a, b), f);
-#else
-    const std::int32_t x = f[0];
-    const std::int32_t y = f[1];
-    return __builtin_shufflevector(a, b, 0, 2, 4, 6) * LaneMask{x, x, x, x} +
-           __builtin_shufflevector(a, b, 1, 3, 5, 7) * LaneMask{y, y, y, y};
-#endif
-}
 inline bool all_true(LaneMask mask) {
 #if defined(__SSE2__)
     Lanes signs;

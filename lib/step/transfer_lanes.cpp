@@ -5,17 +5,14 @@
 
 #include <cstring>
 
-#include "step/stencil_lanes.hpp"
+#include "math/four_lanes.hpp"
+#include "step/transfer_wide.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
 
 namespace {
-
-inline void add(float* to, Lanes what) {
-    store_lanes(to, load_lanes(to) + what);
-}
 
 /// Runs over all rows, ghost rows included, as the work allows.
 template <class Visit>
@@ -55,58 +52,24 @@ void pack(const float* first, const float* second, const Part& part, float* pair
     }
 }
 
-/// What a particle adds to the four rows of its stencils.
-struct Contribution {
-    StencilPair at;
-    Lanes lower_u;
-    Lanes upper_u;
-    Lanes lower_v;
-    Lanes upper_v;
-};
-
-inline Contribution contribution(const float* position, const float* velocities,
-                                 const Strides& strides) {
-    const StencilPair at = stencils(strides, load_pair(position));
-    const Lanes one = all_lanes(1.0F);
-    const Lanes w1 = at.fx * at.fy;
-    const Lanes right = at.fx - w1;
-    const Lanes upper = at.fy - w1;
-    const Lanes w0 = (one - at.fx) - upper;
-    // Each weight once as it is and once with the velocity: mass, momentum.
-    const Lanes given = shuffle<0, 4, 1, 5>(one, load_pair(velocities));
-    const Lanes left_lower = w0 * given;
-    const Lanes right_lower = right * given;
-    const Lanes left_upper = upper * given;
-    const Lanes right_upper = w1 * given;
-    return {at, shuffle<0, 1, 4, 5>(left_lower, right_lower),
-            shuffle<0, 1, 4, 5>(left_upper, right_upper),
-            shuffle<2, 3, 6, 7>(left_lower, right_lower),
-            shuffle<2, 3, 6, 7>(left_upper, right_upper)};
-}
-
-void scatter_all(const Particles<float>& particles, const Part& part, std::int32_t stride,
-                 float* pairs_u, float* pairs_v) {
-    const Strides strides(stride);
-    const Vec2<float>* position = particles.position;
-    const Vec2<float>* velocity = particles.velocity;
-    pairs_u = strides.of_u(pairs_u);
-    pairs_v = strides.of_v(pairs_v);
-    for (std::int32_t k = part.first; k < part.end; ++k) {
-        const Contribution c = contribution(&position[k].x, &velocity[k].x, strides);
-        float* u = pairs_u + 2 * static_cast<std::size_t>(c.at.u);
-        float* w = pairs_v + 2 * static_cast<std::size_t>(c.at.v);
-        add(u, c.lower_u);
-        add(u + strides.up, c.upper_u);
-        add(w, c.lower_v);
-        add(w + strides.up, c.upper_v);
+void scatter(const Particles<float>& particles, const Part& part, const Pairs<float>& pairs) {
+    const float* position = &particles.position->x + 2 * part.first;
+    const float* velocity = &particles.velocity->x + 2 * part.first;
+    const std::int32_t count = part.end - part.first;
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        scatter_wide(position, velocity, count, pairs);
+        return;
     }
+#endif
+    scatter_all<FourLanes>(position, velocity, count, pairs);
 }
 
 #if WEIR_PARALLEL
 
 /// Particles that follow each other in the pool are looked at together: their lowest and highest
 /// place say which rows they give to.
-constexpr std::int32_t kTogether = 64;
+constexpr std::int32_t kTogether = kRun;
 
 /// Rows that particles together may span on the average, if rows are to be done side by side.
 constexpr float kWidestSpan = 12.0F;
@@ -125,15 +88,42 @@ Span span_of(const Vec2<float>* position, std::int32_t count) {
     return span;
 }
 
+/// What some particles, of which not all are to be asked, give to entries of the arrays.
+void scatter_to_some(const Particles<float>& particles, const Part& block, const Part& rows,
+                     const Pairs<float>& pairs) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(rows.first) * pairs.stride;
+    const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(rows.end) * pairs.stride;
+    const auto low = static_cast<float>(rows.first) - 2.0F;
+    const auto high = static_cast<float>(rows.end);
+    const auto give = [&](float* field, std::ptrdiff_t entry, Lanes what) {
+        if (entry >= first && entry < end) {
+            FourLanes::add_group<0>(field + 2 * entry, what);
+        }
+    };
+    const Vec2<float>* position = particles.position + block.first;
+    Run run;
+    find_stencils<FourLanes>(pairs.stride, &position->x, block.end - block.first, run);
+    for (std::int32_t k = 0; k < block.end - block.first; ++k) {
+        if (position[k].y < low || position[k].y >= high) {
+            continue;
+        }
+        const Contribution<FourLanes> what = contribution<FourLanes>(
+            run.weight[k], load_pair(&particles.velocity[block.first + k].x));
+        const std::ptrdiff_t u = static_cast<std::ptrdiff_t>(run.u[k]) + 1;
+        const std::ptrdiff_t v = static_cast<std::ptrdiff_t>(run.v[k]) + pairs.stride;
+        give(pairs.u, u, what.lower_u);
+        give(pairs.u, u + pairs.stride, what.upper_u);
+        give(pairs.v, v, what.lower_v);
+        give(pairs.v, v + pairs.stride, what.upper_v);
+    }
+}
+
 /// Everything that particles give to some rows of the arrays, in the pool's order: the same sums
 /// as if all rows were done at once.
 void scatter_to_rows(const Particles<float>& particles, const Span* spans, const Part& rows,
-                     std::int32_t stride, float* pairs_u, float* pairs_v) {
+                     const Pairs<float>& pairs) {
     const auto low = static_cast<float>(rows.first);
     const auto high = static_cast<float>(rows.end);
-    const std::int32_t first = rows.first * stride;
-    const std::int32_t end = rows.end * stride;
-    const Strides strides(stride);
     // A particle in row j of the cells gives to rows j … j + 2 of the arrays.
     for (std::int32_t k = 0; k < particles.count; k += kTogether) {
         const Span& span = spans[k / kTogether];
@@ -142,34 +132,16 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
             continue;
         }
         if (span.low >= low && span.high < high - 2.0F) {
-            scatter_all(particles, block, stride, pairs_u, pairs_v);
-            continue;
-        }
-        for (std::int32_t n = block.first; n < block.end; ++n) {
-            const float y = particles.position[n].y;
-            if (y < low - 2.0F || y >= high) {
-                continue;
-            }
-            const Contribution c =
-                contribution(&particles.position[n].x, &particles.velocity[n].x, strides);
-            const auto give = [&](float* pairs, std::int32_t entry, Lanes what) {
-                if (entry >= first && entry < end) {
-                    add(pairs + 2 * entry, what);
-                }
-            };
-            const std::int32_t u = static_cast<std::int32_t>(c.at.u) + 1;
-            const std::int32_t v = static_cast<std::int32_t>(c.at.v) + stride;
-            give(pairs_u, u, c.lower_u);
-            give(pairs_u, u + stride, c.upper_u);
-            give(pairs_v, v, c.lower_v);
-            give(pairs_v, v + stride, c.upper_v);
+            scatter(particles, block, pairs);
+        } else {
+            scatter_to_some(particles, block, rows, pairs);
         }
     }
 }
 
 /// Row by row instead of particle by particle. False: it was not worth it, nothing was done.
 bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid<float>& grid,
-                          Work work, float* pairs_u, float* pairs_v) {
+                          Work work, const Pairs<float>& pairs) {
     constexpr std::int32_t kLeastRows = 24;  // two are done by both neighbours
     constexpr std::int32_t kCost = 4;  // units a particle: it takes as long as so many cells
     const GridShape& s = grid.shape;
@@ -198,7 +170,7 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
         return false;
     }
     work.share(rows, cost, kLeastRows, [&](const Part& some, std::int32_t) {
-        scatter_to_rows(particles, spans, some, s.stride, pairs_u, pairs_v);
+        scatter_to_rows(particles, spans, some, pairs);
     });
     return true;
 }
@@ -209,29 +181,28 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
 
 void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid, Work work) {
     const GridShape& s = grid.shape;
-    float* pairs_u = grid.v;
-    float* pairs_v = grid.pairs;
+    const Pairs<float> pairs{grid.v, grid.pairs, s.stride};
     each_row(work, s, [&](const Part& entries) {
         const std::size_t bytes =
             2 * static_cast<std::size_t>(entries.end - entries.first) * sizeof(float);
-        std::memset(pairs_u + 2 * entries.first, 0, bytes);
-        std::memset(pairs_v + 2 * entries.first, 0, bytes);
+        std::memset(pairs.u + 2 * entries.first, 0, bytes);
+        std::memset(pairs.v + 2 * entries.first, 0, bytes);
     });
     const Part part = work.take(particles.count, 1);
     bool done = false;
 #if WEIR_PARALLEL
     if (part.first == 0 && part.end == particles.count) {
-        done = scatter_side_by_side(particles, grid, work, pairs_u, pairs_v);
+        done = scatter_side_by_side(particles, grid, work, pairs);
     }
 #endif
     if (!done) {
-        scatter_all(particles, part, s.stride, pairs_u, pairs_v);
+        scatter(particles, part, pairs);
     }
     each_row(work, s, [&](const Part& entries) {
-        unpack(pairs_u, entries, grid.mass_u, grid.u);
+        unpack(pairs.u, entries, grid.mass_u, grid.u);
     });
     each_row(work, s, [&](const Part& entries) {
-        unpack(pairs_v, entries, grid.mass_v, grid.v);
+        unpack(pairs.v, entries, grid.mass_v, grid.v);
     });
 }
 

@@ -1,0 +1,90 @@
+// Four floats side by side as loops know them that are written for any number of groups of four.
+#pragma once
+
+#include <type_traits>
+
+#include "math/lanes.hpp"
+
+namespace weir {
+
+#if WEIR_HAS_LANES
+
+struct FourLanes {
+    using Floats = Lanes;
+    using Ints = LaneMask;
+    using Shorts = std::int16_t __attribute__((vector_size(16)));
+    static constexpr std::int32_t kGroups = 1;
+    static constexpr std::integral_constant<std::int32_t, 0> kFirstGroup{};
+
+    /// body(number of the group), a constant.
+    template <class Body>
+    static void each_group(const Body& body) {
+        body(kFirstGroup);
+    }
+    static Floats all(float value) { return all_lanes(value); }
+    /// The same in each group.
+    static Floats repeat(float a, float b, float c, float d) { return Floats{a, b, c, d}; }
+    static Floats load(const float* from) { return load_lanes(from); }
+    /// The first few; the others are 0.
+    static Floats load_some(const float* from, std::int32_t count) {
+        Floats lanes{};
+        __builtin_memcpy(&lanes, from, static_cast<std::size_t>(count) * sizeof *from);
+        return lanes;
+    }
+    static void store(float* to, Floats lanes) { store_lanes(to, lanes); }
+    /// For each group the four numbers from pair `at` on.
+    static Floats load_pairs(const float* from, const std::uint32_t* at) {
+        return load_lanes(from + 2 * static_cast<std::size_t>(*at));
+    }
+    /// A pair for each group, in its lanes 0 and 1.
+    static Floats spread_pairs(const float* from) { return load_pair(from); }
+    template <int G>
+    static void store_group(float* to, Floats lanes) {
+        store_lanes(to, lanes);
+    }
+    template <int G>
+    static void add_group(float* to, Floats lanes) {
+        store_lanes(to, load_lanes(to) + lanes);
+    }
+    /// Lanes First and First + 1 of a group.
+    template <int G, int First>
+    static void store_pair(std::uint32_t* to, Ints lanes) {
+        const Ints pair = __builtin_shufflevector(lanes, lanes, First, First + 1, 0, 0);
+        __builtin_memcpy(to, &pair, 2 * sizeof *to);
+    }
+    /// Within each group.
+    template <int I, int J, int K, int L>
+    static Floats shuffle(Floats a, Floats b) {
+        return weir::shuffle<I, J, K, L>(a, b);
+    }
+    /// Lanes 0 and 1 of each group of a, then of b.
+    static Floats first_pairs(Floats a, Floats b) { return weir::shuffle<0, 1, 4, 5>(a, b); }
+    static Floats last_pairs(Floats a, Floats b) { return weir::shuffle<2, 3, 6, 7>(a, b); }
+    static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
+    static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
+    /// Two numbers again and again.
+    static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {
+        const auto a = static_cast<std::int16_t>(first);
+        const auto b = static_cast<std::int16_t>(second);
+        return Shorts{a, b, a, b, a, b, a, b};
+    }
+    /// Lane 0 times the first number + lane 1 times the second, then of lanes 2 and 3: in each
+    /// group first those of a, then those of b. All of them are numbers that 16 bits hold.
+    static Ints sums_of_products(Ints a, Ints b, Shorts f) {
+#if defined(__SSE2__)
+        return __builtin_ia32_pmaddwd128(__builtin_ia32_packssdw128(a, b), f);
+#else
+        const std::int32_t x = f[0];
+        const std::int32_t y = f[1];
+        return __builtin_shufflevector(a, b, 0, 2, 4, 6) * Ints{x, x, x, x} +
+               __builtin_shufflevector(a, b, 1, 3, 5, 7) * Ints{y, y, y, y};
+#endif
+    }
+    static Floats absolute(Floats a) { return weir::absolute(a); }
+    static Floats maximum(Floats a, Floats b) { return weir::maximum(a, b); }
+    static bool all_true(Ints mask) { return weir::all_true(mask); }
+};
+
+#endif
+
+}  // namespace weir

@@ -1,0 +1,132 @@
+// Eight floats side by side, as two groups of four, for files that are compiled for processors with
+// AVX2 (`..._wide.cpp`). Lane by lane as in math/lanes.hpp, and so with the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+/// WEIR_WIDE: the build compiles those files so.
+#if defined(WEIR_WIDE) && defined(__x86_64__) && !defined(WEIR_PLAIN_LOOPS) && \
+    (defined(__clang__) || __GNUC__ >= 12)
+#define WEIR_HAS_WIDE_LANES 1
+#else
+#define WEIR_HAS_WIDE_LANES 0
+#endif
+
+namespace weir {
+
+#if WEIR_HAS_WIDE_LANES
+/// Whether this processor has them. Asked once.
+bool has_wide_lanes();
+#endif
+
+#if WEIR_HAS_WIDE_LANES && defined(__AVX2__)
+
+// No other file may be given what is compiled here.
+namespace {
+
+struct EightLanes {
+    using Floats = float __attribute__((vector_size(32)));
+    using Ints = std::int32_t __attribute__((vector_size(32)));
+    using Shorts = std::int16_t __attribute__((vector_size(32)));
+    using Four = float __attribute__((vector_size(16)));
+    static constexpr std::int32_t kGroups = 2;
+    static constexpr std::integral_constant<std::int32_t, 0> kFirstGroup{};
+
+    template <class Body>
+    static void each_group(const Body& body) {
+        body(std::integral_constant<std::int32_t, 0>{});
+        body(std::integral_constant<std::int32_t, 1>{});
+    }
+    template <int G>
+    static Four group(Floats a) {
+        return __builtin_shufflevector(a, a, 4 * G, 4 * G + 1, 4 * G + 2, 4 * G + 3);
+    }
+    static Floats all(float x) { return Floats{x, x, x, x, x, x, x, x}; }
+    static Floats repeat(float a, float b, float c, float d) {
+        return Floats{a, b, c, d, a, b, c, d};
+    }
+    static Floats load(const float* from) {
+        Floats lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    }
+    static Floats load_some(const float* from, std::int32_t count) {
+        Floats lanes{};
+        __builtin_memcpy(&lanes, from, static_cast<std::size_t>(count) * sizeof *from);
+        return lanes;
+    }
+    static void store(float* to, Floats lanes) { __builtin_memcpy(to, &lanes, sizeof lanes); }
+    static Four load_four(const float* from) {
+        Four lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    }
+    static Floats load_pairs(const float* from, const std::uint32_t* at) {
+        return __builtin_shufflevector(load_four(from + 2 * static_cast<std::size_t>(at[0])),
+                                       load_four(from + 2 * static_cast<std::size_t>(at[1])), 0,
+                                       1, 2, 3, 4, 5, 6, 7);
+    }
+    static Floats spread_pairs(const float* from) {
+        const Four both = load_four(from);
+        return __builtin_shufflevector(both, both, 0, 1, 0, 1, 2, 3, 2, 3);
+    }
+    template <int G>
+    static void store_group(float* to, Floats a) {
+        const Four lanes = group<G>(a);
+        __builtin_memcpy(to, &lanes, sizeof lanes);
+    }
+    template <int G>
+    static void add_group(float* to, Floats a) {
+        const Four lanes = load_four(to) + group<G>(a);
+        __builtin_memcpy(to, &lanes, sizeof lanes);
+    }
+    template <int G, int First>
+    static void store_pair(std::uint32_t* to, Ints a) {
+        const Ints pair = __builtin_shufflevector(a, a, 4 * G + First, 4 * G + First + 1, 0, 0, 0,
+                                                  0, 0, 0);
+        __builtin_memcpy(to, &pair, 2 * sizeof *to);
+    }
+    template <int I, int J, int K, int L>
+    static Floats shuffle(Floats a, Floats b) {
+        return __builtin_shufflevector(a, b, at<I>(0), at<J>(0), at<K>(0), at<L>(0), at<I>(4),
+                                       at<J>(4), at<K>(4), at<L>(4));
+    }
+    static Floats first_pairs(Floats a, Floats b) {
+        return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
+    }
+    static Floats last_pairs(Floats a, Floats b) {
+        return __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
+    }
+    static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
+    static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
+    static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {
+        const auto a = static_cast<std::int16_t>(first);
+        const auto b = static_cast<std::int16_t>(second);
+        return Shorts{a, b, a, b, a, b, a, b, a, b, a, b, a, b, a, b};
+    }
+    static Ints sums_of_products(Ints a, Ints b, Shorts f) {
+        return __builtin_ia32_pmaddwd256(__builtin_ia32_packssdw256(a, b), f);
+    }
+    static Floats absolute(Floats a) {
+        return reinterpret_cast<Floats>(reinterpret_cast<Ints>(a) & (Ints{} + 0x7FFFFFFF));
+    }
+    static Floats maximum(Floats a, Floats b) { return a < b ? b : a; }
+    static bool all_true(Ints mask) {
+        return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(mask)) == 0xFF;
+    }
+
+private:
+    /// Of four from a and four from b to eight from each.
+    template <int I>
+    static constexpr int at(int group) {
+        return (I & 3) + (I & 4) * 2 + group;
+    }
+};
+
+}  // namespace
+
+#endif
+
+}  // namespace weir

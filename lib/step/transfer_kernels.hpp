@@ -1,0 +1,234 @@
+// The loops of both transfers, for any number of groups of four lanes: a particle a group, or two
+// where one number of each component is enough. Compiled once for each set of lanes, also for
+// processors that not every user has: what is included here must not be shared with other files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace weir {
+
+/// So many particles go through the parts of a transfer together. In a gather one particle alone
+/// takes ninety cycles from its place to its next one: more than a processor looks ahead.
+inline constexpr std::int32_t kRun = 64;
+
+/// Between the parts, for each particle of a run.
+struct Run {
+    std::uint32_t u[kRun];   ///< bases of the stencils, before what first_u and first_v add
+    std::uint32_t v[kRun];
+    float weight[kRun][4];   ///< fx and fy of u, of v
+    float found[kRun][4];    ///< velocity along the way, change
+};
+
+/// Two fields of pairs, side by side for each face: {mass, momentum} or {velocity, change}.
+template <class Float>
+struct Pairs {
+    Float* u;
+    Float* v;
+    std::int32_t stride;
+
+    std::ptrdiff_t up() const { return 2 * static_cast<std::ptrdiff_t>(stride); }
+    /// Where the bases of a run count from.
+    Float* first_u() const { return u + 2; }
+    Float* first_v() const { return v + up(); }
+};
+
+/// What a gather of some particles is told; lengths in cells.
+struct GatherTask {
+    Pairs<const float> pairs;
+    float* position;
+    float* velocity;
+    std::int32_t count;
+    float size[2];     ///< of the tank
+    float gap;         ///< kWallGap
+    float near;        ///< cells/s, of the way
+    float limit;       ///< cells/s
+    float flip_ratio;
+    float dt;
+    /// Moves particle k, which is too fast or leaves the tank; `found`: as in Run.
+    void (*move_one)(void* context, std::int32_t k, const float* found);
+    void* context;
+};
+
+/// Both stencils of particles, two a group.
+template <class L>
+inline void find_stencils(std::int32_t stride, const float* position, std::int32_t count,
+                          Run& run) {
+    const auto factors = L::pairs_of_shorts(1, stride);
+    for (std::int32_t k = 0; k < count; k += 2 * L::kGroups) {
+        const auto x = k + 2 * L::kGroups <= count
+                           ? L::load(position + 2 * k)
+                           : L::load_some(position + 2 * k, 2 * (count - k));
+        const auto on_u = x + L::repeat(0.0F, 0.5F, 0.0F, 0.5F);
+        const auto on_v = x + L::repeat(0.5F, 0.0F, 0.5F, 0.0F);
+        const auto node_u = L::whole(on_u);
+        const auto node_v = L::whole(on_v);
+        const auto f_u = on_u - L::floats(node_u);
+        const auto f_v = on_v - L::floats(node_v);
+        const auto bases = L::sums_of_products(node_u, node_v, factors);
+        const auto even = L::template shuffle<0, 1, 4, 5>(f_u, f_v);
+        const auto odd = L::template shuffle<2, 3, 6, 7>(f_u, f_v);
+        L::each_group([&](auto group) {
+            const std::int32_t n = k + 2 * group;
+            L::template store_pair<group, 0>(run.u + n, bases);
+            L::template store_pair<group, 2>(run.v + n, bases);
+            L::template store_group<group>(run.weight[n], even);
+            L::template store_group<group>(run.weight[n + 1], odd);
+        });
+    }
+}
+
+/// The second part of a gather: bilinear values and slopes of velocity and change on both kinds of
+/// faces, lanes u, change of u, v, change of v; from them the way, bent to second order.
+template <class L>
+inline void sample_run(const Pairs<const float>& pairs, float half_dt, std::int32_t count,
+                       Run& run) {
+    const float* const first_u = pairs.first_u();
+    const float* const first_v = pairs.first_v();
+    const std::ptrdiff_t up = pairs.up();
+    for (std::int32_t k = 0; k < count; k += L::kGroups) {
+        const auto f = L::load(run.weight[k]);
+        const auto fx = L::template shuffle<0, 0, 2, 2>(f, f);
+        const auto fy = L::template shuffle<1, 1, 3, 3>(f, f);
+        const auto low_u = L::load_pairs(first_u, run.u + k);
+        const auto low_v = L::load_pairs(first_v, run.v + k);
+        const auto high_u = L::load_pairs(first_u + up, run.u + k);
+        const auto high_v = L::load_pairs(first_v + up, run.v + k);
+        const auto low_left = L::template shuffle<0, 1, 4, 5>(low_u, low_v);
+        const auto high_left = L::template shuffle<0, 1, 4, 5>(high_u, high_v);
+        const auto low_slope = L::template shuffle<2, 3, 6, 7>(low_u, low_v) - low_left;
+        const auto high_slope = L::template shuffle<2, 3, 6, 7>(high_u, high_v) - high_left;
+        const auto low = low_left + fx * low_slope;
+        const auto high = high_left + fx * high_slope;
+        const auto slope_y = high - low;
+        const auto value = low + fy * slope_y;
+        const auto slope_x = low_slope + fy * (high_slope - low_slope);
+        const auto turned = slope_x * L::template shuffle<0, 0, 0, 0>(value, value) +
+                            slope_y * L::template shuffle<2, 2, 2, 2>(value, value);
+        const auto along = value + L::all(half_dt) * turned;
+        L::store(run.found[k], L::template shuffle<0, 2, 5, 7>(along, value));
+    }
+}
+
+/// The third part: particles move, two a group, unless something is in the way of one of them.
+/// `fastest` grows by their speeds.
+template <class L>
+inline void move_run(const GatherTask& task, std::int32_t first, std::int32_t count,
+                     const Run& run, typename L::Floats& fastest) {
+    const auto lowest = L::all(task.gap);
+    const auto highest =
+        L::repeat(task.size[0], task.size[1], task.size[0], task.size[1]) - lowest;
+    float* const x = task.position + 2 * first;
+    float* const v = task.velocity + 2 * first;
+    const auto one_by_one = [&](std::int32_t k, std::int32_t end) {
+        for (; k < end; ++k) {
+            task.move_one(task.context, first + k, run.found[k]);
+        }
+    };
+    std::int32_t k = 0;
+    for (; k + 2 * L::kGroups <= count; k += 2 * L::kGroups) {
+        const auto a = L::load(run.found[k]);
+        const auto b = L::load(run.found[k + L::kGroups]);
+        const auto along = L::first_pairs(a, b);
+        const auto faster = L::all(task.flip_ratio) * L::load(v + 2 * k) + L::last_pairs(a, b);
+        const auto speed = L::absolute(faster);
+        const auto moved = L::load(x + 2 * k) + L::all(task.dt) * along;
+        if (L::all_true((speed <= L::all(task.limit)) &
+                        (L::absolute(along) <= L::all(task.near)) & (moved >= lowest) &
+                        (moved <= highest))) {
+            fastest = L::maximum(fastest, speed);
+            L::store(x + 2 * k, moved);
+            L::store(v + 2 * k, faster);
+        } else {
+            one_by_one(k, k + 2 * L::kGroups);
+        }
+    }
+    one_by_one(k, count);
+}
+
+/// Moves particles; answers the largest component of a velocity of those that nothing was in the
+/// way of.
+template <class L>
+inline float gather_all(const GatherTask& task) {
+    Run run;
+    auto fastest = L::all(0.0F);
+    for (std::int32_t first = 0; first < task.count; first += kRun) {
+        const std::int32_t count = task.count - first < kRun ? task.count - first : kRun;
+        find_stencils<L>(task.pairs.stride, task.position + 2 * first, count, run);
+        sample_run<L>(task.pairs, 0.5F * task.dt, count, run);
+        move_run<L>(task, first, count, run, fastest);
+    }
+    float most = 0.0F;
+    for (std::int32_t lane = 0; lane < 4 * L::kGroups; ++lane) {
+        most = most < fastest[lane] ? fastest[lane] : most;
+    }
+    return most;
+}
+
+/// What particles, one a group, add to the rows of their stencils: mass and momentum of the left
+/// face, then of the right one.
+template <class L>
+struct Contribution {
+    typename L::Floats lower_u;
+    typename L::Floats upper_u;
+    typename L::Floats lower_v;
+    typename L::Floats upper_v;
+};
+
+/// `velocities`: pairs in lanes 0 and 1 of each group.
+template <class L>
+inline Contribution<L> contribution(const float* weights, typename L::Floats velocities) {
+    const auto f = L::load(weights);
+    const auto fx = L::template shuffle<0, 0, 2, 2>(f, f);
+    const auto fy = L::template shuffle<1, 1, 3, 3>(f, f);
+    const auto one = L::all(1.0F);
+    const auto w1 = fx * fy;
+    const auto right = fx - w1;
+    const auto upper = fy - w1;
+    const auto w0 = (one - fx) - upper;
+    // Each weight once as it is and once with the velocity.
+    const auto given = L::template shuffle<0, 4, 1, 5>(one, velocities);
+    const auto left_lower = w0 * given;
+    const auto right_lower = right * given;
+    const auto left_upper = upper * given;
+    const auto right_upper = w1 * given;
+    return {L::template shuffle<0, 1, 4, 5>(left_lower, right_lower),
+            L::template shuffle<0, 1, 4, 5>(left_upper, right_upper),
+            L::template shuffle<2, 3, 6, 7>(left_lower, right_lower),
+            L::template shuffle<2, 3, 6, 7>(left_upper, right_upper)};
+}
+
+/// Adds mass and momentum of particles, in their order.
+template <class L>
+inline void scatter_all(const float* position, const float* velocity, std::int32_t count,
+                        const Pairs<float>& pairs) {
+    Run run;
+    const std::ptrdiff_t up = pairs.up();
+    float* const first_u = pairs.first_u();
+    float* const first_v = pairs.first_v();
+    const auto add = [&](std::int32_t k, const Contribution<L>& what, auto group) {
+        float* const u = first_u + 2 * static_cast<std::size_t>(run.u[k + group]);
+        float* const v = first_v + 2 * static_cast<std::size_t>(run.v[k + group]);
+        L::template add_group<group>(u, what.lower_u);
+        L::template add_group<group>(u + up, what.upper_u);
+        L::template add_group<group>(v, what.lower_v);
+        L::template add_group<group>(v + up, what.upper_v);
+    };
+    for (std::int32_t first = 0; first < count; first += kRun) {
+        const std::int32_t some = count - first < kRun ? count - first : kRun;
+        const float* const v = velocity + 2 * first;
+        find_stencils<L>(pairs.stride, position + 2 * first, some, run);
+        std::int32_t k = 0;
+        for (; k + L::kGroups <= some; k += L::kGroups) {
+            const auto what = contribution<L>(run.weight[k], L::spread_pairs(v + 2 * k));
+            L::each_group([&](auto group) { add(k, what, group); });
+        }
+        for (; k < some; ++k) {
+            const auto what =
+                contribution<L>(run.weight[k], L::load_some(v + 2 * k, 2));
+            add(k, what, L::kFirstGroup);
+        }
+    }
+}
+
+}  // namespace weir

@@ -1,0 +1,16 @@
+// Both transfers with eight lanes, for processors that have them.
+#pragma once
+
+#include "math/wide_lanes.hpp"
+#include "step/transfer_kernels.hpp"
+
+namespace weir {
+
+#if WEIR_HAS_WIDE_LANES
+/// As `gather_all` and `scatter_all` of `EightLanes`; only where `has_wide_lanes()`.
+float gather_wide(const GatherTask& task);
+void scatter_wide(const float* position, const float* velocity, std::int32_t count,
+                  const Pairs<float>& pairs);
+#endif
+
+}  // namespace weir
