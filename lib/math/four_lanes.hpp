@@ -14,6 +14,7 @@ struct FourLanes {
     using Ints = LaneMask;
     using Shorts = std::int16_t __attribute__((vector_size(16)));
     static constexpr std::int32_t kGroups = 1;
+    static constexpr std::int32_t kLanes = 4;
     static constexpr std::integral_constant<std::int32_t, 0> kFirstGroup{};
 
     /// body(number of the group), a constant.
@@ -80,9 +81,33 @@ struct FourLanes {
                __builtin_shufflevector(a, b, 1, 3, 5, 7) * Ints{y, y, y, y};
 #endif
     }
+    /// Every second of twice as many numbers, from the first one on and from the second one on, in
+    /// an order of their own.
+    struct Alternate {
+        Floats even;
+        Floats odd;
+    };
+    static Alternate load_alternate(const float* from) {
+        const EvenOdd numbers = load_eight(from);
+        return {numbers.even, numbers.odd};
+    }
+    static void store_alternate(float* to, Floats even, Floats odd) {
+        store_lanes(to, weir::shuffle<0, 4, 1, 5>(even, odd));
+        store_lanes(to + 4, weir::shuffle<2, 6, 3, 7>(even, odd));
+    }
+    /// The odd number before each: `before` holds those of the numbers before.
+    static Floats odd_before(Floats before, Floats odd) {
+        return weir::shuffle<3, 4, 5, 6>(before, odd);
+    }
     static Floats absolute(Floats a) { return weir::absolute(a); }
+    static Floats square_root(Floats a) { return weir::square_root(a); }
+    static Floats minimum(Floats a, Floats b) { return weir::minimum(a, b); }
     static Floats maximum(Floats a, Floats b) { return weir::maximum(a, b); }
+    static Floats clamp(Floats a, Floats low, Floats high) { return weir::clamp(a, low, high); }
     static bool all_true(Ints mask) { return weir::all_true(mask); }
+    static bool any_true(Ints mask) { return weir::any_true(mask); }
+    /// A negative zero may count as one.
+    static bool any_negative(Floats a) { return weir::any_negative(a); }
 };
 
 #endif

@@ -6,8 +6,6 @@ namespace weir {
 
 namespace {
 
-enum Answer : std::int32_t { unknown, no, yes };
-
 struct Registers {
     std::uint32_t a, b, c, d;
 };
@@ -19,29 +17,27 @@ Registers cpuid(std::uint32_t leaf) {
 }
 
 /// Whether processor and operating system have AVX2 registers (Intel's manual, volume 1, 14.3).
-Answer ask() {
+bool ask() {
     constexpr std::uint32_t kAvxAndXgetbv = 3U << 27U;  // leaf 1, c
     constexpr std::uint32_t kAvx2 = 1U << 5U;           // leaf 7, b
     constexpr std::uint32_t kSaved = 6U;  // SSE and AVX state is kept when threads change
     if (cpuid(0).a < 7 || (cpuid(1).c & kAvxAndXgetbv) != kAvxAndXgetbv) {
-        return no;
+        return false;
     }
     std::uint32_t low = 0;
     std::uint32_t high = 0;
     __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
-    return (low & kSaved) == kSaved && (cpuid(7).b & kAvx2) != 0 ? yes : no;
+    return (low & kSaved) == kSaved && (cpuid(7).b & kAvx2) != 0;
 }
 
 }  // namespace
 
-bool has_wide_lanes() {
-    static std::int32_t known = unknown;  // every thread finds the same
-    std::int32_t answer = __atomic_load_n(&known, __ATOMIC_RELAXED);
-    if (answer == unknown) {
-        answer = ask();
-        __atomic_store_n(&known, answer, __ATOMIC_RELAXED);
-    }
-    return answer == yes;
+std::int32_t wide_lanes_known = 0;
+
+bool ask_for_wide_lanes() {
+    const bool found = ask();
+    __atomic_store_n(&wide_lanes_known, found ? 1 : -1, __ATOMIC_RELAXED);
+    return found;
 }
 
 }  // namespace weir

@@ -17,8 +17,15 @@
 namespace weir {
 
 #if WEIR_HAS_WIDE_LANES
-/// Whether this processor has them. Asked once.
-bool has_wide_lanes();
+/// 0: not asked yet; 1: yes; −1: no. Every thread finds the same.
+extern std::int32_t wide_lanes_known;
+bool ask_for_wide_lanes();
+
+/// Whether this processor has them.
+inline bool has_wide_lanes() {
+    const std::int32_t known = __atomic_load_n(&wide_lanes_known, __ATOMIC_RELAXED);
+    return known > 0 || (known == 0 && ask_for_wide_lanes());
+}
 #endif
 
 #if WEIR_HAS_WIDE_LANES && defined(__AVX2__)
@@ -32,6 +39,7 @@ struct EightLanes {
     using Shorts = std::int16_t __attribute__((vector_size(32)));
     using Four = float __attribute__((vector_size(16)));
     static constexpr std::int32_t kGroups = 2;
+    static constexpr std::int32_t kLanes = 8;
     static constexpr std::integral_constant<std::int32_t, 0> kFirstGroup{};
 
     template <class Body>
@@ -109,13 +117,35 @@ struct EightLanes {
     static Ints sums_of_products(Ints a, Ints b, Shorts f) {
         return __builtin_ia32_pmaddwd256(__builtin_ia32_packssdw256(a, b), f);
     }
+    struct Alternate {
+        Floats even;  ///< 0, 2, 8, 10, 4, 6, 12, 14
+        Floats odd;   ///< 1, 3, 9, 11, 5, 7, 13, 15
+    };
+    static Alternate load_alternate(const float* from) {
+        const Floats a = load(from);
+        const Floats b = load(from + 8);
+        return {shuffle<0, 2, 4, 6>(a, b), shuffle<1, 3, 5, 7>(a, b)};
+    }
+    static void store_alternate(float* to, Floats even, Floats odd) {
+        store(to, shuffle<0, 4, 1, 5>(even, odd));
+        store(to + 8, shuffle<2, 6, 3, 7>(even, odd));
+    }
+    static Floats odd_before(Floats before, Floats odd) {
+        return __builtin_shufflevector(before, odd, 7, 8, 13, 10, 9, 12, 11, 14);
+    }
     static Floats absolute(Floats a) {
         return reinterpret_cast<Floats>(reinterpret_cast<Ints>(a) & (Ints{} + 0x7FFFFFFF));
     }
+    static Floats square_root(Floats a) { return __builtin_ia32_sqrtps256(a); }
+    static Floats minimum(Floats a, Floats b) { return b < a ? b : a; }
     static Floats maximum(Floats a, Floats b) { return a < b ? b : a; }
-    static bool all_true(Ints mask) {
-        return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(mask)) == 0xFF;
+    static Floats clamp(Floats a, Floats low, Floats high) {
+        return a < low ? low : (high < a ? high : a);
     }
+    static int signs(Floats a) { return __builtin_ia32_movmskps256(a); }
+    static bool all_true(Ints mask) { return signs(reinterpret_cast<Floats>(mask)) == 0xFF; }
+    static bool any_true(Ints mask) { return signs(reinterpret_cast<Floats>(mask)) != 0; }
+    static bool any_negative(Floats a) { return signs(a) != 0; }
 
 private:
     /// Of four from a and four from b to eight from each.

@@ -2,7 +2,8 @@
 // in projection.cpp, and so with its bits.
 #pragma once
 
-#include "math/lanes.hpp"
+#include "math/four_lanes.hpp"
+#include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -18,40 +19,58 @@ std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
 
 #if WEIR_HAS_LANES
 
+#if WEIR_HAS_WIDE_LANES
+/// `relax_cells` with eight lanes. `open_u` null: no solids.
+std::int32_t relax_wide(const PressureFields<float>& fields, const float* open_u,
+                        const float* open_v, float omega, std::int32_t stride, std::int32_t c,
+                        std::int32_t end);
+#endif
+
+template <class L, bool Solids>
+inline std::int32_t relax_cells(const PressureFields<float>& fields, const float* open_u,
+                                const float* open_v, float omega, std::int32_t stride,
+                                std::int32_t c, std::int32_t end) {
+    float* p = fields.pressure;
+    const auto zero = L::all(0.0F);
+    const auto factor = L::all(omega);
+    const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
+    // A load across the last two stores would wait for both: the other colour is carried along.
+    auto odd_before = L::all(p[c - 1]);
+    for (; c + 2 * L::kLanes <= end; c += 2 * L::kLanes) {
+        auto inverse = every_second(fields.inverse_diagonal + c);
+        const auto dry = inverse == zero;
+        const auto here = L::load_alternate(p + c);
+        const auto left = L::odd_before(odd_before, here.odd);
+        odd_before = here.odd;
+        if (L::all_true(dry)) {
+            continue;
+        }
+        const auto lower = every_second(p + c - stride);
+        const auto upper = every_second(p + c + stride);
+        auto sum = (left + here.odd) + (lower + upper);
+        if (Solids && L::any_negative(inverse)) {
+            const auto u = L::load_alternate(open_u + c);
+            sum = (u.even * left + u.odd * here.odd) +
+                  (every_second(open_v + c) * lower + every_second(open_v + c + stride) * upper);
+            inverse = L::absolute(inverse);
+        }
+        const auto target = (sum - every_second(fields.divergence + c)) * inverse;
+        const auto relaxed = here.even + factor * (target - here.even);
+        L::store_alternate(p + c, dry ? here.even : relaxed, here.odd);
+    }
+    return c;
+}
+
 template <bool Solids>
 std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
                        const float* open_v, float omega, std::int32_t stride, std::int32_t c,
                        std::int32_t end) {
-    float* p = fields.pressure;
-    const Lanes factor = all_lanes(omega);
-    // A load across the last two stores would wait for both: the other colour is carried along.
-    Lanes odd_before = all_lanes(p[c - 1]);
-    for (; c + 8 <= end; c += 8) {
-        Lanes inverse = load_eight(fields.inverse_diagonal + c).even;
-        const LaneMask dry = inverse == all_lanes(0.0F);
-        const EvenOdd here = load_eight(p + c);
-        const Lanes left = shuffle<3, 4, 5, 6>(odd_before, here.odd);
-        odd_before = here.odd;
-        if (all_true(dry)) {
-            continue;
-        }
-        const Lanes lower = load_eight(p + c - stride).even;
-        const Lanes upper = load_eight(p + c + stride).even;
-        Lanes sum = (left + here.odd) + (lower + upper);
-        if (Solids && any_negative(inverse)) {
-            const EvenOdd u = load_eight(open_u + c);
-            const Lanes v_lower = load_eight(open_v + c).even;
-            const Lanes v_upper = load_eight(open_v + c + stride).even;
-            sum = (u.even * left + u.odd * here.odd) + (v_lower * lower + v_upper * upper);
-            inverse = absolute(inverse);
-        }
-        const Lanes target = (sum - load_eight(fields.divergence + c).even) * inverse;
-        const Lanes relaxed = here.even + factor * (target - here.even);
-        const Lanes even = dry ? here.even : relaxed;
-        store_lanes(p + c, shuffle<0, 4, 1, 5>(even, here.odd));
-        store_lanes(p + c + 4, shuffle<2, 6, 3, 7>(even, here.odd));
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        c = relax_wide(fields, Solids ? open_u : nullptr, open_v, omega, stride, c, end);
     }
-    return c;
+#endif
+    return relax_cells<FourLanes, Solids>(fields, open_u, open_v, omega, stride, c, end);
 }
 
 #endif

@@ -1,7 +1,8 @@
 // Density and level of four cells at a time: the plain loop's sums and formulas, and so its bits.
 #pragma once
 
-#include "math/lanes.hpp"
+#include "math/four_lanes.hpp"
+#include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -11,50 +12,69 @@ namespace weir {
 
 /// As `level_of_density`: all three pieces, of which each lane takes its own; where all are nearly
 /// full, the one for that.
-inline Lanes level_of_density(Lanes density) {
-    const Lanes one = all_lanes(1.0F);
-    const Lanes full = clamp(density, all_lanes(0.0F), one);
-    const LaneMask upper = full > all_lanes(0.5F);
-    const Lanes g = upper ? one - full : full;
-    const Lanes low = all_lanes(1.5F) - square_root(all_lanes(8.0F) * g);
-    if (all_true(upper & (g < all_lanes(0.03125F)))) {
+template <class L>
+inline typename L::Floats level_of_density_lanes(typename L::Floats density) {
+    const auto one = L::all(1.0F);
+    const auto full = L::clamp(density, L::all(0.0F), one);
+    const auto upper = full > L::all(0.5F);
+    const auto g = upper ? one - full : full;
+    const auto low = L::all(1.5F) - L::square_root(L::all(8.0F) * g);
+    if (L::all_true(upper & (g < L::all(0.03125F)))) {
         return low;
     }
-    const Lanes steep = all_lanes(1.5F) * g - all_lanes(0.03125F);
-    const Lanes middle = (all_lanes(0.875F) - square_root(maximum(steep, all_lanes(0.0F)))) *
-                         all_lanes(static_cast<float>(4.0 / 3.0));
-    const Lanes high = all_lanes(1.5F) - square_root(all_lanes(0.25F) + all_lanes(4.0F) * g);
-    const Lanes depth = g >= all_lanes(0.1875F) ? high : (g >= all_lanes(0.03125F) ? middle : low);
+    const auto steep = L::all(1.5F) * g - L::all(0.03125F);
+    const auto middle = (L::all(0.875F) - L::square_root(L::maximum(steep, L::all(0.0F)))) *
+                        L::all(static_cast<float>(4.0 / 3.0));
+    const auto high = L::all(1.5F) - L::square_root(L::all(0.25F) + L::all(4.0F) * g);
+    const auto depth = g >= L::all(0.1875F) ? high : (g >= L::all(0.03125F) ? middle : low);
     return upper ? depth : -depth;
 }
 
-/// Cells c, c + 1 … as long as four are left before `end`. Returns the next cell to do.
+/// Cells c, c + 1 … as long as enough are left before `end`. Returns the next cell to do.
 /// `full_density`: null: no solids; `least_full`: cells of less have no density.
+template <class L>
+inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float* full_density,
+                                  float least_full, float per_face, std::int32_t c,
+                                  std::int32_t end, PressureFields<float>& fields) {
+    const std::int32_t up = grid.shape.stride;
+    const auto zero = L::all(0.0F);
+    const auto empty = L::all(kEmptyLevel<float>);
+    for (; c + L::kLanes <= end; c += L::kLanes) {
+        const auto mass = (L::load(grid.mass_u + c) + L::load(grid.mass_u + c + 1)) +
+                          (L::load(grid.mass_v + c) + L::load(grid.mass_v + c + up));
+        const auto wet = mass > zero;
+        if (!L::any_true(wet)) {
+            L::store(fields.density + c, zero);
+            L::store(fields.level + c, empty);
+            continue;
+        }
+        auto density = wet ? mass * L::all(per_face) : zero;
+        if (full_density != nullptr) {
+            const auto full = L::load(full_density + c);
+            const auto shown = full < L::all(least_full) ? zero : density / full;
+            density = (wet & (full < L::all(1.0F))) ? shown : density;
+        }
+        L::store(fields.density + c, density);
+        L::store(fields.level + c, wet ? level_of_density_lanes<L>(density) : empty);
+    }
+    return c;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_density,
+                          float least_full, float per_face, std::int32_t c, std::int32_t end,
+                          PressureFields<float>& fields);
+#endif
+
 inline std::int32_t density_row(const StaggeredGrid<float>& grid, const float* full_density,
                                 float least_full, float per_face, std::int32_t c,
                                 std::int32_t end, PressureFields<float>& fields) {
-    const std::int32_t up = grid.shape.stride;
-    const Lanes zero = all_lanes(0.0F);
-    for (; c + 4 <= end; c += 4) {
-        const Lanes mass = (load_lanes(grid.mass_u + c) + load_lanes(grid.mass_u + c + 1)) +
-                           (load_lanes(grid.mass_v + c) + load_lanes(grid.mass_v + c + up));
-        const LaneMask wet = mass > zero;
-        if (!any_true(wet)) {
-            store_lanes(fields.density + c, zero);
-            store_lanes(fields.level + c, all_lanes(kEmptyLevel<float>));
-            continue;
-        }
-        Lanes density = wet ? mass * all_lanes(per_face) : zero;
-        if (full_density != nullptr) {
-            const Lanes full = load_lanes(full_density + c);
-            const Lanes shown = full < all_lanes(least_full) ? zero : density / full;
-            density = (wet & (full < all_lanes(1.0F))) ? shown : density;
-        }
-        store_lanes(fields.density + c, density);
-        store_lanes(fields.level + c,
-                    wet ? level_of_density(density) : all_lanes(kEmptyLevel<float>));
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        c = density_wide(grid, full_density, least_full, per_face, c, end, fields);
     }
-    return c;
+#endif
+    return density_cells<FourLanes>(grid, full_density, least_full, per_face, c, end, fields);
 }
 
 /// Which of four cells are air and have a liquid neighbour; `all_around`: nothing else.

@@ -1,7 +1,8 @@
 // The volume correction four cells at a time: the plain loops' sums, and so their bits.
 #pragma once
 
-#include "math/lanes.hpp"
+#include "math/four_lanes.hpp"
+#include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -17,30 +18,46 @@ struct ExcessLimits {
 
 #if WEIR_HAS_LANES
 
-/// Excess of cells c, c + 1 … as long as four are left before `end`; returns the next one to do.
-inline std::int32_t excess_lanes(const PressureFields<float>& f, std::int32_t stride,
+/// Excess of cells c, c + 1 … as long as enough are left before `end`; returns the next one to do.
+template <class L>
+inline std::int32_t excess_cells(const PressureFields<float>& f, std::int32_t stride,
                                  const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
-    const Lanes zero = all_lanes(0.0F);
-    const Lanes half = all_lanes(0.5F);
-    const Lanes slack = all_lanes(limits.subsurface_slack);
-    const Lanes window = all_lanes(limits.window);
-    for (; c + 4 <= end; c += 4) {
-        const Lanes e = load_lanes(f.density + c) - all_lanes(1.0F);
-        const Lanes lowest =
-            minimum(minimum(load_lanes(f.level + c - 1), load_lanes(f.level + c + 1)),
-                    minimum(load_lanes(f.level + c - stride), load_lanes(f.level + c + stride)));
-        const LaneMask inner = (load_lanes(f.level + c) > zero) & (lowest > zero);
-        const Lanes at_surface = clamp(e - all_lanes(limits.surface_slack), zero, window);
-        Lanes inside = e;
-        const LaneMask below = lowest < half;
-        if (!limits.exact_below && any_true(inner & below)) {
-            const Lanes missing = half - lowest;
-            const Lanes more = e + all_lanes(0.125F) * missing * missing;
-            inside = below ? more - clamp(more, -slack, slack) : e;
+    const auto zero = L::all(0.0F);
+    const auto half = L::all(0.5F);
+    const auto slack = L::all(limits.subsurface_slack);
+    const auto window = L::all(limits.window);
+    for (; c + L::kLanes <= end; c += L::kLanes) {
+        const auto e = L::load(f.density + c) - L::all(1.0F);
+        const auto lowest =
+            L::minimum(L::minimum(L::load(f.level + c - 1), L::load(f.level + c + 1)),
+                       L::minimum(L::load(f.level + c - stride), L::load(f.level + c + stride)));
+        const auto inner = (L::load(f.level + c) > zero) & (lowest > zero);
+        const auto at_surface = L::clamp(e - L::all(limits.surface_slack), zero, window);
+        auto inside = e;
+        const auto below = lowest < half;
+        if (!limits.exact_below && L::any_true(inner & below)) {
+            const auto missing = half - lowest;
+            const auto more = e + L::all(0.125F) * missing * missing;
+            inside = below ? more - L::clamp(more, -slack, slack) : e;
         }
-        store_lanes(f.divergence + c, inner ? clamp(inside, -window, window) : at_surface);
+        L::store(f.divergence + c, inner ? L::clamp(inside, -window, window) : at_surface);
     }
     return c;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t excess_wide(const PressureFields<float>& f, std::int32_t stride,
+                         const ExcessLimits& limits, std::int32_t c, std::int32_t end);
+#endif
+
+inline std::int32_t excess_lanes(const PressureFields<float>& f, std::int32_t stride,
+                                 const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        c = excess_wide(f, stride, limits, c, end);
+    }
+#endif
+    return excess_cells<FourLanes>(f, stride, limits, c, end);
 }
 
 /// Adds the excess of a row of a patch, four cells of which the liquid ones count, each cut to the

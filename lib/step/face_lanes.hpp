@@ -1,30 +1,32 @@
-// Faces four at a time, for the stages between the transfers: the plain loops' sums, and so their
-// bits. Each function does faces `face`, `face` + 1 … as long as four are left before `end` and
-// returns the next one to do.
+// Faces four or eight at a time, for the stages between the transfers: the plain loops' sums, and
+// so their bits. Each function does faces `face`, `face` + 1 … as long as enough are left before
+// `end` and returns the next one to do.
 #pragma once
 
-#include "math/lanes.hpp"
 #include "grid/staggered_grid.hpp"
+#include "math/four_lanes.hpp"
+#include "math/wide_lanes.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
 
 /// Momentum and mass → velocity, and the velocity before what it `gained`.
-inline std::int32_t velocity_lanes(const float* momentum, float* mass, float gained,
+template <class L>
+inline std::int32_t velocity_faces(const float* momentum, float* mass, float gained,
                                    std::int32_t face, std::int32_t end, float* velocity) {
-    const Lanes zero = all_lanes(0.0F);
-    for (; face + 4 <= end; face += 4) {
-        const Lanes m = load_lanes(mass + face);
-        const LaneMask wet = m > zero;
-        if (!any_true(wet)) {
-            store_lanes(mass + face, zero);
-            store_lanes(velocity + face, zero);
+    const auto zero = L::all(0.0F);
+    for (; face + L::kLanes <= end; face += L::kLanes) {
+        const auto m = L::load(mass + face);
+        const auto wet = m > zero;
+        if (!L::any_true(wet)) {
+            L::store(mass + face, zero);
+            L::store(velocity + face, zero);
             continue;
         }
-        const Lanes before = wet ? load_lanes(momentum + face) / m : zero;
-        store_lanes(mass + face, before);
-        store_lanes(velocity + face, wet ? before + all_lanes(gained) : zero);
+        const auto before = wet ? L::load(momentum + face) / m : zero;
+        L::store(mass + face, before);
+        L::store(velocity + face, wet ? before + L::all(gained) : zero);
     }
     return face;
 }
@@ -46,43 +48,87 @@ inline std::int32_t each_in_spray(const float* level, std::int32_t back, std::in
 
 /// field − smoothing ∇²field within what the faces around have, where the six cells' levels say
 /// that liquid is all around.
-inline std::int32_t sharpen_lanes(const float* level, std::int32_t back, std::int32_t stride,
+template <class L>
+inline std::int32_t sharpen_faces(const float* level, std::int32_t back, std::int32_t stride,
                                   float smoothing, const float* field, std::int32_t face,
                                   std::int32_t end, float* out) {
     const std::int32_t along = back == 1 ? stride : 1;
     const auto depth = [&](std::int32_t at) {
-        return minimum(load_lanes(level + at), load_lanes(level + at - back));
+        return L::minimum(L::load(level + at), L::load(level + at - back));
     };
-    for (; face + 4 <= end; face += 4) {
-        const Lanes least = minimum(minimum(depth(face - back), depth(face + back)),
-                                    minimum(depth(face - along), depth(face + along)));
-        const LaneMask deep = least > all_lanes(0.0F);  // the face's own cells are among them
-        if (!any_true(deep)) {
+    for (; face + L::kLanes <= end; face += L::kLanes) {
+        const auto least = L::minimum(L::minimum(depth(face - back), depth(face + back)),
+                                      L::minimum(depth(face - along), depth(face + along)));
+        const auto deep = least > L::all(0.0F);  // the face's own cells are among them
+        if (!L::any_true(deep)) {
             continue;
         }
-        const Lanes here = load_lanes(field + face);
-        const Lanes left = load_lanes(field + face - 1);
-        const Lanes right = load_lanes(field + face + 1);
-        const Lanes lower = load_lanes(field + face - stride);
-        const Lanes upper = load_lanes(field + face + stride);
-        const Lanes around = (left + right) + (lower + upper);
-        const Lanes low = minimum(here, minimum(minimum(left, right), minimum(lower, upper)));
-        const Lanes high = maximum(here, maximum(maximum(left, right), maximum(lower, upper)));
-        const Lanes sharp =
-            here - all_lanes(smoothing) * (around - all_lanes(4.0F) * here);
-        store_lanes(out + face, deep ? clamp(sharp, low, high) : here);
+        const auto here = L::load(field + face);
+        const auto left = L::load(field + face - 1);
+        const auto right = L::load(field + face + 1);
+        const auto lower = L::load(field + face - stride);
+        const auto upper = L::load(field + face + stride);
+        const auto around = (left + right) + (lower + upper);
+        const auto low =
+            L::minimum(here, L::minimum(L::minimum(left, right), L::minimum(lower, upper)));
+        const auto high =
+            L::maximum(here, L::maximum(L::maximum(left, right), L::maximum(lower, upper)));
+        const auto sharp = here - L::all(smoothing) * (around - L::all(4.0F) * here);
+        L::store(out + face, deep ? L::clamp(sharp, low, high) : here);
     }
     return face;
 }
 
 /// before = (now − before) + share · sharp.
-inline std::int32_t blend_lanes(const float* now, const float* sharp, float share,
+template <class L>
+inline std::int32_t blend_faces(const float* now, const float* sharp, float share,
                                 std::int32_t face, std::int32_t end, float* before) {
-    for (; face + 4 <= end; face += 4) {
-        store_lanes(before + face, (load_lanes(now + face) - load_lanes(before + face)) +
-                                       all_lanes(share) * load_lanes(sharp + face));
+    for (; face + L::kLanes <= end; face += L::kLanes) {
+        L::store(before + face, (L::load(now + face) - L::load(before + face)) +
+                                    L::all(share) * L::load(sharp + face));
     }
     return face;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t velocity_wide(const float* momentum, float* mass, float gained, std::int32_t face,
+                           std::int32_t end, float* velocity);
+std::int32_t sharpen_wide(const float* level, std::int32_t back, std::int32_t stride,
+                          float smoothing, const float* field, std::int32_t face,
+                          std::int32_t end, float* out);
+std::int32_t blend_wide(const float* now, const float* sharp, float share, std::int32_t face,
+                        std::int32_t end, float* before);
+#endif
+
+inline std::int32_t velocity_lanes(const float* momentum, float* mass, float gained,
+                                   std::int32_t face, std::int32_t end, float* velocity) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        face = velocity_wide(momentum, mass, gained, face, end, velocity);
+    }
+#endif
+    return velocity_faces<FourLanes>(momentum, mass, gained, face, end, velocity);
+}
+
+inline std::int32_t sharpen_lanes(const float* level, std::int32_t back, std::int32_t stride,
+                                  float smoothing, const float* field, std::int32_t face,
+                                  std::int32_t end, float* out) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        face = sharpen_wide(level, back, stride, smoothing, field, face, end, out);
+    }
+#endif
+    return sharpen_faces<FourLanes>(level, back, stride, smoothing, field, face, end, out);
+}
+
+inline std::int32_t blend_lanes(const float* now, const float* sharp, float share,
+                                std::int32_t face, std::int32_t end, float* before) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        face = blend_wide(now, sharp, share, face, end, before);
+    }
+#endif
+    return blend_faces<FourLanes>(now, sharp, share, face, end, before);
 }
 
 #endif

@@ -109,7 +109,7 @@ TEST(Lanes, LevelHasThePlainFormulasBits) {
         for (std::int32_t lane = 0; lane < 4; ++lane) {
             density[lane] = static_cast<float>(k + lane) / 3900.0F;
         }
-        const Lanes level = level_of_density(density);
+        const Lanes level = level_of_density_lanes<FourLanes>(density);
         for (std::int32_t lane = 0; lane < 4; ++lane) {
             const float plain = level_of_density<float>(density[lane]);
             EXPECT_EQ(plain, level[lane]) << "density " << density[lane];

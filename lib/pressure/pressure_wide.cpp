@@ -1,0 +1,32 @@
+// Loops over cells with eight lanes.
+#include "math/wide_lanes.hpp"
+#include "pressure/relax_lanes.hpp"
+#include "pressure/surface_lanes.hpp"
+#include "pressure/volume_lanes.hpp"
+
+#if WEIR_HAS_WIDE_LANES
+
+namespace weir {
+
+std::int32_t relax_wide(const PressureFields<float>& fields, const float* open_u,
+                        const float* open_v, float omega, std::int32_t stride, std::int32_t c,
+                        std::int32_t end) {
+    const auto cells = open_u != nullptr ? relax_cells<EightLanes, true>
+                                         : relax_cells<EightLanes, false>;
+    return cells(fields, open_u, open_v, omega, stride, c, end);
+}
+
+std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_density,
+                          float least_full, float per_face, std::int32_t c, std::int32_t end,
+                          PressureFields<float>& fields) {
+    return density_cells<EightLanes>(grid, full_density, least_full, per_face, c, end, fields);
+}
+
+std::int32_t excess_wide(const PressureFields<float>& f, std::int32_t stride,
+                         const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
+    return excess_cells<EightLanes>(f, stride, limits, c, end);
+}
+
+}  // namespace weir
+
+#endif

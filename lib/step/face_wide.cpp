@@ -1,0 +1,26 @@
+// Loops over faces with eight lanes.
+#include "step/face_lanes.hpp"
+
+#if WEIR_HAS_WIDE_LANES
+
+namespace weir {
+
+std::int32_t velocity_wide(const float* momentum, float* mass, float gained, std::int32_t face,
+                           std::int32_t end, float* velocity) {
+    return velocity_faces<EightLanes>(momentum, mass, gained, face, end, velocity);
+}
+
+std::int32_t sharpen_wide(const float* level, std::int32_t back, std::int32_t stride,
+                          float smoothing, const float* field, std::int32_t face,
+                          std::int32_t end, float* out) {
+    return sharpen_faces<EightLanes>(level, back, stride, smoothing, field, face, end, out);
+}
+
+std::int32_t blend_wide(const float* now, const float* sharp, float share, std::int32_t face,
+                        std::int32_t end, float* before) {
+    return blend_faces<EightLanes>(now, sharp, share, face, end, before);
+}
+
+}  // namespace weir
+
+#endif
