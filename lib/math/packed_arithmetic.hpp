@@ -16,8 +16,8 @@ inline std::int32_t saturated(std::int32_t value) {
 #if defined(__ARM_FEATURE_SAT)
     return __builtin_arm_ssat(value, Bits);
 #else
-    constexpr std::int32_t kMost = (1 << (Bits - 1)) - 1;
-    return clamp(value, -kMost - 1, kMost);
+    const std::int32_t sign = value >> 31;
+    return value >> (Bits - 1) == sign ? value : sign ^ ((1 << (Bits - 1)) - 1);
 #endif
 }
 inline std::int16_t short_of(std::int32_t value) {

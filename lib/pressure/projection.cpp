@@ -260,13 +260,15 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
             return;
         }
     }
+    [[maybe_unused]] const Real omega =
+        Stored<Real>::shares_momentum ? best_relaxation<Real>(depth) : kRelaxation<Real>;
     for (std::int32_t at = part.first; at < part.end;) {
         const std::int32_t half_sweep = at / depth;
         const std::int32_t begin = half_sweep * depth;
         const std::int32_t end = minimum(part.end, begin + depth);
         const Rows rows{lowest + at - begin, lowest + end - begin - 1};
         if constexpr (Stored<Real>::shares_momentum) {
-            relax_packed(weights, rows.low, rows.high, depth, half_sweep & 1, fields);
+            relax_packed(weights, rows.low, rows.high, omega, half_sweep & 1, fields);
         } else {
             relax(weights, rows, half_sweep & 1, fields);
         }

@@ -53,13 +53,14 @@ inline std::int32_t relaxed(std::int32_t here, std::int32_t residual, std::int32
 
 /// A cell with no weight in between: `Sides` of its faces are open, and liquid is behind each.
 template <int Sides, class Real>
-inline void relax_plain(Real* here, std::int32_t stride, std::int32_t divergence,
-                        std::int32_t factor) {
+inline void relax_plain(const Real* below, Real* here, const Real* above,
+                        std::int32_t divergence, std::int32_t factor) {
     // In two's complement: with pressures at their limits it may wrap around, and is limited.
-    const auto at = [&](std::int32_t step) { return static_cast<std::uint32_t>(here[step].raw); };
-    const std::uint32_t sum = (at(-1) + at(1)) + (at(-stride) + at(stride));
+    const auto raw = [](Real pressure) { return static_cast<std::uint32_t>(pressure.raw); };
+    const std::uint32_t sum = (raw(here[-1]) + raw(here[1])) + (raw(*below) + raw(*above));
     const std::uint32_t flow = static_cast<std::uint32_t>(divergence) * 512U;
-    here->raw = relaxed(here->raw, static_cast<std::int32_t>(sum - flow - Sides * at(0)), factor);
+    here->raw = relaxed(here->raw, static_cast<std::int32_t>(sum - flow - Sides * raw(*here)),
+                        factor);
 }
 
 /// A cell at the surface or at a wall; `step`: ω in 1/2^15ths.
@@ -80,21 +81,29 @@ template <bool Solids, class Real>
 template <bool Solids, class Real>
 void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls, Real omega,
                       std::int32_t stride, std::int32_t c, std::int32_t end) {
-    Real* p = fields.pressure;
-    const VelocityOf<Real>* divergence = fields.divergence;
-    const VelocityOf<Real>* diagonal = fields.inverse_diagonal;
+    Real* here = fields.pressure + c;
+    const Real* below = here - stride;
+    const Real* above = here + stride;
+    const VelocityOf<Real>* divergence = fields.divergence + c;
+    const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;
+    const VelocityOf<Real>* last = fields.inverse_diagonal + end;
     const std::int32_t step = omega.raw >> 1;  // ω in 1/2^15ths, so that ω / n has 8 bits
     const std::int32_t step_of_4 = step / 512;
     const std::int32_t step_of_3 = step / 384;
-    for (; c < end; c += 2) {
-        const std::int32_t kept = diagonal[c].raw;
+    for (; diagonal < last; diagonal += 2) {
+        const std::int32_t kept = diagonal->raw;
         if (kept == 512) {
-            relax_plain<4>(p + c, stride, divergence[c].raw, step_of_4);
+            relax_plain<4>(below, here, above, divergence->raw, step_of_4);
         } else if (kept == 384) {
-            relax_plain<3>(p + c, stride, divergence[c].raw, step_of_3);
+            relax_plain<3>(below, here, above, divergence->raw, step_of_3);
         } else if (kept != 0) {
-            relax_rare<Solids>(fields, walls, step, stride, c);
+            relax_rare<Solids>(fields, walls, step, stride,
+                               static_cast<std::int32_t>(here - fields.pressure));
         }
+        below += 2;
+        here += 2;
+        above += 2;
+        divergence += 2;
     }
 }
 
@@ -232,13 +241,12 @@ Real best_relaxation(std::int32_t rows) {
     return Real(2) / (Real(1) + Real(1.5707963) / n);
 }
 
-/// One colour of the rows low … high, of the `depth` rows that hold liquid.
+/// One colour of the rows low … high. By itself, so that its loop has all registers.
 template <bool Solids, bool Mixed, class Real>
-void relax_packed(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t low,
-                  std::int32_t high, std::int32_t depth, std::int32_t colour,
-                  PressureFields<Real>& fields) {
+[[gnu::noinline]] void relax_packed(const FaceWeights<Solids, Mixed, Real>& weights,
+                                    std::int32_t low, std::int32_t high, Real omega,
+                                    std::int32_t colour, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    const Real omega = best_relaxation<Real>(depth);
     for (std::int32_t j = low; j <= high; ++j) {
         relax_packed_row<Solids>(fields, weights.walls, omega, s.stride,
                                  s.index((j + colour) & 1, j), s.index(s.nx, j));

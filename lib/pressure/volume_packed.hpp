@@ -11,7 +11,7 @@ namespace weir {
 
 namespace packed {
 
-inline constexpr std::int32_t kWindow = 128;
+inline constexpr std::int32_t kWindow = 128;  ///< what a density in a byte can be off at most
 inline constexpr std::int32_t kSurfaceSlack = 26;
 inline constexpr std::int32_t kCellWindow = 26;
 inline constexpr std::int32_t kPatchWindow = 61;
@@ -23,18 +23,23 @@ inline constexpr std::int32_t kOverfull = 307;
 
 inline std::int16_t excess(std::int32_t stride, const PressureFields<SmallFixed>& f,
                            std::int32_t c) {
-    std::int32_t e = f.density[c].raw - 128;
-    const auto level = [&](std::int32_t at) { return static_cast<std::int32_t>(f.level[at].raw); };
-    const std::int32_t lowest = minimum(minimum(level(c - 1), level(c + 1)),
-                                        minimum(level(c - stride), level(c + stride)));
-    if (level(c) <= 0 || lowest <= 0) {
+    const LevelOf<SmallFixed>* at = f.level + c;
+    const std::int32_t e = f.density[c].raw - 128;
+    // Three of four cells are deep.
+    if (at[0].raw >= 32 && at[-1].raw >= 32 && at[1].raw >= 32 && at[-stride].raw >= 32 &&
+        at[stride].raw >= 32) {
+        return static_cast<std::int16_t>(e);
+    }
+    const auto level = [&](std::int32_t step) { return static_cast<std::int32_t>(at[step].raw); };
+    const std::int32_t lowest =
+        minimum(minimum(level(-1), level(1)), minimum(level(-stride), level(stride)));
+    if (level(0) <= 0 || lowest <= 0) {
         return static_cast<std::int16_t>(clamp(e - kSurfaceSlack, 0, kWindow));
     }
-    if (lowest < 32) {
-        e += ((32 - lowest) * (32 - lowest) + 128) >> 8;
-        e -= clamp(e, -kSubsurfaceSlack, kSubsurfaceSlack);
-    }
-    return static_cast<std::int16_t>(clamp(e, -kWindow, kWindow));
+    const std::int32_t missing = maximum(32 - lowest, 0);
+    const std::int32_t full = e + ((missing * missing + 128) >> 8);
+    return static_cast<std::int16_t>(
+        missing == 0 ? e : full - clamp(full, -kSubsurfaceSlack, kSubsurfaceSlack));
 }
 
 template <bool Solids>
@@ -85,24 +90,27 @@ void drift(const Borders<SmallFixed>& borders, const Walls<SmallFixed>& walls, s
     std::int32_t along_y[kCoarseEdge];
     rises_between(fields.coarse.correction, patch.q, 1, along_x);
     rises_between(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
-    const auto push = [&](VelocityOf<SmallFixed>& velocity, std::int32_t c, std::int32_t before,
-                          std::int32_t along) {
-        const std::int32_t more =
-            16 * (fields.divergence[c].raw - fields.divergence[before].raw) + along;
+    const auto push = [&](VelocityOf<SmallFixed>& velocity, std::int32_t more) {
         if (more != 0) {
             velocity.raw = short_of(velocity.raw - rounded_shift(speed * more, 11));
         }
     };
+    const std::int32_t first_x = patch.i > 0 || borders.wrap_x ? 0 : 1;
     for (std::int32_t y = 0; y < patch.height; ++y) {
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            const std::int32_t c = s.index(patch.i + x, patch.j + y);
-            const bool has_left = patch.i + x > 0 || borders.wrap_x;
-            const bool has_lower = patch.j + y > 0 || borders.wrap_y;
-            if (has_left && (!Solids || walls.open_u[c].raw > 0)) {
-                push(grid.u[c], c, c - 1, along_x[x]);
+        const std::int32_t c = s.index(patch.i, patch.j + y);
+        const VelocityOf<SmallFixed>* e = fields.divergence + c;
+        for (std::int32_t x = first_x; x < patch.width; ++x) {
+            if (!Solids || walls.open_u[c + x].raw > 0) {
+                push(grid.u[c + x], 16 * (e[x].raw - e[x - 1].raw) + along_x[x]);
             }
-            if (has_lower && (!Solids || walls.open_v[c].raw > 0)) {
-                push(grid.v[c], c, c - s.stride, along_y[y]);
+        }
+        if (patch.j + y == 0 && !borders.wrap_y) {
+            continue;
+        }
+        const VelocityOf<SmallFixed>* below = e - s.stride;
+        for (std::int32_t x = 0; x < patch.width; ++x) {
+            if (!Solids || walls.open_v[c + x].raw > 0) {
+                push(grid.v[c + x], 16 * (e[x].raw - below[x].raw) + along_y[y]);
             }
         }
     }

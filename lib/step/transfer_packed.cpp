@@ -131,6 +131,39 @@ inline PackedSample sample(const Speed* field, std::int32_t stride, const Point&
             low_slope + ((at.fy * (high_slope - low_slope)) >> 8), rise >> 8};
 }
 
+/// One component's velocities: of what they were a share, and what the faces give. A pass for
+/// itself: what carries particles wants all registers. `change`: from its first face on.
+/// @return the fastest, 128ths of a cell a second.
+template <bool OnU>
+[[gnu::noinline]] std::int32_t gather_change(const Particles<Real>& particles, const Speed* change,
+                                             std::int32_t stride, std::int32_t flip) {
+    const Vec2<Place>* place = particles.position;
+    const Vec2<Place>* end = place + particles.count;
+    Vec2<Speed>* velocity = particles.velocity;
+    std::int32_t fastest = 0;
+    for (; place != end; ++place, ++velocity) {
+        const std::int32_t x = place->x.raw + (OnU ? 0 : 128);
+        const std::int32_t y = place->y.raw + (OnU ? 128 : 0);
+        const std::int32_t gained = sample(change, stride, point_of(stride, x, y, 0)).value;
+        std::int16_t& own = OnU ? velocity->x.raw : velocity->y.raw;
+        const std::int32_t now =
+            saturated<16>((flip * own + gained * 64 + (1 << 13)) >> 14);
+        own = static_cast<std::int16_t>(now);
+        fastest = maximum(fastest, absolute(now));
+    }
+    return fastest;
+}
+
+/// Where there are particles that are too fast.
+[[gnu::noinline]] void limit_all(const Particles<Real>& particles, Real limit,
+                                 TransferResult<Real>& result) {
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<Speed> v = particles.velocity[k];
+        const Vec2<Real> slower = limited(Vec2<Real>{v.x, v.y}, limit, result);
+        particles.velocity[k] = {Speed(slower.x), Speed(slower.y)};
+    }
+}
+
 /// A velocity in 128ths of a cell a second times `scale` · 2^−shift is a way in 2^−14 cells.
 struct Clock {
     std::int32_t scale;  ///< below 2^15
@@ -147,27 +180,33 @@ Clock clock_of(Seconds<Real> dt_s) {
     return {scale, shift};
 }
 
-/// The way of second order along an axis, u dt + ½ dt² ∇u · u, in 2^−14 cells.
-inline std::int32_t way_along(const Clock& clock, std::int32_t way, const PackedSample& at,
-                              std::int32_t way_x, std::int32_t way_y) {
-    const std::int32_t turn_x = (at.slope_x * clock.scale) >> (clock.shift + 5);
-    const std::int32_t turn_y = (at.slope_y * clock.scale) >> (clock.shift + 5);
-    return way + ((turn_x * (way_x >> 4) + turn_y * (way_y >> 4)) >> 6);
+inline std::int32_t first_way(const Clock& clock, std::int32_t value) {
+    return (((value + 128) >> 8) * clock.scale) >> clock.shift;
+}
+
+/// What the second order adds to the way along an axis, ½ dt² ∇u · u, in 2^−14 cells. Of ways
+/// longer than a cell nobody uses it, so that it may overflow.
+inline std::int32_t turn(const Clock& clock, const PackedSample& at, std::int32_t way_x,
+                         std::int32_t way_y) {
+    const auto product = [](std::int32_t a, std::int32_t b) {
+        return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b);
+    };
+    const auto sum = static_cast<std::int32_t>(product(at.slope_x, way_x >> 4) +
+                                               product(at.slope_y, way_y >> 4) + (1U << 11));
+    return static_cast<std::int32_t>(product(sum >> 12, clock.scale)) >> (clock.shift - 1);
 }
 
 constexpr std::int32_t kCell = 1 << 14;
 
 /// Not further than a cell along either axis.
 inline bool is_near(Vec2<std::int32_t> way) {
-    return static_cast<std::uint32_t>(way.x + kCell) <= 2U * kCell &&
-           static_cast<std::uint32_t>(way.y + kCell) <= 2U * kCell;
+    return (static_cast<std::uint32_t>(way.x + kCell) | static_cast<std::uint32_t>(way.y + kCell)) <
+           2U * kCell;
 }
 
 /// What a step of gathering needs to know.
 struct Limits {
     Clock clock;
-    std::int32_t flip;     ///< 2^−14
-    std::int32_t fastest;  ///< 128ths of a cell a second
     std::int32_t gap;      ///< nearer to the tank's walls nothing comes, 256ths
     std::int32_t width;    ///< room between, 256ths
     std::int32_t height;
@@ -175,21 +214,41 @@ struct Limits {
 
 Limits limits_of(const GridShape& s, const Transfer<Real>& transfer) {
     const std::int32_t gap = Place(kWallGap<Real>).raw;
-    return {clock_of(transfer.dt_s), transfer.flip_ratio.raw >> 2, transfer.limit.raw >> 9, gap,
-            s.nx * 256 - 2 * gap,    s.ny * 256 - 2 * gap};
+    return {clock_of(transfer.dt_s), gap, s.nx * 256 - 2 * gap, s.ny * 256 - 2 * gap};
 }
 
-/// Those few that are too fast, go far, or come to the tank's walls.
-[[gnu::noinline]] void gather_rare(const GridShape& s, const Transfer<Real>& transfer,
-                                   Vec2<std::int32_t> way, Vec2<std::int32_t> velocity,
-                                   Vec2<Place>& place, Vec2<Speed>& speed,
+/// What carries a particle.
+struct Carried {
+    PackedSample u;
+    PackedSample v;
+    Vec2<std::int32_t> first;  ///< way of the first order
+    Vec2<std::int32_t> way;
+};
+
+[[gnu::always_inline]] inline Carried carried(const StaggeredGrid<Real>& grid,
+                                               const Clock& clock, std::int32_t x,
+                                               std::int32_t y) {
+    const std::int32_t stride = grid.shape.stride;
+    const PackedSample u = sample(grid.u, stride, on_u(stride, x, y));
+    const PackedSample v = sample(grid.v, stride, on_v(stride, x, y));
+    const Vec2<std::int32_t> first{first_way(clock, u.value), first_way(clock, v.value)};
+    return {u, v, first,
+            {first.x + turn(clock, u, first.x, first.y),
+             first.y + turn(clock, v, first.x, first.y)}};
+}
+
+/// Those few that go far, or come to the tank's walls.
+[[gnu::noinline]] void advect_rare(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
+                                   const Clock& clock, Vec2<Place>& place, Vec2<Speed>& speed,
                                    TransferResult<Real>& result) {
+    const GridShape& s = grid.shape;
+    const Carried by = carried(grid, clock, place.x.raw, place.y.raw);
+    const Vec2<std::int32_t> way = is_near(by.first) ? by.way : by.first;
     result.far += is_near(way) ? 0 : 1;
     constexpr std::int32_t kLongest = 2 * kCell;
     Vec2<Real> x{Real(place.x) + Real::of_raw(4 * clamp(way.x, -kLongest, kLongest)),
                  Real(place.y) + Real::of_raw(4 * clamp(way.y, -kLongest, kLongest))};
-    Vec2<Real> v = limited({Real::of_raw(512 * velocity.x), Real::of_raw(512 * velocity.y)},
-                           transfer.limit, result);
+    Vec2<Real> v{speed.x, speed.y};
     meet_tank({static_cast<Real>(s.nx), static_cast<Real>(s.ny)},
               TankBlow<Real>{transfer, nullptr}, x, v);
     place = {Place(x.x), Place(x.y)};
@@ -208,49 +267,35 @@ std::int32_t scatter_packed(const Particles<Real>& particles, StaggeredGrid<Real
 TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
                                    Particles<Real>& particles) {
     const std::int32_t stride = grid.shape.stride;
-    const Limits limits = limits_of(grid.shape, transfer);
-    const Clock clock = limits.clock;
+    const std::int32_t flip = transfer.flip_ratio.raw >> 2;
     TransferResult<Real> result;
-    std::int32_t fastest = 0;
+    result.max_speed = Real::of_raw(
+        512 * maximum(gather_change<true>(particles, grid.mass_u + 1, stride, flip),
+                      gather_change<false>(particles, grid.mass_v + stride, stride, flip)));
+    if (result.max_speed > transfer.limit) {
+        limit_all(particles, transfer.limit, result);
+        result.max_speed = transfer.limit;
+    }
+    const Limits limits = limits_of(grid.shape, transfer);
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const std::int32_t x = particles.position[k].x.raw;
         const std::int32_t y = particles.position[k].y.raw;
-        const Point at_u = on_u(stride, x, y);
-        const Point at_v = on_v(stride, x, y);
-        const std::int32_t change_u = sample(grid.mass_u, stride, at_u).value;
-        const std::int32_t change_v = sample(grid.mass_v, stride, at_v).value;
-        const Vec2<std::int32_t> velocity{
-            (limits.flip * particles.velocity[k].x.raw + change_u * 64 + (1 << 13)) >> 14,
-            (limits.flip * particles.velocity[k].y.raw + change_v * 64 + (1 << 13)) >> 14};
-        const PackedSample u = sample(grid.u, stride, at_u);
-        const PackedSample v = sample(grid.v, stride, at_v);
-        const std::int32_t way_x = (((u.value + 128) >> 8) * clock.scale) >> clock.shift;
-        const std::int32_t way_y = (((v.value + 128) >> 8) * clock.scale) >> clock.shift;
-        Vec2<std::int32_t> way{way_x, way_y};
-        if (is_near(way)) {
-            way = {way_along(clock, way_x, u, way_x, way_y),
-                   way_along(clock, way_y, v, way_x, way_y)};
-        }
-        const std::int32_t thrown = chance(u.value ^ v.value, 12);
-        const std::int32_t to_x = x + ((way.x + (thrown & 63)) >> 6);
-        const std::int32_t to_y = y + ((way.y + (thrown >> 6)) >> 6);
-        const std::int32_t speed = maximum(absolute(velocity.x), absolute(velocity.y));
-        if (is_near(way) && speed <= limits.fastest &&
+        const Carried by = carried(grid, limits.clock, x, y);
+        const std::int32_t thrown = chance(by.u.value ^ by.v.value, 12);
+        const std::int32_t to_x = x + ((by.way.x + (thrown & 63)) >> 6);
+        const std::int32_t to_y = y + ((by.way.y + (thrown >> 6)) >> 6);
+        if (is_near(by.way) &&
             static_cast<std::uint32_t>(to_x - limits.gap) <=
                 static_cast<std::uint32_t>(limits.width) &&
             static_cast<std::uint32_t>(to_y - limits.gap) <=
                 static_cast<std::uint32_t>(limits.height)) {
-            fastest = maximum(fastest, speed);
             particles.position[k] = {Place::of_raw(static_cast<std::uint16_t>(to_x)),
                                      Place::of_raw(static_cast<std::uint16_t>(to_y))};
-            particles.velocity[k] = {Speed::of_raw(static_cast<std::int16_t>(velocity.x)),
-                                     Speed::of_raw(static_cast<std::int16_t>(velocity.y))};
         } else {
-            gather_rare(grid.shape, transfer, way, velocity, particles.position[k],
+            advect_rare(grid, transfer, limits.clock, particles.position[k],
                         particles.velocity[k], result);
         }
     }
-    result.max_speed = maximum(result.max_speed, Real::of_raw(512 * fastest));
     return result;
 }
 
