@@ -39,6 +39,15 @@ void find_centre(const GridShape& s, const PressureFields<Real>& fields, const P
     std::int32_t rows = 0;
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
+        if constexpr (kHasLanes<Real>) {
+            if (patch.width == kCoarseEdge) {
+                const CellsOfRow cells = count_liquid(inverse);
+                count += cells.count;
+                columns += cells.columns;
+                rows += y * cells.count;
+                continue;
+            }
+        }
         for (std::int32_t x = 0; x < patch.width; ++x) {
             if (inverse[x] != Real(0)) {
                 count += 1;
@@ -148,9 +157,14 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
     const CoarseAxis<Real> along_y{fields, coarse, s.stride, up, coarse.centre_y,
                              coarse.weight_v, coarse.reach_v};
     if (kHasLanes<Real> && among_full(patch, coarse)) {  // not worth its code where that is scarce
+        if (!Solids && !Mixed) {
+            coarse.weight_u[patch.q] = Real(1);  // four faces, four cells from middle to middle
+            coarse.weight_v[patch.q] = Real(1);
+            return;
+        }
         const auto join = [&](const CoarseAxis<Real>& axis, CoarseFace<Real> face) {
             if (face.open > Real(0)) {
-                axis.add(patch.q, face, Real(kCoarseEdge));  // from middle to middle
+                axis.add(patch.q, face, Real(kCoarseEdge));
             }
         };
         for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
@@ -166,25 +180,38 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
         patch.i > 0 ? kCoarseEdge : s.nx - kCoarseEdge * (coarse.shape.nx - 1);
     const std::int32_t below =
         patch.j > 0 ? kCoarseEdge : s.ny - kCoarseEdge * (coarse.shape.ny - 1);
+    const auto add_u = [&](std::int32_t c, std::int32_t x) {
+        const CoarseFace<Real> face{weights.open_u(c), weights.light_u(c)};
+        add_face(along_x, face, c, x, left, patch.q);
+    };
+    const auto add_v = [&](std::int32_t c, std::int32_t y) {
+        const CoarseFace<Real> face{weights.open_v(c), weights.light_v(c)};
+        add_face(along_y, face, c, y, below, patch.q);
+    };
+    const bool has_left = weights.has_left(patch.i);
+    const bool has_lower = weights.has_lower(patch.j);
+    if constexpr (kHasLanes<Real>) {
+        if (patch.width == kCoarseEdge) {
+            each_face_that_counts(fields.level, s.stride, s.index(patch.i, patch.j), patch.height,
+                                  {mixed, has_left, has_lower}, add_u, add_v);
+            return;
+        }
+    }
     const auto wet = [&](std::int32_t c) { return fields.level[c] > Real(0); };
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const std::int32_t row = s.index(patch.i, patch.j + y);
         const std::int32_t last = mixed ? patch.width : 1;
-        for (std::int32_t x = weights.has_left(patch.i) ? 0 : 1; x < last; ++x) {
-            const std::int32_t c = row + x;
-            if (counts(wet(c - 1), wet(c), x == 0)) {
-                const CoarseFace<Real> face{weights.open_u(c), weights.light_u(c)};
-                add_face(along_x, face, c, x, left, patch.q);
+        for (std::int32_t x = has_left ? 0 : 1; x < last; ++x) {
+            if (counts(wet(row + x - 1), wet(row + x), x == 0)) {
+                add_u(row + x, x);
             }
         }
-        if (y > 0 ? !mixed : !weights.has_lower(patch.j)) {
+        if (y > 0 ? !mixed : !has_lower) {
             continue;
         }
         for (std::int32_t x = 0; x < patch.width; ++x) {
-            const std::int32_t c = row + x;
-            if (counts(wet(c - s.stride), wet(c), y == 0)) {
-                const CoarseFace<Real> face{weights.open_v(c), weights.light_v(c)};
-                add_face(along_y, face, c, y, below, patch.q);
+            if (counts(wet(row + x - s.stride), wet(row + x), y == 0)) {
+                add_v(row + x, y);
             }
         }
     }

@@ -2,7 +2,8 @@
 // their bits. For patches that are four cells wide.
 #pragma once
 
-#include "math/lanes.hpp"
+#include "math/four_lanes.hpp"
+#include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -18,6 +19,58 @@ inline bool all_liquid(const float* inverse, std::int32_t stride, std::int32_t c
         dry |= load_lanes(inverse + c + y * stride) == all_lanes(0.0F);
     }
     return !any_true(dry);
+}
+
+/// How many of four cells are liquid, and the sum of their columns.
+struct CellsOfRow {
+    std::int32_t count;
+    std::int32_t columns;
+};
+inline CellsOfRow count_liquid(const float* inverse) {
+    const LaneMask liquid = load_lanes(inverse) != all_lanes(0.0F);  // 0 or −1
+    const LaneMask columns = liquid & LaneMask{0, 1, 2, 3};
+    return {-((liquid[0] + liquid[1]) + (liquid[2] + liquid[3])),
+            columns[1] + columns[2] + columns[3]};
+}
+
+/// Of a patch: whether it is neither full nor empty, and whether it has others before it.
+struct PatchSides {
+    bool mixed;
+    bool has_left;
+    bool has_lower;
+};
+
+/// Calls add_u(c, column) and add_v(c, row) for the faces before cells of a patch from cell c0 on
+/// that the coarse grid asks for, in the plain loop's order: at the surface, and between liquid
+/// cells of two patches.
+template <class AddU, class AddV>
+inline void each_face_that_counts(const float* level, std::int32_t stride, std::int32_t c0,
+                                  std::int32_t rows, PatchSides sides, const AddU& add_u,
+                                  const AddV& add_v) {
+    const auto liquid = [&](std::int32_t c) {
+        return bits_of(load_lanes(level + c) > all_lanes(0.0F));
+    };
+    std::uint32_t under = sides.has_lower ? liquid(c0 - stride) : 0;
+    for (std::int32_t y = 0; y < rows; ++y) {
+        const std::int32_t c = c0 + y * stride;
+        const std::uint32_t here = liquid(c);
+        std::uint32_t on_u = sides.mixed ? (here ^ (here << 1U)) & 0xEU : 0;
+        if (sides.has_left && ((here & 1U) != 0 || level[c - 1] > 0.0F)) {
+            on_u |= 1U;
+        }
+        std::uint32_t on_v = sides.mixed ? here ^ under : 0;
+        if (y == 0) {
+            on_v = sides.has_lower ? here | under : 0;
+        }
+        for (; on_u != 0; on_u &= on_u - 1) {
+            const std::int32_t x = __builtin_ctz(on_u);
+            add_u(c + x, x);
+        }
+        for (; on_v != 0; on_v &= on_v - 1) {
+            add_v(c + __builtin_ctz(on_v), y);
+        }
+        under = here;
+    }
 }
 
 /// What is left of the equations of cells c … c + 3; 0 in air. `open_u` and `open_v`: open
@@ -82,37 +135,51 @@ inline void correct_four(const PressureFields<float>& fields, Lanes what, std::i
     store_lanes(fields.pressure + c, wet ? now + what : now);
 }
 
-/// Relaxes cells c, c + 2 … of a row of coarse cells as long as eight are left before `end`;
+/// Relaxes cells c, c + 2 … of a row of coarse cells as long as enough are left before `end`;
 /// returns the next one to do.
-inline std::int32_t relax_coarse_row(const CoarseGrid<float>& coarse, float omega,
-                                     std::int32_t c, std::int32_t end) {
+template <class L>
+inline std::int32_t relax_coarse_cells(const CoarseGrid<float>& coarse, float omega,
+                                       std::int32_t c, std::int32_t end) {
     const std::int32_t stride = coarse.shape.stride;
     float* p = coarse.correction;
+    const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
     // A load across the last two stores would wait for both: the other colour is carried along.
-    Lanes odd_before = all_lanes(p[c - 1]);
-    for (; c + 8 <= end; c += 8) {
-        const Lanes inverse = load_eight(coarse.inverse_diagonal + c).even;
-        const LaneMask dry = inverse == all_lanes(0.0F);
-        const EvenOdd here = load_eight(p + c);
-        const Lanes left = shuffle<3, 4, 5, 6>(odd_before, here.odd);
+    auto odd_before = L::all(p[c - 1]);
+    for (; c + 2 * L::kLanes <= end; c += 2 * L::kLanes) {
+        const auto inverse = every_second(coarse.inverse_diagonal + c);
+        const auto dry = inverse == L::all(0.0F);
+        const auto here = L::load_alternate(p + c);
+        const auto left = L::odd_before(odd_before, here.odd);
         odd_before = here.odd;
-        if (all_true(dry)) {
+        if (L::all_true(dry)) {
             continue;
         }
-        const Lanes lower = load_eight(p + c - stride).even;
-        const Lanes upper = load_eight(p + c + stride).even;
-        const EvenOdd u = load_eight(coarse.weight_u + c);
-        const Lanes v_lower = load_eight(coarse.weight_v + c).even;
-        const Lanes v_upper = load_eight(coarse.weight_v + c + stride).even;
-        const Lanes sum = (u.even * left + u.odd * here.odd) + (v_lower * lower + v_upper * upper);
-        const Lanes residual = load_eight(coarse.residual + c).even;
-        const Lanes relaxed =
-            here.even + all_lanes(omega) * ((sum + residual) * inverse - here.even);
-        const Lanes even = dry ? here.even : relaxed;
-        store_lanes(p + c, shuffle<0, 4, 1, 5>(even, here.odd));
-        store_lanes(p + c + 4, shuffle<2, 6, 3, 7>(even, here.odd));
+        const auto u = L::load_alternate(coarse.weight_u + c);
+        const auto sum = (u.even * left + u.odd * here.odd) +
+                         (every_second(coarse.weight_v + c) * every_second(p + c - stride) +
+                          every_second(coarse.weight_v + c + stride) *
+                              every_second(p + c + stride));
+        const auto relaxed =
+            here.even +
+            L::all(omega) * ((sum + every_second(coarse.residual + c)) * inverse - here.even);
+        L::store_alternate(p + c, dry ? here.even : relaxed, here.odd);
     }
     return c;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t c,
+                               std::int32_t end);
+#endif
+
+inline std::int32_t relax_coarse_row(const CoarseGrid<float>& coarse, float omega,
+                                     std::int32_t c, std::int32_t end) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        c = relax_coarse_wide(coarse, omega, c, end);
+    }
+#endif
+    return relax_coarse_cells<FourLanes>(coarse, omega, c, end);
 }
 
 #endif

@@ -1,5 +1,6 @@
 // Loops over cells with eight lanes.
 #include "math/wide_lanes.hpp"
+#include "pressure/coarse_lanes.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/surface_lanes.hpp"
 #include "pressure/volume_lanes.hpp"
@@ -14,6 +15,11 @@ std::int32_t relax_wide(const PressureFields<float>& fields, const float* open_u
     const auto cells = open_u != nullptr ? relax_cells<EightLanes, true>
                                          : relax_cells<EightLanes, false>;
     return cells(fields, open_u, open_v, omega, stride, c, end);
+}
+
+std::int32_t relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t c,
+                               std::int32_t end) {
+    return relax_coarse_cells<EightLanes>(coarse, omega, c, end);
 }
 
 std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_density,
