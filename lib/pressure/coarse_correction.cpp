@@ -57,7 +57,7 @@ private:
 /// `gather_residual` of a patch of full width. `walls` null: no solids.
 void gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* walls,
                      const GridShape& s, const Patch& patch, const Shares<float>& to,
-                     CoarseGrid<float>& coarse) {
+                     const Targets& targets, CoarseGrid<float>& coarse) {
     static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
     float* const own = coarse.residual + patch.q;
     const float* open_u = walls != nullptr ? walls->open_u : nullptr;
@@ -67,35 +67,42 @@ void gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* wa
     for (std::int32_t x = 0; x < kCoarseEdge; ++x) {
         on_right[x] = to.beside[x] > patch.q ? -1 : 0;
     }
-    float* vertical = coarse.residual + to.above[0];
-    ResidualSums sums{{0.0F, own[-1], own[1], *vertical}};
-    for (std::int32_t y = 0; y < patch.height; ++y) {
-        float* const next = coarse.residual + to.above[y];
-        if (next != vertical) {
-            *vertical = sums.sums[3];
-            vertical = next;
-            sums.sums[3] = *vertical;
+    const bool own_row = targets.has(patch.q);
+    ResidualSums sums{{0.0F, own_row ? own[-1] : 0.0F, own_row ? own[1] : 0.0F, 0.0F}};
+    for (std::int32_t y = 0; y < patch.height;) {
+        const std::int32_t vertical = to.above[y];
+        const bool counted = targets.has(vertical);
+        sums.sums[3] = counted ? coarse.residual[vertical] : 0.0F;
+        for (; y < patch.height && to.above[y] == vertical; ++y) {
+            if (own_row || counted) {
+                const std::int32_t c = s.index(patch.i, patch.j + y);
+                sums.add(residual_of_four(fields, open_u, open_v, s.stride, c), of_beside,
+                         on_right, all_lanes(to.of_above[y]));
+            }
         }
-        const std::int32_t c = s.index(patch.i, patch.j + y);
-        sums.add(residual_of_four(fields, open_u, open_v, s.stride, c), of_beside, on_right,
-                 all_lanes(to.of_above[y]));
+        if (counted) {
+            coarse.residual[vertical] = sums.sums[3];
+        }
     }
-    *own += sums.sums[0];
-    own[-1] = sums.sums[1];
-    own[1] = sums.sums[2];
-    *vertical = sums.sums[3];
+    if (own_row) {
+        *own += sums.sums[0];
+        own[-1] = sums.sums[1];
+        own[1] = sums.sums[2];
+    }
 }
 #endif
 
 template <bool Solids, bool Mixed, class Real>
 void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
                      const PressureFields<Real>& fields, const Patch& patch,
-                     CoarseGrid<Real>& coarse) {
+                     const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
     const Shares<Real> to(coarse, patch.q);
+    const bool own_row = targets.has(patch.q);
     if constexpr (kHasLanes<Real> && !Mixed) {
         if (patch.width == kCoarseEdge) {
-            gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, patch, to, coarse);
+            gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, patch, to, targets,
+                            coarse);
             return;
         }
     }
@@ -114,11 +121,17 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
             const Real beside = to.of_beside[x] * residual;
             const Real above = to.of_above[y] * residual;
             own += residual - (beside + above);
-            coarse.residual[to.beside[x]] += beside;
-            coarse.residual[to.above[y]] += above;
+            if (own_row) {
+                coarse.residual[to.beside[x]] += beside;
+            }
+            if (targets.has(to.above[y])) {
+                coarse.residual[to.above[y]] += above;
+            }
         }
     }
-    coarse.residual[patch.q] += own;
+    if (own_row) {
+        coarse.residual[patch.q] += own;
+    }
 }
 
 template <class Real>
@@ -205,8 +218,9 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
         extend_cells(weights.borders, big, coarse.centre_x);
         extend_cells(weights.borders, big, coarse.centre_y);
     }
-    for_each_patch(s, big, work,
-                   [&](const Patch& patch) { add_patch(weights, fields, patch, coarse); });
+    share_sums_of_patches(s, big, work, [&](const Patch& patch, const Targets& targets) {
+        add_patch(weights, fields, patch, targets, coarse);
+    });
     if (work.once(4 * big.border())) {
         join_cells(weights.borders, big, coarse.inverse_diagonal);
         join_faces(weights.borders, big, coarse.weight_u, coarse.weight_v);
@@ -242,9 +256,9 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
         clear(coarse.residual, big);
         clear(coarse.correction, big);
     }
-    for_each_patch(s, big, work, [&](const Patch& patch) {
+    share_sums_of_patches(s, big, work, [&](const Patch& patch, const Targets& targets) {
         if (coarse.inverse_diagonal[patch.q] != Real(0)) {
-            gather_residual(weights, fields, patch, coarse);
+            gather_residual(weights, fields, patch, targets, coarse);
         }
     });
     if (work.once(big.border())) {

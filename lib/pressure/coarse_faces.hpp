@@ -56,10 +56,16 @@ void find_centre(const GridShape& s, const PressureFields<Real>& fields, const P
             }
         }
     }
+    if (count == 0) {
+        coarse.residual[patch.q] = Real(0);
+        coarse.centre_x[patch.q] = Real(0);
+        coarse.centre_y[patch.q] = Real(0);
+        return;
+    }
     const bool full = count == patch.width * patch.height;
-    coarse.residual[patch.q] = full ? Real(1) : (count > 0 ? kPartly<Real> : Real(0));
-    coarse.centre_x[patch.q] = part_of(static_cast<Real>(columns), maximum(count, 1));
-    coarse.centre_y[patch.q] = part_of(static_cast<Real>(rows), maximum(count, 1));
+    coarse.residual[patch.q] = full ? Real(1) : kPartly<Real>;
+    coarse.centre_x[patch.q] = part_of(static_cast<Real>(columns), count);
+    coarse.centre_y[patch.q] = part_of(static_cast<Real>(rows), count);
 }
 
 template <class Real>
@@ -78,8 +84,12 @@ struct CoarseAxis {
     const Real* centre;
     Real* weight;
     Real* reach;
+    const Targets& targets;
 
     void add(std::int32_t q, CoarseFace<Real> face, Real distance) const {
+        if (!targets.has(q)) {
+            return;
+        }
         weight[q] += face.open * face.light / distance;
         if (reach != weight) {
             reach[q] += face.open / distance;
@@ -98,6 +108,9 @@ void hold(const CoarseAxis<Real>& axis, CoarseFace<Real> face, std::int32_t cell
         liquid_fraction(level, axis.fields.level[air], face.open) + maximum(Real(0), outward);
     const std::int32_t beyond = forward ? q + axis.coarse_back : q - axis.coarse_back;
     if (axis.coarse.residual[beyond] > Real(0)) {
+        if (!axis.targets.has(q)) {
+            return;
+        }
         axis.coarse.inverse_diagonal[q] += face.open * face.light / distance;
     } else {
         axis.add(forward ? beyond : q, face, distance);
@@ -148,15 +161,18 @@ bool among_full(const Patch& patch, const CoarseGrid<Real>& coarse) {
 /// it matter.
 template <bool Solids, bool Mixed, class Real>
 void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFields<Real>& fields,
-               const Patch& patch, CoarseGrid<Real>& coarse) {
+               const Patch& patch, const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
     const std::int32_t up = coarse.shape.stride;
     const bool mixed = coarse.residual[patch.q] == kPartly<Real>;
-    const CoarseAxis<Real> along_x{fields, coarse, 1, 1, coarse.centre_x,
-                             coarse.weight_u, coarse.reach_u};
-    const CoarseAxis<Real> along_y{fields, coarse, s.stride, up, coarse.centre_y,
-                             coarse.weight_v, coarse.reach_v};
+    const CoarseAxis<Real> along_x{fields,          coarse,         1,      1, coarse.centre_x,
+                                   coarse.weight_u, coarse.reach_u, targets};
+    const CoarseAxis<Real> along_y{fields,          coarse,         s.stride, up, coarse.centre_y,
+                                   coarse.weight_v, coarse.reach_v, targets};
     if (kHasLanes<Real> && among_full(patch, coarse)) {  // not worth its code where that is scarce
+        if (!targets.has(patch.q)) {
+            return;
+        }
         if (!Solids && !Mixed) {
             coarse.weight_u[patch.q] = Real(1);  // four faces, four cells from middle to middle
             coarse.weight_v[patch.q] = Real(1);

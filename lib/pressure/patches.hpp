@@ -43,4 +43,42 @@ void share_patches(const GridShape& s, const GridShape& big, Work work, const Vi
     });
 }
 
+/// Coarse cells that a piece of a loop may add to.
+struct Targets {
+#if WEIR_PARALLEL
+    std::int32_t low = 0;
+    std::int32_t end = kMostWork;
+
+    bool has(std::int32_t q) const { return low <= q && q < end; }
+#else
+    static constexpr bool has(std::int32_t) { return true; }
+#endif
+};
+
+/// The same where a patch adds to its own coarse cell and those around it: visit(patch, what it may
+/// add to). Pieces go through the rows beside theirs, too, and take from them what is added to
+/// theirs, so that every sum has the order that it has in one piece.
+template <class Visit>
+void share_sums_of_patches(const GridShape& s, const GridShape& big, Work work,
+                           const Visit& visit) {
+    constexpr std::int32_t kLeastRows = 12;  // two are done twice
+    const std::int32_t cost = kCoarseEdge * s.nx;
+    const Part all = work.take(big.ny, cost);
+    work.share(all, cost, kLeastRows, [&](const Part& piece, std::int32_t) {
+        Part rows = piece;
+        Targets targets;
+#if WEIR_PARALLEL
+        if (piece.first > all.first) {
+            rows.first -= 1;
+            targets.low = big.index(-1, piece.first);
+        }
+        if (piece.end < all.end) {
+            rows.end += 1;
+            targets.end = big.index(-1, piece.end);
+        }
+#endif
+        for_each_patch(s, big, rows, [&](const Patch& patch) { visit(patch, targets); });
+    });
+}
+
 }  // namespace weir
