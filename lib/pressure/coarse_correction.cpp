@@ -1,5 +1,7 @@
 #include "pressure/coarse_correction.hpp"
 
+#include <cstring>
+
 #include "pressure/coarse_faces.hpp"
 #include "pressure/coarse_seams.hpp"
 #include "pressure/patches.hpp"
@@ -45,6 +47,10 @@ private:
     static void along(Real centre, Real before, Real after, std::int32_t q, std::int32_t step,
                       std::int32_t* neighbour, Real* share) {
         constexpr Real kPerEdge = Real(1.0 / kCoarseEdge);
+        if constexpr (kHasLanes<Real>) {
+            shares_of_four(centre, before, after, kPerEdge, q, step, neighbour, share);
+            return;
+        }
         for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
             const Real way = static_cast<Real>(k) - centre;
             neighbour[k] = way > Real(0) ? q + step : q - step;
@@ -64,9 +70,8 @@ void gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* wa
     const float* open_v = walls != nullptr ? walls->open_v : nullptr;
     const Lanes of_beside = load_lanes(to.of_beside);
     LaneMask on_right;
-    for (std::int32_t x = 0; x < kCoarseEdge; ++x) {
-        on_right[x] = to.beside[x] > patch.q ? -1 : 0;
-    }
+    std::memcpy(&on_right, to.beside, sizeof on_right);
+    on_right = on_right > patch.q;
     const bool own_row = targets.has(patch.q);
     ResidualSums sums{{0.0F, own_row ? own[-1] : 0.0F, own_row ? own[1] : 0.0F, 0.0F}};
     for (std::int32_t y = 0; y < patch.height;) {

@@ -102,6 +102,21 @@ inline Lanes residual_of_four(const PressureFields<float>& fields, const float* 
     return wet ? residual : zero;  // whose sum does not change
 }
 
+/// Along one axis of a patch: the neighbour in which each of its four rows or columns shares, and
+/// the share, linear in the way from the centre.
+inline void shares_of_four(float centre, float before, float after, float per_edge,
+                           std::int32_t q, std::int32_t step, std::int32_t* neighbour,
+                           float* share) {
+    const Lanes way = Lanes{0.0F, 1.0F, 2.0F, 3.0F} - all_lanes(centre);
+    const LaneMask forward = way > all_lanes(0.0F);
+    const LaneMask next = LaneMask{} + (q + step);
+    const LaneMask last = LaneMask{} + (q - step);
+    const LaneMask chosen = forward ? next : last;
+    __builtin_memcpy(neighbour, &chosen, sizeof chosen);
+    store_lanes(share, all_lanes(per_edge) *
+                           (forward ? way * all_lanes(after) : -way * all_lanes(before)));
+}
+
 /// Sums that a patch's residuals are added to: its own, those of the patches left, right, and
 /// below or above.
 struct ResidualSums {
