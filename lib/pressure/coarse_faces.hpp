@@ -41,7 +41,7 @@ void find_centre(const GridShape& s, const PressureFields<Real>& fields, const P
         const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
         if constexpr (kHasLanes<Real>) {
             if (patch.width == kCoarseEdge) {
-                const CellsOfRow cells = count_liquid(inverse);
+                const auto cells = count_liquid(inverse);
                 count += cells.count;
                 columns += cells.columns;
                 rows += y * cells.count;
