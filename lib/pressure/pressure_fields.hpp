@@ -44,6 +44,9 @@ struct PressureFields {
     LevelOf<Real>* level = nullptr;    ///< height of the surface over the centre, cells; > 0 liquid
     CoarseGrid<Real> coarse;
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
+    /// Whether paths are straight where the pressure sees to it (leap.hpp): with the projection and
+    /// liquid of one density. Liquids that overturned gained 0.9 % in energy by it.
+    bool leaps = true;
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// At most 1. Projection: strength of gravity now over that which `pressure` was solved for.
     /// Equation of state: speed of sound in use over that asked for.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pressure/face_weights.hpp"
+#include "pressure/leap.hpp"
 #include "pressure/projection.hpp"
 #include "pressure/relax_packed.hpp"
 #include "pressure/system_lanes.hpp"
@@ -30,7 +31,7 @@ inline Real surface_share(Real weight, Real open, Real level, std::int32_t neigh
 /// The equation of one cell, and where its solve starts. Adds to the sums of the system.
 template <bool Solids, bool Mixed, class Real>
 void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
-                PressureFields<Real>& fields, Solve<Real>& system) {
+                const Leap<Real>& leap, PressureFields<Real>& fields, Solve<Real>& system) {
     const Walls<Real>& walls = weights.walls;
     const GridShape& s = weights.grid.shape;
     const std::int32_t c = s.index(i, j);
@@ -57,6 +58,9 @@ void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
     }
     const bool wide = !Solids || untouched(walls, c, up);
     Real divergence = weights.outflow(i, j);
+    if (wide && goes_straight(fields, s, weights.borders, i, j)) {
+        divergence += wanted_convergence(weights.grid, c, leap);
+    }
     if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
         divergence += wall_flow(s, walls, i, j);
     }
@@ -84,6 +88,7 @@ void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
 template <bool Solids, bool Mixed, class Real>
 bool build_alike([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weights,
                  [[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j,
+                 [[maybe_unused]] const Leap<Real>& leap,
                  [[maybe_unused]] PressureFields<Real>& fields,
                  [[maybe_unused]] Solve<Real>& system) {
 #if WEIR_HAS_LANES
@@ -97,14 +102,13 @@ bool build_alike([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weight
             store_lanes(fields.pressure + c, all_lanes(0.0F));
             return true;
         }
-        const bool inner = weights.has_left(i) && weights.has_right(i + 3) &&
-                           weights.has_lower(j) && weights.has_upper(j);
+        const bool inner = inside_tank(weights.borders, s, i, i + 3, j);
         if (around != Around::liquid || !inner ||
             (Solids && (!four_untouched(walls, s.stride, c, !walls.moving) ||
                         (walls.moving && walls.thin != nullptr)))) {
             return false;
         }
-        if (!build_four(weights.grid, system.rescale, c, fields, system)) {
+        if (!build_four(weights.grid, leap, system.rescale, c, fields, system)) {
             return false;
         }
         system.first_row = minimum(system.first_row, j);
@@ -159,15 +163,16 @@ template <bool Solids, bool Mixed, class Real>
 Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j,
                       PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
+    const Leap<Real> leap(fields.last_dt);
     Solve<Real> system;
     system.rescale = fields.solve.rescale;
     for (std::int32_t i = 0; i < s.nx;) {
         const std::int32_t end = kHasLanes<Real> ? minimum(i + 4, s.nx) : s.nx;
-        if (kHasLanes<Real> && i + 4 == end && build_alike(weights, i, j, fields, system)) {
+        if (kHasLanes<Real> && i + 4 == end && build_alike(weights, i, j, leap, fields, system)) {
             i = end;
         }
         for (; i < end; ++i) {
-            build_cell(weights, i, j, fields, system);
+            build_cell(weights, i, j, leap, fields, system);
         }
     }
     return system;

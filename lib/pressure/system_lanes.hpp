@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/lanes.hpp"
+#include "pressure/leap.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -57,11 +58,12 @@ inline float subtract_in_order(float sum, Lanes what) {
 }
 
 /// The equations of four inner cells, and where their solve starts. False: the start is no number.
-inline bool build_four(const StaggeredGrid<float>& grid, float rescale, std::int32_t c,
-                       PressureFields<float>& fields, Solve<float>& system) {
+inline bool build_four(const StaggeredGrid<float>& grid, const Leap<float>& leap, float rescale,
+                       std::int32_t c, PressureFields<float>& fields, Solve<float>& system) {
     const std::int32_t up = c + grid.shape.stride;
-    const Lanes divergence = (load_lanes(grid.u + c + 1) - load_lanes(grid.u + c)) +
-                             (load_lanes(grid.v + up) - load_lanes(grid.v + c));
+    const Lanes divergence = ((load_lanes(grid.u + c + 1) - load_lanes(grid.u + c)) +
+                              (load_lanes(grid.v + up) - load_lanes(grid.v + c))) +
+                             wanted_convergence_lanes(grid, c, leap);
     const Lanes start = load_lanes(fields.pressure + c) * all_lanes(rescale);
     if (!all_true(absolute(start) < all_lanes(__builtin_inff()))) {
         return false;

@@ -46,20 +46,39 @@ inline std::int32_t each_in_spray(const float* level, std::int32_t back, std::in
     return face;
 }
 
+/// Whether each of four faces has an empty cell beside it.
+inline bool all_beside_empty(const float* level, std::int32_t back, std::int32_t face) {
+    const Lanes lowest = minimum(load_lanes(level + face), load_lanes(level + face - back));
+    return all_true(lowest <= all_lanes(kEmptyLevel<float>));
+}
+
+/// Lowest level of the cells of some faces and of the faces around each.
+template <class L>
+inline auto least_around(const float* level, std::int32_t back, std::int32_t stride,
+                         std::int32_t face) {
+    const std::int32_t along = back == 1 ? stride : 1;
+    const auto depth = [&](std::int32_t at) {
+        return L::minimum(L::load(level + at), L::load(level + at - back));
+    };
+    // The faces' own cells are among them.
+    return L::minimum(L::minimum(depth(face - back), depth(face + back)),
+                      L::minimum(depth(face - along), depth(face + along)));
+}
+
+/// Whether there is liquid all around both cells of each of four faces.
+inline bool all_deep(const float* level, std::int32_t back, std::int32_t stride,
+                     std::int32_t face) {
+    return all_true(least_around<FourLanes>(level, back, stride, face) > all_lanes(0.0F));
+}
+
 /// field − smoothing ∇²field within what the faces around have, where the six cells' levels say
 /// that liquid is all around.
 template <class L>
 inline std::int32_t sharpen_faces(const float* level, std::int32_t back, std::int32_t stride,
                                   float smoothing, const float* field, std::int32_t face,
                                   std::int32_t end, float* out) {
-    const std::int32_t along = back == 1 ? stride : 1;
-    const auto depth = [&](std::int32_t at) {
-        return L::minimum(L::load(level + at), L::load(level + at - back));
-    };
     for (; face + L::kLanes <= end; face += L::kLanes) {
-        const auto least = L::minimum(L::minimum(depth(face - back), depth(face + back)),
-                                      L::minimum(depth(face - along), depth(face + along)));
-        const auto deep = least > L::all(0.0F);  // the face's own cells are among them
+        const auto deep = least_around<L>(level, back, stride, face) > L::all(0.0F);
         if (!L::any_true(deep)) {
             continue;
         }

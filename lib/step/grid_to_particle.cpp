@@ -134,7 +134,6 @@ template <class Real>
 TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
                             Particles<Real>& particles) {
     const GridShape& s = grid.shape;
-    const Seconds<Real> half_dt = Seconds<Real>(0.5) * transfer.dt_s;
     const Vec2<Real> size{static_cast<Real>(s.nx), static_cast<Real>(s.ny)};
     TransferResult<Real> result;
     for (std::int32_t k = 0; k < particles.count; ++k) {
@@ -142,13 +141,10 @@ TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real
         Vec2<Real> v = particles.velocity[k];
         const Stencil<Real> at_u = stencil_u(s, x);
         const Stencil<Real> at_v = stencil_v(s, x);
-        const Sample<Real> u = sample(grid.u, s.stride, at_u);
-        const Sample<Real> w = sample(grid.v, s.stride, at_v);
+        const Vec2<Real> along{interpolate(grid.u, s.stride, at_u),
+                               interpolate(grid.v, s.stride, at_v)};
         v.x = transfer.flip_ratio * v.x + interpolate(grid.mass_u, s.stride, at_u);
         v.y = transfer.flip_ratio * v.y + interpolate(grid.mass_v, s.stride, at_v);
-        const Vec2<Real> along{
-            u.value + half_dt * (u.slope_x * u.value + u.slope_y * w.value),
-            w.value + half_dt * (w.slope_x * u.value + w.slope_y * w.value)};
         advect(size, {transfer, particles.kind_at(k)}, along, x, v, result);
         particles.position[k] = x;
         particles.velocity[k] = v;

@@ -41,16 +41,16 @@ struct Transfer {
 /// one gather instead of two. ũ is the velocity before, sharpened by what a scatter and a gather
 /// smooth away, so that the share of PIC damps the noise between particles and not the flow.
 /// Beside thin walls (`thin`, null: there are none) nothing is smoothed across, nor sharpened.
-/// The fields' divergence and inverse diagonal are used as scratch.
+/// ũ is left in the fields' divergence (of u) and inverse diagonal.
 template <class Real>
 void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
                   StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin = nullptr,
                   Work work = {});
 
-/// Gathers both fields with the weights of particle-to-grid, moves the particle to second order,
-/// x += dt (u + ½ dt ∇u·u) with ∇u from the same nodes, and keeps it in the tank. Any part of the
-/// pool can be gathered at a time, after one call of `prepare_gather`.
-/// Order: by particle. Cost: 16 loads, about 70 operations a particle.
+/// Gathers both fields with the weights of particle-to-grid, moves the particle straight on,
+/// x += dt u, and keeps it in the tank. Packed worlds bend its way instead, x += dt (u + ½ dt ∇u·u)
+/// with ∇u from the same nodes. Any part of the pool can be gathered at a time, after one call of
+/// `prepare_gather`. Order: by particle. Cost: 16 loads, about 50 operations a particle.
 template <class Real>
 TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
                                       const Transfer<Real>& transfer,

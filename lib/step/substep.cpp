@@ -8,6 +8,7 @@
 #include "pressure/surface_tension.hpp"
 #include "pressure/volume_correction.hpp"
 #include "solid/collide.hpp"
+#include "step/bend_paths.hpp"
 #include "step/boundary_condition.hpp"
 #include "step/gather.hpp"
 #include "step/grid_update.hpp"
@@ -210,6 +211,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     clock.charge(Stage::pressure);
 
     blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
+    bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
         const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
         stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s), simulation.pressure,

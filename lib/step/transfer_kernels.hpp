@@ -78,11 +78,10 @@ inline void find_stencils(std::int32_t stride, const float* position, std::int32
     }
 }
 
-/// The second part of a gather: bilinear values and slopes of velocity and change on both kinds of
-/// faces, lanes u, change of u, v, change of v; from them the way, bent to second order.
+/// The second part of a gather: bilinear values of velocity and change on both kinds of faces,
+/// lanes u, change of u, v, change of v.
 template <class L>
-inline void sample_run(const Pairs<const float>& pairs, float half_dt, std::int32_t count,
-                       Run& run) {
+inline void sample_run(const Pairs<const float>& pairs, std::int32_t count, Run& run) {
     const float* const first_u = pairs.first_u();
     const float* const first_v = pairs.first_v();
     const std::ptrdiff_t up = pairs.up();
@@ -100,13 +99,8 @@ inline void sample_run(const Pairs<const float>& pairs, float half_dt, std::int3
         const auto high_slope = L::template shuffle<2, 3, 6, 7>(high_u, high_v) - high_left;
         const auto low = low_left + fx * low_slope;
         const auto high = high_left + fx * high_slope;
-        const auto slope_y = high - low;
-        const auto value = low + fy * slope_y;
-        const auto slope_x = low_slope + fy * (high_slope - low_slope);
-        const auto turned = slope_x * L::template shuffle<0, 0, 0, 0>(value, value) +
-                            slope_y * L::template shuffle<2, 2, 2, 2>(value, value);
-        const auto along = value + L::all(half_dt) * turned;
-        L::store(run.found[k], L::template shuffle<0, 2, 5, 7>(along, value));
+        const auto value = low + fy * (high - low);
+        L::store(run.found[k], L::template shuffle<0, 2, 1, 3>(value, value));
     }
 }
 
@@ -155,7 +149,7 @@ inline float gather_all(const GatherTask& task) {
     for (std::int32_t first = 0; first < task.count; first += kRun) {
         const std::int32_t count = task.count - first < kRun ? task.count - first : kRun;
         find_stencils<L>(task.pairs.stride, task.position + 2 * first, count, run);
-        sample_run<L>(task.pairs, 0.5F * task.dt, count, run);
+        sample_run<L>(task.pairs, count, run);
         move_run<L>(task, first, count, run, fastest);
     }
     float most = 0.0F;

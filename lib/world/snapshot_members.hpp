@@ -56,8 +56,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     [[maybe_unused]] auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers,
                             free_bodies, body_diagonal, contacts, gathered, furthest,
                             max_speed, ticks, stages] = simulation;
-    auto& [pressure, divergence, inverse_diagonal, density, level, coarse, on_surface, last_dt,
-           change, solve] = pressure_fields;
+    [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
+                            on_surface, leaps, last_dt, change, solve] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,
                             vertex_capacity, vertices_used] = bodies;

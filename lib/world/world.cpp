@@ -232,6 +232,9 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     Simulation<Real>& simulation = state_->simulation;
     carve(Carver(memory, plan), def.capacity, simulation);
     simulation.settings = settings_of<Real>(def, state_->cells_per_m);
+    simulation.pressure.leaps =
+        def.pressure == Pressure::projection && !Stored<Real>::coarse &&
+        (simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F);
     simulation.ticks = def.ticks;
 #if WEIR_PARALLEL
     state_->progress.parallel_for = def.parallel_for;

@@ -14,6 +14,7 @@ void sum_particles(const Simulation<Real>& simulation, double cell_m, Diagnostic
     const Particles<Real>& particles = simulation.particles;
     const double share = cell_m * cell_m / static_cast<double>(simulation.settings.rest_count);
     const Vec2<double> gravity = convert<double>(simulation.settings.gravity);
+    const double half_dt = 0.5 * static_cast<double>(simulation.pressure.last_dt);
     double square = 0.0;
     double fall = 0.0;
     double turn = 0.0;
@@ -29,7 +30,7 @@ void sum_particles(const Simulation<Real>& simulation, double cell_m, Diagnostic
         momentum = momentum + weight * v;
         square += weight * dot(v, v);
         turn += weight * cross(x, v);
-        fall += weight * dot(gravity, x);
+        fall += weight * dot(gravity, x - half_dt * v);
     }
     out.mass_m2 = share * count;
     out.momentum_m3ps = (share * cell_m) * momentum;

@@ -5,11 +5,11 @@
 
 namespace accuracy {
 
-Energy energy(const Particles& particles, Vector gravity) {
+Energy energy(const Particles& particles, Vector gravity, double lag) {
     Energy sum;
     for (const Particle& p : particles) {
         sum.kinetic += 0.5 * dot(p.v, p.v);
-        sum.potential -= dot(gravity, p.x);
+        sum.potential -= dot(gravity, p.x - 0.5 * lag * p.v);
     }
     return sum;
 }

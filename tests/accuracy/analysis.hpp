@@ -16,7 +16,8 @@ struct Energy {
     double potential = 0.0;  ///< above the tank's floor (against gravity)
     double total() const { return kinetic + potential; }
 };
-Energy energy(const Particles& particles, Vector gravity);
+/// @param lag how far velocities are behind positions, twice: a step of those that leap.
+Energy energy(const Particles& particles, Vector gravity, double lag = 0.0);
 
 struct Speed {
     double largest = 0.0;

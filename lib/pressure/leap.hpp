@@ -1,0 +1,84 @@
+// Second order in time. Particles go straight on for dt with the velocity where they are, and
+// position and velocity leap over each other (Störmer 1907, Verlet 1967). That changes areas by
+// 1 + dt ∇·u + dt² det ∇u: they are kept where the pressure makes ∇·u = −dt det ∇u instead of 0.
+// It does so where liquid is all around; elsewhere `bend_paths` bends what is straight.
+#pragma once
+
+#include "grid/borders.hpp"
+#include "math/lanes.hpp"
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// Whether a cell and the four around it hold liquid.
+template <class Real>
+inline bool liquid_around(const LevelOf<Real>* level, std::int32_t stride, std::int32_t c) {
+    return level[c] > Real(0) && level[c - 1] > Real(0) && level[c + 1] > Real(0) &&
+           level[c - stride] > Real(0) && level[c + stride] > Real(0);
+}
+
+/// Whether cells `low` … `high` of a row touch none of the tank's walls.
+template <class Real>
+inline bool inside_tank(const Borders<Real>& borders, const GridShape& s, std::int32_t low,
+                        std::int32_t high, std::int32_t j) {
+    return (borders.wrap_x || (low > 0 && high + 1 < s.nx)) &&
+           (borders.wrap_y || (j > 0 && j + 1 < s.ny));
+}
+
+/// Whether the pressure sees to what straight paths do in a cell, if no solid touches it.
+template <class Real>
+inline bool goes_straight(const PressureFields<Real>& fields, const GridShape& s,
+                          const Borders<Real>& borders, std::int32_t i, std::int32_t j) {
+    return fields.leaps && inside_tank(borders, s, i, i, j) &&
+           liquid_around<Real>(fields.level, s.stride, s.index(i, j));
+}
+
+/// A step's length, and the most divergence that is asked for: a 16th of the area.
+template <class Real>
+struct Leap {
+    explicit Leap(Seconds<Real> step_s) : dt_s(step_s), most(Real(0.0625) / step_s) {}
+    Seconds<Real> dt_s;
+    Real most;
+};
+
+/// −∇·u to ask for in a cell. ∇u is that of the velocity before the step, without its trace.
+template <class Real>
+inline Real wanted_convergence(const StaggeredGrid<Real>& grid, std::int32_t c,
+                               const Leap<Real>& leap) {
+    const VelocityOf<Real>* u = grid.mass_u;
+    const VelocityOf<Real>* v = grid.mass_v;
+    const std::int32_t up = c + grid.shape.stride;
+    const std::int32_t down = c - grid.shape.stride;
+    const Real strain = Real(0.5) * ((u[c + 1] - u[c]) - (v[up] - v[c]));
+    const Real u_over_y = Real(0.25) * ((u[up] + u[up + 1]) - (u[down] + u[down + 1]));
+    const Real v_over_x = Real(0.25) * ((v[c + 1] + v[up + 1]) - (v[c - 1] + v[up - 1]));
+    const Real det = -((leap.dt_s * strain) * strain + (leap.dt_s * u_over_y) * v_over_x);
+    return clamp(det, -leap.most, leap.most);
+}
+
+#if WEIR_HAS_LANES
+
+/// The same for four cells.
+inline Lanes wanted_convergence_lanes(const StaggeredGrid<float>& grid, std::int32_t c,
+                                      const Leap<float>& leap) {
+    const float* u = grid.mass_u;
+    const float* v = grid.mass_v;
+    const std::int32_t up = c + grid.shape.stride;
+    const std::int32_t down = c - grid.shape.stride;
+    const Lanes strain = all_lanes(0.5F) * ((load_lanes(u + c + 1) - load_lanes(u + c)) -
+                                            (load_lanes(v + up) - load_lanes(v + c)));
+    const Lanes u_over_y =
+        all_lanes(0.25F) * ((load_lanes(u + up) + load_lanes(u + up + 1)) -
+                            (load_lanes(u + down) + load_lanes(u + down + 1)));
+    const Lanes v_over_x =
+        all_lanes(0.25F) * ((load_lanes(v + c + 1) + load_lanes(v + up + 1)) -
+                            (load_lanes(v + c - 1) + load_lanes(v + up - 1)));
+    const Lanes dt = all_lanes(leap.dt_s);
+    const Lanes det = -((dt * strain) * strain + (dt * u_over_y) * v_over_x);
+    return clamp(det, all_lanes(-leap.most), all_lanes(leap.most));
+}
+
+#endif
+
+}  // namespace weir

@@ -1,0 +1,22 @@
+// Stage: bend paths, between the volume's blending and its drift.
+#pragma once
+
+#include "grid/borders.hpp"
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+/// Where the pressure does not see to what straight paths do (see pressure/leap.hpp), beside
+/// surfaces and walls or, if nothing leaps, everywhere, the field along which particles
+/// go bends with the flow:
+///     u += ½ dt (ũ·∇)ũ,
+/// of the velocity ũ before the step that `blend_change` left in the fields' divergence and inverse
+/// diagonal. Half as much between a cell that the pressure sees to and one that it does not.
+/// Beside thin walls the gather bends by what it sees. In packed worlds it does so everywhere.
+/// Order: any.
+template <class Real>
+void bend_paths(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
+                const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work = {});
+
+}  // namespace weir
