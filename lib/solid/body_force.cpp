@@ -97,6 +97,7 @@ void forget_impulses(BodyTable<Real>& table) {
     for (std::int32_t slot = 0; slot <= table.capacity; ++slot) {
         table.load[slot].received = Impulse<Real>{};
     }
+    settled(table) = {};
 }
 
 #define WEIR_INSTANTIATE(Real)                                                         \

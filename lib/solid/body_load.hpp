@@ -55,6 +55,13 @@ inline Impulse<Real>& tank_received(const BodyTable<Real>& table) {
     return table.load[table.capacity].received;
 }
 
+/// What bodies and tank were given in this step to balance the ledger (step/momentum_ledger.hpp).
+/// The tank's record has no centre of mass.
+template <class Real>
+inline Vec2<Face<Real>>& settled(const BodyTable<Real>& table) {
+    return table.load[table.capacity].centre;
+}
+
 /// From the body's origin to its centre of mass, in the tank's directions.
 template <class Real>
 inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Real>& load) {

@@ -12,6 +12,7 @@
 #include "step/boundary_condition.hpp"
 #include "step/gather.hpp"
 #include "step/grid_update.hpp"
+#include "step/momentum_ledger.hpp"
 #include "step/occupied.hpp"
 #include "step/particle_to_grid.hpp"
 #include "step/stage_clock.hpp"
@@ -182,6 +183,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     skip_empty(simulation, work);
     order_particles(simulation, work);
     const bool two_way = simulation.bodies.load != nullptr;
+    if (kHasLedger<Real> && two_way) {
+        open_ledger(simulation, work);
+    }
     if (Solids && two_way && work.once(simulation.bodies.capacity)) {
         accelerate_bodies(simulation, dt_s);
     }
@@ -226,6 +230,10 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         clock.charge(Stage::contour);
     }
     gather<Solids>(simulation, dt_s, work, clock, report);
+    if (kHasLedger<Real> && two_way) {
+        close_ledger(simulation, dt_s, work);
+        clock.charge(Stage::collide);
+    }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A world in memory of its own, for problems of whole worlds.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <vector>
 
@@ -23,6 +24,7 @@ public:
     }
     weir::World<Real>* operator->() { return &world_; }
     weir::World<Real>& operator*() { return world_; }
+    const std::byte* memory() const { return memory_.data(); }
 
 private:
     measure::WorldMemory memory_;

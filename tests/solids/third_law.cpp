@@ -1,12 +1,13 @@
-// Newton's third law, checked from outside: what bodies and tank received, each counted where it is
-// exchanged (pressure on their faces, blows of particles, drag), against what the liquid's momentum
-// changed by beyond gravity. The rest is what the method itself does to momentum.
+// Newton's third law, checked from outside: what bodies and tank received against what the liquid's
+// momentum changed by beyond gravity. And from inside: how much of that was not counted where it is
+// exchanged (pressure on faces, blows of particles, drag), but given to balance the ledger.
 #include <algorithm>
 #include <cmath>
 
 #include "math/vec2.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
+#include "world/world_state.hpp"
 
 namespace solids {
 
@@ -17,6 +18,12 @@ using Vec2d = weir::Vec2<double>;
 constexpr int kCells = 32;
 constexpr double kCell = 0.02;
 constexpr float kFrame = 1.0F / 120.0F;
+
+/// Over the liquid's weight times the step.
+struct Balance {
+    Vec2d rest;     ///< received by all + gained by the liquid − gravity's: 0 if action is reaction
+    Vec2d settled;  ///< what the ledger gave of it
+};
 
 class Scene {
 public:
@@ -31,9 +38,7 @@ public:
         require(tank_->diagnose(&before_));
     }
 
-    /// Received by all + gained by the liquid − gravity's, over the liquid's weight times the step: 0
-    /// if action is reaction.
-    Vec2d step() {
+    Balance step() {
         const double dt = static_cast<double>(tank_->step(kFrame).dt_s);
         weir::Diagnostics after;
         require(tank_->diagnose(&after));
@@ -47,7 +52,11 @@ public:
         require(tank_->tank_force(&force));
         sum = sum + weir::convert<double>(force.impulse_m3ps);
         before_ = after;
-        return (1.0 / weight) * sum;
+        const auto& bodies =
+            reinterpret_cast<const weir::detail::WorldState<float>*>(tank_.memory())
+                ->simulation.bodies;
+        const Vec2d given = weir::convert<double>(weir::settled(bodies));
+        return {(1.0 / weight) * sum, (kCell * kCell * kCell / weight) * given};
     }
 
 private:
@@ -76,18 +85,23 @@ private:
     weir::Diagnostics before_;
 };
 
-void balance(Report& report, const std::string& name, Scene scene) {
+void balance(Report& report, const std::string& name, Scene scene, double most_settled) {
     constexpr int kSteps = 600;
     double square = 0.0;
+    double settled = 0.0;
     double worst = 0.0;
     Vec2d rest;
     for (int k = 0; k < kSteps; ++k) {
-        const Vec2d b = scene.step();
+        const Balance balance = scene.step();
+        const Vec2d b = balance.rest;
+        settled += weir::dot(balance.settled, balance.settled);
         square += weir::dot(b, b);
         worst = std::max(worst, std::sqrt(weir::dot(b, b)));
         rest = rest + b;
     }
     report.at_most(name + ".rest_over_weight_rms", 100.0 * std::sqrt(square / kSteps), "%", 0.001);
+    report.at_most(name + ".settled_over_weight_rms", 100.0 * std::sqrt(settled / kSteps), "%",
+                   most_settled);
     report.figure(name + ".rest_over_weight_worst_step", 100.0 * worst, "%");
     report.figure(name + ".rest_over_weight_mean",
                   100.0 * std::sqrt(weir::dot(rest, rest)) / kSteps, "%");
@@ -96,9 +110,9 @@ void balance(Report& report, const std::string& name, Scene scene) {
 }  // namespace
 
 void third_law(Report& report, const Effort&) {
-    balance(report, "third_law.pool", Scene(1.28, 0.32, false));
-    balance(report, "third_law.pool_with_bodies", Scene(1.28, 0.32, true));
-    balance(report, "third_law.dam_break_over_bodies", Scene(0.4, 0.5, true));
+    balance(report, "third_law.pool", Scene(1.28, 0.32, false), 0.001);
+    balance(report, "third_law.pool_with_bodies", Scene(1.28, 0.32, true), 0.3);
+    balance(report, "third_law.dam_break_over_bodies", Scene(0.4, 0.5, true), 5.0);
 }
 
 }  // namespace solids

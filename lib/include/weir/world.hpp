@@ -55,12 +55,13 @@ public:
     Status motion(BodyId id, Motion* motion) const;
     Status remove_body(BodyId id);
 
-    /// What the liquid did to a body in the last step. Wants `capacity.two_way`.
+    /// What the liquid did to a body in the last step. Wants `capacity.two_way`. Of what the method
+    /// itself does to momentum bodies that are not free, and the tank, have their share.
     Status force(BodyId id, BodyForce* force) const;
     /// And to the tank: pressure on its walls, particles that hit them, drag of those without slip.
     /// The sum over tank and bodies is what gravity gave to the liquid less what its momentum
-    /// changed by, but for what the method itself does to momentum: in rms 1e-6 of the liquid's
-    /// weight for a pool at rest, 3e-2 for a dam that breaks over bodies.
+    /// changed by, to rounding: 1e-6 of the liquid's weight, unless nobody was touched, and but for
+    /// `SmallFixed`, which does not balance it.
     Status tank_force(BodyForce* force) const;
     Status mass(BodyId id, BodyMass* mass) const;
 
