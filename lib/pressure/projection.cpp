@@ -147,8 +147,9 @@ void project(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
             if constexpr (kHasLanes<Real> && !Mixed) {
-                if (weights.has_left(i) && weights.has_lower(j)) {
-                    i += accelerate_lanes(fields, open_u, open_v, s, i, j, grid);
+                if (weights.has_left(i)) {
+                    i += accelerate_lanes(fields, open_u, open_v, s, i, j, weights.has_lower(j),
+                                          grid);
                     if (i == s.nx) {
                         break;
                     }

@@ -96,20 +96,31 @@ bool build_alike([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weight
         const Walls<Real>& walls = weights.walls;
         const GridShape& s = weights.grid.shape;
         const std::int32_t c = s.index(i, j);
-        const Around around = around_four(fields.level, s.stride, c, false);
+        const Around around = around_four(fields.level, s.stride, c);
         if (around == Around::air && !fields.on_surface) {
             store_lanes(fields.inverse_diagonal + c, all_lanes(0.0F));
             store_lanes(fields.pressure + c, all_lanes(0.0F));
             return true;
         }
-        const bool inner = inside_tank(weights.borders, s, i, i + 3, j);
-        if (around != Around::liquid || !inner ||
-            (Solids && (!four_untouched(walls, s.stride, c, !walls.moving) ||
-                        (walls.moving && walls.thin != nullptr)))) {
+        if (Solids && (!four_untouched(walls, s.stride, c, !walls.moving) ||
+                       (walls.moving && walls.thin != nullptr))) {
             return false;
         }
-        if (!build_four(weights.grid, leap, system.rescale, c, fields, system)) {
-            return false;
+        const bool inner = inside_tank(weights.borders, s, i, i + 3, j);
+        if (around == Around::liquid && inner) {
+            if (!build_four(weights.grid, leap, system.rescale, c, fields, system)) {
+                return false;
+            }
+        } else {
+            const auto is = [](bool there) { return there ? 1.0F : 0.0F; };
+            const FourFaces faces{{is(weights.has_left(i)), 1.0F, 1.0F, 1.0F},
+                                  {1.0F, 1.0F, 1.0F, is(weights.has_right(i + 3))},
+                                  all_lanes(is(weights.has_lower(j))),
+                                  all_lanes(is(weights.has_upper(j)))};
+            if (fields.on_surface ||
+                !build_any_four(weights.grid, faces, leap, system.rescale, c, fields, system)) {
+                return false;
+            }
         }
         system.first_row = minimum(system.first_row, j);
         system.last_row = j;
