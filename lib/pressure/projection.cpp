@@ -82,6 +82,9 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     }
     if (work.once(1)) {
         solve.share = share_of_start<Real>(solve.wanted, solve.there);
+        if (Stored<Real>::coarse && solve.off < 2 * kExactRaw && solve.share == Real(1)) {
+            solve.cycles = 0;  // sweeps would go on for ever about their last digits
+        }
     }
     const bool nearer = solve.share == Real(1);  // than no pressure at all
     const Part scaled = work.take(nearer ? 0 : depth, s.nx);

@@ -205,13 +205,17 @@ template <bool Solids, class Real>
                            neighbours<Solids>(fields.pressure, walls, c, stride, kept));
 }
 
+/// A residual of so little, raw, moves no velocity by a unit, nor does a column of 32 of them.
+inline constexpr std::int32_t kExactRaw = 8;
+
 /// Sums pᵀb and pᵀAp over the cells of some rows, in the same unit and as fine as 32-bit products
-/// allow: eighths are asked for.
+/// allow: eighths are asked for. Notes whether a residual is worth a sweep.
 template <bool Solids, class Real>
 void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, std::int32_t stride,
                   std::int32_t first, std::int32_t end, Solve<Real>& solve) {
     std::int64_t wanted = 0;
     std::int64_t there = 0;
+    std::uint32_t off = solve.off;
     for (std::int32_t c = first; c < end; ++c) {
         const std::int32_t kept = fields.inverse_diagonal[c].raw;
         if (kept == 0) {
@@ -223,9 +227,13 @@ void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, 
                                                            (at[-stride].raw + at[stride].raw))
                         : pull_rare<Solids>(fields, walls, stride, c);
         const std::int32_t p = short_of(rounded_shift(at->raw, 10));
-        wanted += p * fields.divergence[c].raw;
+        const std::int32_t flow = fields.divergence[c].raw;
+        off |= static_cast<std::uint32_t>(pull) +
+               static_cast<std::uint32_t>(flow * 512 + kExactRaw);
+        wanted += p * flow;
         there += p * short_of(rounded_shift(saturated<25>(pull), 9));
     }
+    solve.off = off;
     solve.wanted.raw -= wanted;
     solve.there.raw += there;
 }

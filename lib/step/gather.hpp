@@ -8,6 +8,7 @@
 #include "step/simulation.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thin_transfer.hpp"
+#include "step/time_step_limit.hpp"
 
 namespace weir {
 
@@ -78,7 +79,8 @@ public:
     }
 
 private:
-    alignas(Value) unsigned char bytes_[Most * sizeof(Value)];
+    // Also of words, so that small values are copied by words.
+    alignas(Value) alignas(std::uint32_t) unsigned char bytes_[Most * sizeof(Value)];
 };
 
 /// Moves a block of particles past thin walls, too. `before`: where they come from.
@@ -170,15 +172,17 @@ void gather_among_solids(Simulation<Real>& simulation, const Transfer<Real>& tra
 }
 
 template <bool Solids, class Real>
-void gather(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work, StageClock& clock,
-            StepReport& report) {
+void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+            StageClock& clock, StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
+    const Seconds<Real> dt_s = plan.dt_s;
     Transfer<Real> transfer{dt_s, settings.flip_ratio,
                             minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
     if (simulation.bodies.load != nullptr) {
         transfer.tank = &tank_received(simulation.bodies);
         transfer.particle_mass = simulation.layers.walls.particle_mass;
     }
+    transfer.settling = plan.settling;
     prepare_gather(simulation.grid, work);
     if (work.once(1)) {
         simulation.grid.shape = simulation.layers.shape;

@@ -33,6 +33,7 @@ struct Transfer {
     Real near = Real(1.0e30);  ///< cells/s: who moves faster along an axis is counted as far
     Impulse<Real>* tank = nullptr;  ///< takes what hits the tank's walls; null: nobody asks
     const Face<Real>* particle_mass = nullptr;  ///< then: of either liquid, cells²
+    bool settling = false;     ///< packed velocities lose a unit
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a

@@ -216,7 +216,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
 
     blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
-    if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection) {
+    if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection &&
+        !plan.settling) {
         const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
         stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s), simulation.pressure,
               grid, report.cells_overfull, work);
@@ -229,7 +230,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         work.spend(report.nodes_rasterized - before);
         clock.charge(Stage::contour);
     }
-    gather<Solids>(simulation, dt_s, work, clock, report);
+    gather<Solids>(simulation, plan, work, clock, report);
     if (kHasLedger<Real> && two_way) {
         close_ledger(simulation, dt_s, work);
         clock.charge(Stage::collide);

@@ -128,6 +128,44 @@ TEST(Packed, ACrowdIsReportedAndComesApart) {
     }
 }
 
+// A pool that was poured, and one that was a dam before: not a bit of their state changes any more,
+// and pressure is solved no more.
+TEST(Packed, WhatIsAtRestStaysAsItIs) {
+    struct Case {
+        double wide, high;
+        int steps;
+    };
+    for (const Case& one : {Case{0.32, 0.16, 300}, Case{0.16, 0.20, 6000}}) {
+        WorldDef def;
+        def.capacity.cells_x = 16;
+        def.capacity.cells_y = 16;
+        def.capacity.particles = 600;
+        def.cell_m = 0.02F;
+        const auto memory = measure::memory_for<SmallFixed>(def);
+        World<SmallFixed> world;
+        ASSERT_EQ(world.init(def, memory.data(), memory.size()), Status::ok);
+        const Box box{{0.0F, 0.0F}, {static_cast<float>(one.wide), static_cast<float>(one.high)}};
+        ASSERT_EQ(world.fill(box), Status::ok);
+        StepReport report = world.step(1.0F / 60.0F);
+        const std::uint32_t work = report.work[static_cast<int>(Stage::pressure)];
+        for (int step = 0; step < one.steps; ++step) {
+            report = world.step(1.0F / 60.0F);
+        }
+        const std::uint64_t still = world.state_hash();
+        for (int step = 0; step < 100; ++step) {
+            report = world.step(1.0F / 60.0F);
+            ASSERT_EQ(world.state_hash(), still) << one.steps << " steps, and " << step;
+        }
+        EXPECT_LT(report.work[static_cast<int>(Stage::pressure)], work / 2);
+        EXPECT_LE(report.max_speed_mps, 0.001F);
+        double height = 0.0;
+        for (const Vec2<Place>& at : world.particle_positions()) {
+            height += static_cast<double>(at.y) / report.particles;
+        }
+        EXPECT_NEAR(height, 0.5 * one.wide * one.high / (0.32 * 0.02), 0.01 * height);
+    }
+}
+
 TEST(Packed, LevelsAreThoseOfTheFormula) {
     for (std::int32_t density = 0; density <= 300; ++density) {
         const double level = level_of_density(density / 256.0);
