@@ -1,7 +1,7 @@
 #include "step/bend_paths.hpp"
 
-#include "pressure/system_lanes.hpp"
-#include "step/face_lanes.hpp"
+#include "pressure/leap.hpp"
+#include "step/bend_lanes.hpp"
 
 namespace weir {
 
@@ -56,9 +56,12 @@ struct Bending {
 
     void one(std::int32_t i, std::int32_t j) const {
         const std::int32_t face = s.index(i, j);
+        if (left_out(face)) {
+            return;
+        }
         const bool here = straight(i, j);
         const bool before = on_u() ? straight(i - 1, j) : straight(i, j - 1);
-        if ((here && before) || left_out(face)) {
+        if (here && before) {
             return;
         }
         // The face before the one on the seam has a cell that lies two beyond it: its image not.
@@ -72,23 +75,31 @@ struct Bending {
         out[face] += share * turned;
     }
 
-    /// Faces i … i + 3 have nothing to bend: all are straight, or all are left out.
-    bool none_of_four([[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j) const {
+    /// Faces i … of a row that are bent in lanes. Returns the next one to do.
+    std::int32_t in_lanes([[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j) const {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
-            const std::int32_t face = s.index(i, j);
-            if (all_beside_empty(fields.level, back, face)) {
-                return true;
+            if (walls.thin == nullptr && i > 1 && (j > 0 || on_u())) {
+                const auto inside = [&](std::int32_t y) {
+                    return fields.leaps && inside_tank(borders, s, 1, 1, y);
+                };
+                const BendTask task{fields.level,
+                                    walls.active ? walls.open_u : nullptr,
+                                    walls.open_v,
+                                    along,
+                                    across,
+                                    out,
+                                    half_dt,
+                                    back,
+                                    s.stride,
+                                    inside(j),
+                                    inside(on_u() ? j : j - 1)};
+                const std::int32_t row = s.index(0, j);
+                return bend_lanes(task, row + i, row + s.nx - 1) - row;
             }
-            const bool inside = on_u() ? i > 0 && inside_tank(borders, s, i - 1, i + 3, j)
-                                       : j > 0 && inside_tank(borders, s, i, i + 3, j) &&
-                                             inside_tank(borders, s, i, i + 3, j - 1);
-            return fields.leaps && inside && all_deep(fields.level, back, s.stride, face) &&
-                   (!walls.active || (four_untouched(walls, s.stride, face, true) &&
-                                      four_untouched(walls, s.stride, face - back, true)));
         }
 #endif
-        return false;
+        return i;
     }
 
     void rows(const Part& part) const {
@@ -96,10 +107,8 @@ struct Bending {
         const std::int32_t first_j = !on_u() && !borders.wrap_y ? 1 : 0;
         for (std::int32_t j = maximum(first_j, part.first); j < part.end; ++j) {
             for (std::int32_t i = first_i; i < s.nx;) {
-                const std::int32_t end = minimum(i + 4, s.nx);
-                if (i + 4 == end && none_of_four(i, j)) {
-                    i = end;
-                }
+                i = in_lanes(i, j);
+                const std::int32_t end = minimum(i < 2 ? i + 1 : i + 4, s.nx);
                 for (; i < end; ++i) {
                     one(i, j);
                 }

@@ -46,12 +46,6 @@ inline std::int32_t each_in_spray(const float* level, std::int32_t back, std::in
     return face;
 }
 
-/// Whether each of four faces has an empty cell beside it.
-inline bool all_beside_empty(const float* level, std::int32_t back, std::int32_t face) {
-    const Lanes lowest = minimum(load_lanes(level + face), load_lanes(level + face - back));
-    return all_true(lowest <= all_lanes(kEmptyLevel<float>));
-}
-
 /// Lowest level of the cells of some faces and of the faces around each.
 template <class L>
 inline auto least_around(const float* level, std::int32_t back, std::int32_t stride,
@@ -63,12 +57,6 @@ inline auto least_around(const float* level, std::int32_t back, std::int32_t str
     // The faces' own cells are among them.
     return L::minimum(L::minimum(depth(face - back), depth(face + back)),
                       L::minimum(depth(face - along), depth(face + along)));
-}
-
-/// Whether there is liquid all around both cells of each of four faces.
-inline bool all_deep(const float* level, std::int32_t back, std::int32_t stride,
-                     std::int32_t face) {
-    return all_true(least_around<FourLanes>(level, back, stride, face) > all_lanes(0.0F));
 }
 
 /// field − smoothing ∇²field within what the faces around have, where the six cells' levels say

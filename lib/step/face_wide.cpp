@@ -1,4 +1,5 @@
 // Loops over faces with eight lanes.
+#include "step/bend_lanes.hpp"
 #include "step/face_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
@@ -19,6 +20,10 @@ std::int32_t sharpen_wide(const float* level, std::int32_t back, std::int32_t st
 std::int32_t blend_wide(const float* now, const float* sharp, float share, std::int32_t face,
                         std::int32_t end, float* before) {
     return blend_faces<EightLanes>(now, sharp, share, face, end, before);
+}
+
+std::int32_t bend_wide(const BendTask& task, std::int32_t face, std::int32_t end) {
+    return bend_faces<EightLanes>(task, face, end);
 }
 
 }  // namespace weir
