@@ -58,6 +58,8 @@ struct FourLanes {
     static Floats shuffle(Floats a, Floats b) {
         return weir::shuffle<I, J, K, L>(a, b);
     }
+    /// Of groups that hold every second of several things: all in their order.
+    static Floats in_order(Floats a) { return a; }
     /// Lanes 0 and 1 of each group of a, then of b.
     static Floats first_pairs(Floats a, Floats b) { return weir::shuffle<0, 1, 4, 5>(a, b); }
     static Floats last_pairs(Floats a, Floats b) { return weir::shuffle<2, 3, 6, 7>(a, b); }
@@ -104,6 +106,8 @@ struct FourLanes {
     static Floats minimum(Floats a, Floats b) { return weir::minimum(a, b); }
     static Floats maximum(Floats a, Floats b) { return weir::maximum(a, b); }
     static Floats clamp(Floats a, Floats low, Floats high) { return weir::clamp(a, low, high); }
+    /// A bit for each lane that is true, the lowest for lane 0.
+    static std::uint32_t bits_of(Ints mask) { return weir::bits_of(mask); }
     static bool all_true(Ints mask) { return weir::all_true(mask); }
     static bool any_true(Ints mask) { return weir::any_true(mask); }
     /// A negative zero may count as one.

@@ -101,6 +101,9 @@ struct EightLanes {
         return __builtin_shufflevector(a, b, at<I>(0), at<J>(0), at<K>(0), at<L>(0), at<I>(4),
                                        at<J>(4), at<K>(4), at<L>(4));
     }
+    static Floats in_order(Floats a) {
+        return __builtin_shufflevector(a, a, 0, 4, 1, 5, 2, 6, 3, 7);
+    }
     static Floats first_pairs(Floats a, Floats b) {
         return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
     }
@@ -142,9 +145,12 @@ struct EightLanes {
     static Floats clamp(Floats a, Floats low, Floats high) {
         return a < low ? low : (high < a ? high : a);
     }
-    static int signs(Floats a) { return __builtin_ia32_movmskps256(a); }
-    static bool all_true(Ints mask) { return signs(reinterpret_cast<Floats>(mask)) == 0xFF; }
-    static bool any_true(Ints mask) { return signs(reinterpret_cast<Floats>(mask)) != 0; }
+    static std::uint32_t signs(Floats a) {
+        return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(a));
+    }
+    static std::uint32_t bits_of(Ints mask) { return signs(reinterpret_cast<Floats>(mask)); }
+    static bool all_true(Ints mask) { return bits_of(mask) == 0xFF; }
+    static bool any_true(Ints mask) { return bits_of(mask) != 0; }
     static bool any_negative(Floats a) { return signs(a) != 0; }
 
 private:

@@ -14,15 +14,20 @@ struct Patch {
     std::int32_t height;
 };
 
+inline Patch patch_of(const GridShape& s, const GridShape& big, std::int32_t column,
+                      std::int32_t row) {
+    const std::int32_t i = kCoarseEdge * column;
+    const std::int32_t j = kCoarseEdge * row;
+    return {big.index(column, row), i, j, minimum(kCoarseEdge, s.nx - i),
+            minimum(kCoarseEdge, s.ny - j)};
+}
+
 /// By row, from below.
 template <class Visit>
 void for_each_patch(const GridShape& s, const GridShape& big, const Part& rows, Visit visit) {
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
-        const std::int32_t j = kCoarseEdge * row;
         for (std::int32_t column = 0; column < big.nx; ++column) {
-            const std::int32_t i = kCoarseEdge * column;
-            visit(Patch{big.index(column, row), i, j, minimum(kCoarseEdge, s.nx - i),
-                        minimum(kCoarseEdge, s.ny - j)});
+            visit(patch_of(s, big, column, row));
         }
     }
 }

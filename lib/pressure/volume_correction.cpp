@@ -88,15 +88,7 @@ Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
     Real sum = Real(0);
     std::int32_t count = 0;
     for (std::int32_t y = 0; y < patch.height; ++y) {
-        std::int32_t x = 0;
-        if constexpr (kHasLanes<Real>) {
-            if (patch.width == kCoarseEdge) {
-                const std::int32_t c = s.index(patch.i, patch.j + y);
-                add_row_of_patch(f, kCellWindow<Real>, c, sum, count);
-                x = kCoarseEdge;
-            }
-        }
-        for (; x < patch.width; ++x) {
+        for (std::int32_t x = 0; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
             if (f.level[c] > Real(0)) {
                 sum += clamp<Real>(f.divergence[c], -kCellWindow<Real>, kCellWindow<Real>);
@@ -110,6 +102,35 @@ Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
     const Real mean = part_of(sum, count);
     overfull += count >= kLeastOverfull && mean >= kOverfull<Real> ? count : 0;
     return clamp(mean, -kPatchWindow<Real>, kPatchWindow<Real>);
+}
+
+/// The same of a row of patches, written to the coarse cells.
+template <bool Solids, class Real>
+void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
+                 const PressureFields<Real>& f, std::int32_t& overfull) {
+    const GridShape& big = f.coarse.shape;
+    const auto patch_at = [&](std::int32_t column) {
+        return patch_of(s, big, column, row);
+    };
+    Real* const means = f.coarse.correction + big.index(0, row);
+    std::int32_t column = 0;
+    if constexpr (kHasLanes<Real>) {
+        const PatchLimits limits{kCellWindow<Real>, kPatchWindow<Real>, kOverfull<Real>,
+                                 static_cast<Real>(kLeastOverfull)};
+        const Patch first = patch_at(0);
+        column = f.on_surface ? 0
+                              : means_of_row(f, limits, s.stride, s.index(0, first.j),
+                                             first.height, s.nx / kCoarseEdge, means, overfull,
+                                             [&](std::int32_t k) {
+                                                 if (Solids && !has_room(s, walls, patch_at(k))) {
+                                                     means[k] = kSolidPatch<Real>;
+                                                 }
+                                             });
+    }
+    for (; column < big.nx; ++column) {
+        means[column] =
+            f.on_surface ? Real(0) : average<Solids>(s, walls, patch_at(column), f, overfull);
+    }
 }
 
 /// By how much the mean excess rises from one patch to the next, times the gain between them.
@@ -194,9 +215,11 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     }
     // Drops under surface tension are small and keep together without.
     std::int32_t found[kMostPieces] = {};
-    share_patches(s, big, work, [&](const Patch& patch, std::int32_t piece) {
-        fields.coarse.correction[patch.q] =
-            fields.on_surface ? Real(0) : average<Solids>(s, walls, patch, fields, found[piece]);
+    const std::int32_t cost = kCoarseEdge * s.nx;
+    work.share(work.take(big.ny, cost), cost, 1, [&](const Part& rows, std::int32_t piece) {
+        for (std::int32_t row = rows.first; row < rows.end; ++row) {
+            average_row<Solids>(s, walls, row, fields, found[piece]);
+        }
     });
     for (const std::int32_t some : found) {
         overfull += some;

@@ -16,6 +16,14 @@ struct ExcessLimits {
     bool exact_below;  ///< no allowance below the surface
 };
 
+/// What the excess of cells and of patches is cut to, and of what a patch is overfull.
+struct PatchLimits {
+    float cell_window;
+    float patch_window;
+    float overfull;
+    float least_overfull;  ///< liquid cells
+};
+
 #if WEIR_HAS_LANES
 
 /// Excess of cells c, c + 1 … as long as enough are left before `end`; returns the next one to do.
@@ -60,15 +68,86 @@ inline std::int32_t excess_lanes(const PressureFields<float>& f, std::int32_t st
     return excess_cells<FourLanes>(f, stride, limits, c, end);
 }
 
-/// Adds the excess of a row of a patch, four cells of which the liquid ones count, each cut to the
-/// window.
-inline void add_row_of_patch(const PressureFields<float>& f, float window, std::int32_t c,
-                             float& sum, std::int32_t& count) {
-    const LaneMask liquid = load_lanes(f.level + c) > all_lanes(0.0F);
-    count -= liquid[0] + liquid[1] + liquid[2] + liquid[3];
-    const Lanes cut = clamp(load_lanes(f.divergence + c), all_lanes(-window), all_lanes(window));
-    const Lanes said = liquid ? cut : all_lanes(0.0F);
-    sum = (((sum + said[0]) + said[1]) + said[2]) + said[3];
+/// Four by four numbers, rows and columns exchanged, in each group.
+template <class L>
+inline void transpose(typename L::Floats (&v)[4]) {
+    const auto a = L::template shuffle<0, 4, 1, 5>(v[0], v[1]);
+    const auto b = L::template shuffle<0, 4, 1, 5>(v[2], v[3]);
+    const auto c = L::template shuffle<2, 6, 3, 7>(v[0], v[1]);
+    const auto d = L::template shuffle<2, 6, 3, 7>(v[2], v[3]);
+    v[0] = L::template shuffle<0, 1, 4, 5>(a, b);
+    v[1] = L::template shuffle<2, 3, 6, 7>(a, b);
+    v[2] = L::template shuffle<0, 1, 4, 5>(c, d);
+    v[3] = L::template shuffle<2, 3, 6, 7>(c, d);
+}
+
+/// Mean excess of as many patches as there are lanes, four cells wide, from cell c on; 0 in air.
+/// `overfull` grows as that of `average`. A bit for each patch without liquid.
+template <class L>
+inline std::uint32_t means_of_patches(const PressureFields<float>& f, const PatchLimits& limits,
+                                      std::int32_t stride, std::int32_t c, std::int32_t rows,
+                                      float* means, std::int32_t& overfull) {
+    const auto zero = L::all(0.0F);
+    auto sum = zero;
+    typename L::Floats wet[4] = {zero, zero, zero, zero};
+    for (std::int32_t y = 0; y < rows; ++y, c += stride) {
+        typename L::Floats said[4];
+        for (std::int32_t k = 0; k < 4; ++k) {
+            const std::int32_t at = c + k * L::kLanes;
+            const auto liquid = L::load(f.level + at) > zero;
+            const auto cut = L::clamp(L::load(f.divergence + at), L::all(-limits.cell_window),
+                                      L::all(limits.cell_window));
+            said[k] = liquid ? cut : zero;
+            wet[k] += liquid ? L::all(1.0F) : zero;
+        }
+        transpose<L>(said);
+        sum = (((sum + said[0]) + said[1]) + said[2]) + said[3];
+    }
+    transpose<L>(wet);
+    const auto count = (wet[0] + wet[1]) + (wet[2] + wet[3]);
+    const auto none = count == zero;
+    const auto mean = none ? zero : sum / (none ? L::all(1.0F) : count);
+    const auto crowded =
+        (count >= L::all(limits.least_overfull)) & (mean >= L::all(limits.overfull));
+    if (L::any_true(crowded)) {
+        const auto many = crowded ? count : zero;
+        for (std::int32_t k = 0; k < L::kLanes; ++k) {
+            overfull += static_cast<std::int32_t>(many[k]);
+        }
+    }
+    L::store(means, L::in_order(L::clamp(mean, L::all(-limits.patch_window),
+                                         L::all(limits.patch_window))));
+    return L::bits_of(L::in_order(count) == zero);
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::uint32_t means_wide(const PressureFields<float>& f, const PatchLimits& limits,
+                         std::int32_t stride, std::int32_t c, std::int32_t rows, float* means,
+                         std::int32_t& overfull);
+#endif
+
+/// The same for the patches of a row, four cells wide, as long as there are so many; `empty`(k) is
+/// called for each without liquid. Returns how many.
+template <class Empty>
+inline std::int32_t means_of_row(const PressureFields<float>& f, const PatchLimits& limits,
+                                 std::int32_t stride, std::int32_t c, std::int32_t rows,
+                                 std::int32_t patches, float* means, std::int32_t& overfull,
+                                 const Empty& empty) {
+    std::int32_t k = 0;
+    const auto tell = [&](std::uint32_t bits) {
+        for (; bits != 0; bits &= bits - 1) {
+            empty(k + __builtin_ctz(bits));
+        }
+    };
+#if WEIR_HAS_WIDE_LANES
+    for (; has_wide_lanes() && k + 8 <= patches; k += 8) {
+        tell(means_wide(f, limits, stride, c + 4 * k, rows, means + k, overfull));
+    }
+#endif
+    for (; k + 4 <= patches; k += 4) {
+        tell(means_of_patches<FourLanes>(f, limits, stride, c + 4 * k, rows, means + k, overfull));
+    }
+    return k;
 }
 
 /// velocity −= speed · (difference of the excess + along) on four faces, but for closed ones.
