@@ -22,15 +22,6 @@ struct Bending {
 
     bool on_u() const { return back == 1; }
 
-    /// Whether the pressure sees to what straight paths do in a cell.
-    bool straight(std::int32_t i, std::int32_t j) const {
-        const std::int32_t x = i < 0 ? s.nx - 1 : i;
-        const std::int32_t y = j < 0 ? s.ny - 1 : j;
-        const std::int32_t c = s.index(x, y);
-        return goes_straight(fields, s, borders, x, y) &&
-               (!walls.active || untouched(walls, c, c + s.stride));
-    }
-
     /// Whether the velocity is liquid's.
     bool wet(std::int32_t face) const {
         return fields.level[face] > Real(0) || fields.level[face - back] > Real(0);
@@ -54,25 +45,58 @@ struct Bending {
         return low && high ? Real(0.5) * (below + above) : below + above;
     }
 
-    void one(std::int32_t i, std::int32_t j) const {
-        const std::int32_t face = s.index(i, j);
-        if (left_out(face)) {
-            return;
-        }
-        const bool here = straight(i, j);
-        const bool before = on_u() ? straight(i - 1, j) : straight(i, j - 1);
-        if (here && before) {
-            return;
-        }
+    /// `share`: half a step, or a half of that between the two kinds of cells.
+    void bend(std::int32_t face, bool on_seam, Seconds<Real> share) const {
         // The face before the one on the seam has a cell that lies two beyond it: its image not.
-        const std::int32_t round = (on_u() ? i : j) == 0 ? back * (on_u() ? s.nx : s.ny) : 0;
+        const std::int32_t round = on_seam ? back * (on_u() ? s.nx : s.ny) : 0;
         const std::int32_t side = on_u() ? s.stride : 1;
         const Real mean = Real(0.25) * ((across[face] + across[face - back]) +
                                         (across[face + side] + across[face + side - back]));
         const Real turned = along[face] * slope(face, back, face - back + round) +
                             mean * slope(face, side, face - side);
-        const Seconds<Real> share = here || before ? Seconds<Real>(0.5) * half_dt : half_dt;
         out[face] += share * turned;
+    }
+
+    /// Whether the cells of a line along this component lie inside the tank, but for its ends.
+    bool line_inside(std::int32_t i, std::int32_t j) const {
+        return on_u() ? borders.wrap_y || (j > 0 && j + 1 < s.ny)
+                      : borders.wrap_x || (i > 0 && i + 1 < s.nx);
+    }
+
+    /// Faces from one on, `count` one behind the other. Each face's cell is looked at once.
+    void run(std::int32_t i, std::int32_t j, std::int32_t count) const {
+        const LevelOf<Real>* level = fields.level;
+        const std::int32_t side = on_u() ? s.stride : 1;
+        const std::int32_t cells = on_u() ? s.nx : s.ny;
+        const bool wrap = on_u() ? borders.wrap_x : borders.wrap_y;
+        const bool leaps = fields.leaps && line_inside(i, j);
+        const bool solids = walls.active;
+        // Straight is what the pressure sees to.
+        const auto straight = [&](std::int32_t at, std::int32_t c, bool liquid) {
+            return liquid && leaps && (wrap || (at > 0 && at + 1 < cells)) &&
+                   level[c - side] > Real(0) && level[c + side] > Real(0) &&
+                   (!solids || untouched(walls, c, c + s.stride));
+        };
+        std::int32_t at = on_u() ? i : j;
+        std::int32_t face = s.index(i, j);
+        // The cell before the one on the seam has a neighbour two beyond it: its image not.
+        const std::int32_t last = at > 0 ? at - 1 : cells - 1;
+        const std::int32_t image = face + (last - at) * back;
+        bool wet = level[face] > Real(0);
+        bool wet_before = level[face - back] > Real(0);
+        bool before = straight(last, image, wet && wet_before && level[image - back] > Real(0));
+        for (std::int32_t k = 0; k < count; ++k) {
+            const bool wet_after = level[face + back] > Real(0);
+            const bool here = straight(at, face, wet_before && wet && wet_after);
+            if (!(here && before) && !left_out(face)) {
+                bend(face, at == 0, here || before ? Seconds<Real>(0.5) * half_dt : half_dt);
+            }
+            wet_before = wet;
+            wet = wet_after;
+            before = here;
+            face += back;
+            at += 1;
+        }
     }
 
     /// Faces i … of a row that are bent in lanes. Returns the next one to do.
@@ -102,16 +126,26 @@ struct Bending {
         return i;
     }
 
+    void row_in_lanes(std::int32_t first_i, std::int32_t j) const {
+        for (std::int32_t i = first_i; i < s.nx;) {
+            i = in_lanes(i, j);
+            const std::int32_t end = minimum(i < 2 ? i + 1 : i + 4, s.nx);
+            for (; i < end; ++i) {
+                run(i, j, 1);
+            }
+        }
+    }
+
     void rows(const Part& part) const {
         const std::int32_t first_i = on_u() && !borders.wrap_x ? 1 : 0;
-        const std::int32_t first_j = !on_u() && !borders.wrap_y ? 1 : 0;
-        for (std::int32_t j = maximum(first_j, part.first); j < part.end; ++j) {
-            for (std::int32_t i = first_i; i < s.nx;) {
-                i = in_lanes(i, j);
-                const std::int32_t end = minimum(i < 2 ? i + 1 : i + 4, s.nx);
-                for (; i < end; ++i) {
-                    one(i, j);
-                }
+        const std::int32_t first_j = maximum(!on_u() && !borders.wrap_y ? 1 : 0, part.first);
+        if (kHasLanes<Real> || on_u()) {
+            for (std::int32_t j = first_j; j < part.end; ++j) {
+                kHasLanes<Real> ? row_in_lanes(first_i, j) : run(first_i, j, s.nx - first_i);
+            }
+        } else {
+            for (std::int32_t i = first_i; i < s.nx; ++i) {
+                run(i, first_j, part.end - first_j);
             }
         }
     }

@@ -130,7 +130,8 @@ Outcome run_until(Scheme& scheme, const Case& c, double end, bool pressures) {
     const Particles start = dam_break_column(c);
     scheme.start(setup, start);
     const double unit = 1.0 / c.cells;
-    const double initial = energy_of_column(start, c);
+    const double initial =
+        std::max(energy(start, setup.gravity).total(), energy_of_column(start, c));
     double largest = initial;
     Signal by_particle;
     Signal by_column;
