@@ -101,6 +101,34 @@ void rest(Report& report, const std::string& name, const Vessel& vessel, double 
                    speed * speed / (kGravity * depth), "of mgh/2", 1e-5);
 }
 
+/// What still moves after the same time, of √(gh).
+double speed_at_end(const Vessel& vessel, double depth) {
+    Pool pool(vessel);
+    pool.run(static_cast<int>(40.0 * std::sqrt(depth / kGravity) * 60.0));
+    return pool.rms_speed() / std::sqrt(kGravity * depth);
+}
+
+/// Gravity leans, or walls do: which of the two keeps liquid from resting.
+void who_stirs(Report& report, int depth) {
+    Vessel plain;
+    plain.cells_x = plain.cells_y = 2 * depth;
+    plain.tilt = kTilt;
+    const double middle = plain.middle().y;
+    plain.liquid = [middle](Vec p) { return p.y < middle; };
+    report.figure("R4c.surface_leans_in_a_plain_tank." + std::to_string(depth) + ".speed",
+                  speed_at_end(plain, depth), "sqrt(gh)");
+    Vessel box = turned_box(depth, kTilt);
+    box.gravity_tilts = false;
+    const Vec centre = box.middle();
+    box.liquid = [box, centre, depth](Vec p) {
+        const double half = 0.75 * depth;
+        return std::abs(p.x - centre.x) < half && std::abs(p.y - centre.y) < half &&
+               box.to_tank(p).y < centre.y;
+    };
+    report.figure("R4c.walls_lean_under_a_level_surface." + std::to_string(depth) + ".speed",
+                  speed_at_end(box, depth), "sqrt(gh)");
+}
+
 double limit_of(int depth) {
     return depth <= 16 ? 1.5 : (depth <= 32 ? 0.5 : 0.1);
 }
@@ -189,6 +217,7 @@ void still_water(Report& report, const Effort& effort) {
         const Vessel box = turned_box(depth, kTilt);
         const double floor = box.middle().y - 0.75 * depth;
         rest(report, "R4c.box_turned" + cells, box, floor + depth, depth, limit_of(depth));
+        who_stirs(report, depth);
     }
 }
 
