@@ -152,38 +152,120 @@ void rises(const Real* excess, std::int32_t q, std::int32_t step, Real* on_face)
     on_face[3] = after;
 }
 
+/// What the drift needs to know of a patch.
 template <bool Solids, class Real>
-void drift(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
-           const PressureFields<Real>& fields, const Patch& patch, StaggeredGrid<Real>& grid) {
-    static_assert(kCoarseEdge == 4, "rises() knows four faces");
-    const GridShape& s = grid.shape;
-    const VelocityOf<Real>* e = fields.divergence;
+struct Drift {
+    const Borders<Real>& borders;
+    const Walls<Real>& walls;
+    const PressureFields<Real>& fields;
+    const GridShape& shape;
+    const Patch& patch;
+    Real speed;  ///< where the excess rises by 1 from cell to cell, cells/s
     Real along_x[kCoarseEdge];
     Real along_y[kCoarseEdge];
-    rises(fields.coarse.correction, patch.q, 1, along_x);
-    rises(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
-    for (std::int32_t y = 0; y < patch.height; ++y) {
-        if constexpr (kHasLanes<Real>) {
-            if (patch.width == kCoarseEdge) {
-                const std::int32_t c = s.index(patch.i, patch.j + y);
-                drift_row(e, s.stride, speed, along_x, along_y[y], Solids ? &walls : nullptr,
-                          patch.i > 0 || borders.wrap_x, patch.j + y > 0 || borders.wrap_y, c,
-                          grid);
-                continue;
-            }
-        }
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            const std::int32_t c = s.index(patch.i + x, patch.j + y);
-            const bool has_left = patch.i + x > 0 || borders.wrap_x;
-            const bool has_lower = patch.j + y > 0 || borders.wrap_y;
-            if (has_left && (!Solids || walls.open_u[c] > Real(0))) {
-                grid.u[c] -= speed * ((e[c] - e[c - 1]) + along_x[x]);
-            }
-            if (has_lower && (!Solids || walls.open_v[c] > Real(0))) {
-                grid.v[c] -= speed * ((e[c] - e[c - s.stride]) + along_y[y]);
+
+    bool first_moves_x() const { return patch.i > 0 || borders.wrap_x; }
+    bool moves_y(std::int32_t y) const { return patch.j + y > 0 || borders.wrap_y; }
+    const Walls<Real>* solids() const { return Solids ? &walls : nullptr; }
+
+    Real of(std::int32_t face, std::int32_t before, Real along) const {
+        const VelocityOf<Real>* e = fields.divergence;
+        return speed * ((e[face] - e[before]) + along);
+    }
+
+    /// visit(face, face before it, drift towards that, column of the patch, on u) for those that
+    /// are open, by row.
+    template <class Visit>
+    void for_each_face(const Visit& visit) const {
+        for (std::int32_t y = 0; y < patch.height; ++y) {
+            for (std::int32_t x = 0; x < patch.width; ++x) {
+                const std::int32_t c = shape.index(patch.i + x, patch.j + y);
+                const std::int32_t below = c - shape.stride;
+                if ((x > 0 || first_moves_x()) && (!Solids || walls.open_u[c] > Real(0))) {
+                    visit(c, c - 1, of(c, c - 1, along_x[x]), x, true);
+                }
+                if (moves_y(y) && (!Solids || walls.open_v[c] > Real(0))) {
+                    visit(c, below, of(c, below, along_y[y]), x, false);
+                }
             }
         }
     }
+};
+
+/// Fixed point does without: squares of velocities are wider than its numbers.
+template <class Real>
+constexpr bool kPaysForLifting = sizeof(Product<Real>) == sizeof(Real);
+
+/// Sum of squares of a patch's excess from which on it counts as stirred: 0.025 a cell. A lattice
+/// that a wave passes has a tenth of that.
+template <class Real>
+constexpr Real kStirred = Real(0.01);
+
+/// At most a 64th of a patch's velocity is the price, and not more than a 256th comes back: impacts
+/// keep their pressure, and what is at rest stays so.
+template <class Real>
+constexpr Real kMostPrice = Real(64);
+template <class Real>
+constexpr Real kMostRefund = Real(256);
+
+/// Which share of its velocity a patch gives for what the drift lifts in it against the pressure,
+/// and gets for what it lets down. Liquid in order is not asked: what it does is reversed later.
+template <bool Solids, class Real>
+Real price_of(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid) {
+    const Real* p = drift.fields.pressure;
+    Weights<Real> sums;
+    bool done = false;
+    if constexpr (kHasLanes<Real>) {
+        done = drift.patch.width == kCoarseEdge;
+        if (done) {
+            weigh_rows(drift, grid, sums);
+        }
+    }
+    if (!done) {
+        const VelocityOf<Real>* e = drift.fields.divergence;
+        drift.for_each_face([&](std::int32_t face, std::int32_t before, Real way, std::int32_t x,
+                                bool on_u) {
+            const Real now = on_u ? grid.u[face] : grid.v[face];
+            sums.lifted[x] += way * (p[face] - p[before]);
+            sums.moving[x] += now * now;
+        });
+        for (std::int32_t y = 0; y < drift.patch.height; ++y) {
+            for (std::int32_t x = 0; x < drift.patch.width; ++x) {
+                const Real here = e[drift.shape.index(drift.patch.i + x, drift.patch.j + y)];
+                sums.disorder[x] += here * here;
+            }
+        }
+    }
+    const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
+    const Real work = in_turn(sums.lifted) * (disorder / kStirred<Real>);
+    const Real moving = in_turn(sums.moving);
+    if (work > Real(0)) {
+        return work / (moving + kMostPrice<Real> * work);
+    }
+    return moving > -kMostRefund<Real> * work ? work / moving : Real(0);
+}
+
+template <bool Solids, class Real>
+void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
+    Real price = Real(0);
+    if constexpr (kPaysForLifting<Real>) {
+        price = pays ? price_of(drift, grid) : Real(0);
+    }
+    if constexpr (kHasLanes<Real>) {
+        if (drift.patch.width == kCoarseEdge) {
+            drift_rows(drift, price, grid);
+            return;
+        }
+    }
+    drift.for_each_face([&](std::int32_t face, std::int32_t, Real way, std::int32_t, bool on_u) {
+        VelocityOf<Real>& velocity = on_u ? grid.u[face] : grid.v[face];
+        if constexpr (kPaysForLifting<Real>) {
+            if (price != Real(0)) {
+                (on_u ? grid.mass_u[face] : grid.mass_v[face]) -= price * velocity;
+            }
+        }
+        velocity -= way;
+    });
 }
 
 template <class Real>
@@ -203,7 +285,7 @@ void find_excess(const GridShape& s, const Part& rows, PressureFields<Real>& fie
 }
 
 template <bool Solids, class Real>
-void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
+void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed, bool pays,
              PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
              Work work) {
     const GridShape& s = grid.shape;
@@ -228,13 +310,17 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
         mirror_cells(borders, big, fields.coarse.correction);
     }
     share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
-        drift<Solids>(borders, walls, speed, fields, patch, grid);
+        static_assert(kCoarseEdge == 4, "rises() knows four faces");
+        Drift<Solids, Real> drift{borders, walls, fields, s, patch, speed, {}, {}};
+        rises(fields.coarse.correction, patch.q, 1, drift.along_x);
+        rises(fields.coarse.correction, patch.q, big.stride, drift.along_y);
+        drift_apart(drift, pays, grid);
     });
 }
 
 template <bool Solids, class Real>
 void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                 Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
+                 Real gain, bool pays, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
                  std::int32_t& overfull, Work work) {
     if (work.once(1)) {
         overfull = 0;
@@ -242,7 +328,7 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
     if constexpr (Stored<Real>::coarse) {
         correct_packed<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
     } else {
-        correct<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
+        correct<Solids>(borders, walls, gain / dt_s, pays, fields, grid, overfull, work);
     }
 }
 
@@ -250,25 +336,26 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
 
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
-                       std::int32_t& overfull, Work work) {
+                       Real gain, bool pays, PressureFields<Real>& fields,
+                       StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
     const auto stage = walls.active ? keep_volume<true, Real> : keep_volume<false, Real>;
-    stage(borders, walls, dt_s, gain, fields, grid, overfull, work);
+    stage(borders, walls, dt_s, gain, pays, fields, grid, overfull, work);
 }
 
 template <class Real>
 void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                               Seconds<Real> dt_s, Real gain, PressureFields<Real>& fields,
-                               StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
-    keep_volume<false, Real>(borders, walls, dt_s, gain, fields, grid, overfull, work);
+                               Seconds<Real> dt_s, Real gain, bool pays,
+                               PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
+                               std::int32_t& overfull, Work work) {
+    keep_volume<false, Real>(borders, walls, dt_s, gain, pays, fields, grid, overfull, work);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                          \
     template void volume_correction(const Borders<Real>&, const Walls<Real>&,           \
-                                    Seconds<Real>, Real, PressureFields<Real>&,         \
+                                    Seconds<Real>, Real, bool, PressureFields<Real>&,   \
                                     StaggeredGrid<Real>&, std::int32_t&, Work);         \
     template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,   \
-                                            Seconds<Real>, Real, PressureFields<Real>&, \
+                                            Seconds<Real>, Real, bool, PressureFields<Real>&, \
                                             StaggeredGrid<Real>&, std::int32_t&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

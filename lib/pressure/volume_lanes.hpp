@@ -24,6 +24,19 @@ struct PatchLimits {
     float least_overfull;  ///< liquid cells
 };
 
+/// What decides what a patch pays, summed by column.
+template <class Real>
+struct Weights {
+    Real lifted[kCoarseEdge] = {};    ///< work of the drift against the pressure
+    Real moving[kCoarseEdge] = {};    ///< squares of the velocity
+    Real disorder[kCoarseEdge] = {};  ///< squares of the excess
+};
+
+template <class Real>
+inline Real in_turn(const Real (&column)[kCoarseEdge]) {
+    return ((column[0] + column[1]) + column[2]) + column[3];
+}
+
 #if WEIR_HAS_LANES
 
 /// Excess of cells c, c + 1 … as long as enough are left before `end`; returns the next one to do.
@@ -150,30 +163,80 @@ inline std::int32_t means_of_row(const PressureFields<float>& f, const PatchLimi
     return k;
 }
 
-/// velocity −= speed · (difference of the excess + along) on four faces, but for closed ones.
-/// `open` null: no solids. `first`: the first of them takes part.
-inline void drift_lanes(const float* excess, std::int32_t back, float speed, Lanes along,
-                        const float* open, bool first, std::int32_t face, float* velocity) {
-    const Lanes now = load_lanes(velocity + face);
+/// The drift of four faces, 0 where they are closed, and which of them are open.
+struct DriftOfFour {
+    Lanes way;
+    LaneMask moves;
+};
+
+/// `open` null: no solids. `first`: the first face takes part.
+inline DriftOfFour drift_lanes(const float* excess, std::int32_t back, float speed, Lanes along,
+                               const float* open, bool first, std::int32_t face) {
     const Lanes rise = (load_lanes(excess + face) - load_lanes(excess + face - back)) + along;
     LaneMask moves{first ? -1 : 0, -1, -1, -1};
     if (open != nullptr) {
         moves &= load_lanes(open + face) > all_lanes(0.0F);
     }
-    store_lanes(velocity + face, moves ? now - all_lanes(speed) * rise : now);
+    return {moves ? all_lanes(speed) * rise : all_lanes(0.0F), moves};
 }
 
-/// Drift of a row of a patch, four cells with both their faces. `along_x`: four; `walls` null: no
-/// solids; `has_left`: of the first cell.
-inline void drift_row(const float* excess, std::int32_t stride, float speed, const float* along_x,
-                      float along_y, const Walls<float>* walls, bool has_left, bool has_lower,
-                      std::int32_t c, StaggeredGrid<float>& grid) {
-    drift_lanes(excess, 1, speed, load_lanes(along_x), walls != nullptr ? walls->open_u : nullptr,
-                has_left, c, grid.u);
-    if (has_lower) {
-        drift_lanes(excess, stride, speed, all_lanes(along_y),
-                    walls != nullptr ? walls->open_v : nullptr, true, c, grid.v);
+/// visit(face, its drift, from a face to the one before, on u) for a patch four cells wide: both
+/// kinds of faces, row by row.
+template <class Drift, class Visit>
+inline void for_each_four(const Drift& drift, const Visit& visit) {
+    const float* e = drift.fields.divergence;
+    const std::int32_t stride = drift.shape.stride;
+    const auto* walls = drift.solids();
+    const float* open_u = walls != nullptr ? walls->open_u : nullptr;
+    const float* open_v = walls != nullptr ? walls->open_v : nullptr;
+    const Lanes along_x = load_lanes(drift.along_x);
+    for (std::int32_t y = 0; y < drift.patch.height; ++y) {
+        const std::int32_t c = drift.shape.index(drift.patch.i, drift.patch.j + y);
+        visit(c, drift_lanes(e, 1, drift.speed, along_x, open_u, drift.first_moves_x(), c), 1,
+              true);
+        if (drift.moves_y(y)) {
+            visit(c,
+                  drift_lanes(e, stride, drift.speed, all_lanes(drift.along_y[y]), open_v, true, c),
+                  stride, false);
+        }
     }
+}
+
+template <class Drift>
+inline void weigh_rows(const Drift& drift, const StaggeredGrid<float>& grid,
+                       Weights<float>& sums) {
+    const float* p = drift.fields.pressure;
+    const Lanes zero = all_lanes(0.0F);
+    Lanes lifted = zero;
+    Lanes moving = zero;
+    for_each_four(drift, [&](std::int32_t c, DriftOfFour of, std::int32_t back, bool on_u) {
+        const Lanes now = load_lanes((on_u ? grid.u : grid.v) + c);
+        lifted = lifted + of.way * (load_lanes(p + c) - load_lanes(p + c - back));
+        moving = moving + (of.moves ? now * now : zero);
+    });
+    Lanes disorder = zero;
+    for (std::int32_t y = 0; y < drift.patch.height; ++y) {
+        const Lanes here = load_lanes(drift.fields.divergence +
+                                      drift.shape.index(drift.patch.i, drift.patch.j + y));
+        disorder = disorder + here * here;
+    }
+    store_lanes(sums.lifted, lifted);
+    store_lanes(sums.moving, moving);
+    store_lanes(sums.disorder, disorder);
+}
+
+template <class Drift>
+inline void drift_rows(const Drift& drift, float price, StaggeredGrid<float>& grid) {
+    for_each_four(drift, [&](std::int32_t c, DriftOfFour of, std::int32_t, bool on_u) {
+        float* velocity = (on_u ? grid.u : grid.v) + c;
+        float* change = (on_u ? grid.mass_u : grid.mass_v) + c;
+        const Lanes now = load_lanes(velocity);
+        if (price != 0.0F) {
+            const Lanes before = load_lanes(change);
+            store_lanes(change, of.moves ? before - all_lanes(price) * now : before);
+        }
+        store_lanes(velocity, of.moves ? now - of.way : now);
+    });
 }
 
 #endif

@@ -219,8 +219,10 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection &&
         !plan.settling) {
         const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
-        stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s), simulation.pressure,
-              grid, report.cells_overfull, work);
+        // Without gravity nothing that is lifted falls again.
+        const bool pays = settings.gravity.x != Real(0) || settings.gravity.y != Real(0);
+        stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s), pays,
+              simulation.pressure, grid, report.cells_overfull, work);
     }
     clock.charge(Stage::volume);
 
