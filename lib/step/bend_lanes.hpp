@@ -17,7 +17,7 @@ struct BendTask {
     const float* along;
     const float* across;
     float* out;
-    float half_dt;
+    float bend_s;
     std::int32_t back;
     std::int32_t stride;
     bool leaps;   ///< the row's cells may be straight
@@ -89,7 +89,7 @@ inline std::int32_t bend_faces(const BendTask& task, std::int32_t face, std::int
             L::load(task.along + face) * slope_of_faces<L>(task, face, task.back) +
             mean * slope_of_faces<L>(task, face, side);
         const auto share =
-            (here | before) ? L::all(0.5F * task.half_dt) : L::all(task.half_dt);
+            (here | before) ? L::all(0.5F * task.bend_s) : L::all(task.bend_s);
         const auto now = L::load(task.out + face);
         L::store(task.out + face, bent ? now + share * turned : now);
     }

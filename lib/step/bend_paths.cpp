@@ -14,7 +14,7 @@ struct Bending {
     const Borders<Real>& borders;
     const Walls<Real>& walls;
     const PressureFields<Real>& fields;
-    Seconds<Real> half_dt;
+    Seconds<Real> bend_s;  ///< ½ dt or less: by how much paths bend
     std::int32_t back;
     const VelocityOf<Real>* along;   ///< ũ of this component
     const VelocityOf<Real>* across;  ///< of the other
@@ -27,10 +27,12 @@ struct Bending {
         return fields.level[face] > Real(0) || fields.level[face - back] > Real(0);
     }
 
-    /// No particle reads it, or those that read it look for themselves.
+    /// No particle reads it, or those that read it look for themselves, or it is beside a wall.
     bool left_out(std::int32_t face) const {
         return fields.level[face] <= kEmptyLevel<Real> ||
                fields.level[face - back] <= kEmptyLevel<Real> ||
+               (walls.active && !(untouched(walls, face, face + s.stride) &&
+                                  untouched(walls, face - back, face - back + s.stride))) ||
                (walls.thin != nullptr &&
                 ((walls.thin->mark[face] | walls.thin->mark[face - back]) & kTouching) != 0);
     }
@@ -45,7 +47,7 @@ struct Bending {
         return low && high ? Real(0.5) * (below + above) : below + above;
     }
 
-    /// `share`: half a step, or a half of that between the two kinds of cells.
+    /// `share`: all of the bend, or a half of it between the two kinds of cells.
     void bend(std::int32_t face, bool on_seam, Seconds<Real> share) const {
         // The face before the one on the seam has a cell that lies two beyond it: its image not.
         const std::int32_t round = on_seam ? back * (on_u() ? s.nx : s.ny) : 0;
@@ -89,7 +91,7 @@ struct Bending {
             const bool wet_after = level[face + back] > Real(0);
             const bool here = straight(at, face, wet_before && wet && wet_after);
             if (!(here && before) && !left_out(face)) {
-                bend(face, at == 0, here || before ? Seconds<Real>(0.5) * half_dt : half_dt);
+                bend(face, at == 0, here || before ? Seconds<Real>(0.5) * bend_s : bend_s);
             }
             wet_before = wet;
             wet = wet_after;
@@ -113,7 +115,7 @@ struct Bending {
                                     along,
                                     across,
                                     out,
-                                    half_dt,
+                                    bend_s,
                                     back,
                                     s.stride,
                                     inside(j),
@@ -162,9 +164,12 @@ void bend_paths([[maybe_unused]] const Borders<Real>& borders,
         const GridShape& s = grid.shape;
         const VelocityOf<Real>* u = fields.divergence;
         const VelocityOf<Real>* v = fields.inverse_diagonal;
-        const Seconds<Real> half_dt = Seconds<Real>(0.5) * dt_s;
-        const Bending<Real> of_u{s, borders, walls, fields, half_dt, 1, u, v, grid.u};
-        const Bending<Real> of_v{s, borders, walls, fields, half_dt, s.stride, v, u, grid.v};
+        // Where liquid leaps, bends of a half keep what sways: half of that keeps areas as well.
+        // Drops need it all.
+        const bool some = fields.leaps && !fields.on_surface;
+        const Seconds<Real> bend_s = Seconds<Real>(some ? 0.25 : 0.5) * dt_s;
+        const Bending<Real> of_u{s, borders, walls, fields, bend_s, 1, u, v, grid.u};
+        const Bending<Real> of_v{s, borders, walls, fields, bend_s, s.stride, v, u, grid.v};
         work.share(work.take(s.ny, 2 * s.nx), 2 * s.nx, 1, [&](const Part& rows, std::int32_t) {
             of_u.rows(rows);
             of_v.rows(rows);

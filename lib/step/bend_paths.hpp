@@ -10,10 +10,11 @@ namespace weir {
 /// Where the pressure does not see to what straight paths do (see pressure/leap.hpp), beside
 /// surfaces and walls or, if nothing leaps, everywhere, the field along which particles
 /// go bends with the flow:
-///     u += ½ dt (ũ·∇)ũ,
+///     u += ¼ dt (ũ·∇)ũ, with surface tension or where nothing leaps ½ dt,
 /// of the velocity ũ before the step that `blend_change` left in the fields' divergence and inverse
 /// diagonal. Half as much between a cell that the pressure sees to and one that it does not.
-/// Beside thin walls the gather bends by what it sees. In packed worlds it does so everywhere.
+/// Beside solids nothing bends; beside thin walls the gather bends by what it sees, as it does
+/// everywhere in packed worlds.
 /// Order: any.
 template <class Real>
 void bend_paths(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
