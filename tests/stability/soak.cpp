@@ -137,6 +137,23 @@ void rest(Report& report, const Scheme& scheme, std::int32_t steps) {
     report.figure(name + ".volume_drift", tank.volume_error(), "1");
 }
 
+/// A column that is poured into a box of 32 cells comes to rest wherever its surface ends up: what
+/// keeps its volume must not keep it swaying.
+template <class Real>
+void pour(Report& report, const Scheme& scheme, const std::vector<float>& heights) {
+    double worst = 0.0;
+    for (const float height : heights) {
+        Tank<Real> tank(box_def<Real>(scheme, 32));
+        tank.fill(0, 0, 16, height);
+        tank.run(40000, scheme.dt_s());
+        const double depth = 0.5 * static_cast<double>(height * tank.def().cell_m);
+        const double unit = std::sqrt(kGravity * depth) / static_cast<double>(tank.def().cell_m);
+        worst = std::max(worst, tank.rms_speed() / unit);
+    }
+    report.at_most(label<Real>("R14.poured", scheme) + ".residual_speed", worst, "sqrt(gh)",
+                   1.0e-3);
+}
+
 }  // namespace
 
 void soak(Report& report, const Effort& effort) {
@@ -158,6 +175,13 @@ void resting_pool(Report& report, const Effort& effort) {
     each_scheme(false, false, [&](const Scheme& scheme, auto real) {
         const std::int32_t quick = scheme.elastic() ? 20000 : 100000;
         rest<decltype(real)>(report, scheme, effort.full ? 10 * quick : quick);
+        if (!scheme.elastic()) {
+            std::vector<float> heights = {23.0F, 24.0F, 25.5F};
+            if (effort.full) {
+                heights.insert(heights.end(), {22.5F, 23.5F, 24.5F, 26.0F, 26.5F});
+            }
+            pour<decltype(real)>(report, scheme, heights);
+        }
     });
 }
 
