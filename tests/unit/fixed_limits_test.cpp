@@ -68,7 +68,7 @@ TEST(FixedLimits, Init) { check_all(fixed_rows()); }
 template <class Real>
 class FixedWorld : public ::testing::Test {};
 using Both = ::testing::Types<Fixed, SmallFixed>;
-TYPED_TEST_SUITE(FixedWorld, Both);
+TYPED_TEST_SUITE(FixedWorld, Both, );
 
 TYPED_TEST(FixedWorld, TheLargestIsAccepted) {
     WorldDef def = small_def();

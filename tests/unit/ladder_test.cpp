@@ -22,7 +22,7 @@ WorldDef dam_def() {
 template <class Real>
 class LadderOf : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(LadderOf, Scalars);
+TYPED_TEST_SUITE(LadderOf, Scalars, );
 
 TYPED_TEST(LadderOf, EveryRungCostsLessAndSaysSo) {
     std::int64_t before = 0;

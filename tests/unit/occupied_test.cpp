@@ -39,7 +39,7 @@ struct CornerPool {
 template <class Real>
 class Occupied : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Occupied, Scalars);
+TYPED_TEST_SUITE(Occupied, Scalars, );
 
 TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
     CornerPool<TypeParam> small(40, 60), large(90, 100);

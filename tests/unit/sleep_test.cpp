@@ -64,7 +64,7 @@ struct Pool {
 template <class Real>
 class SleepOf : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(SleepOf, Scalars);
+TYPED_TEST_SUITE(SleepOf, Scalars, );
 
 TYPED_TEST(SleepOf, AtRestItFallsAsleepAndNothingChanges) {
     Pool<TypeParam> pool;
