@@ -5,7 +5,7 @@
 #pragma once
 
 #include "grid/borders.hpp"
-#include "math/lanes.hpp"
+#include "math/four_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -17,6 +17,18 @@ inline bool liquid_around(const LevelOf<Real>* level, std::int32_t stride, std::
     return level[c] > Real(0) && level[c - 1] > Real(0) && level[c + 1] > Real(0) &&
            level[c - stride] > Real(0) && level[c + stride] > Real(0);
 }
+
+#if WEIR_HAS_LANES
+
+/// Lowest level of some cells and the four around each.
+template <class L>
+inline auto lowest_around(const float* level, std::int32_t stride, std::int32_t c) {
+    const auto across = L::minimum(L::load(level + c - 1), L::load(level + c + 1));
+    const auto up_and_down = L::minimum(L::load(level + c - stride), L::load(level + c + stride));
+    return L::minimum(L::load(level + c), L::minimum(across, up_and_down));
+}
+
+#endif
 
 /// Whether cells `low` … `high` of a row touch none of the tank's walls.
 template <class Real>

@@ -355,10 +355,9 @@ void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls,
     if (work.once(1)) {
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
     }
-    if constexpr (!Stored<Real>::coarse) {
-        if (work.once(grid.shape.border())) {  // for the leap across seams
-            extend_velocity(borders, grid.shape, grid.mass_u, grid.mass_v);
-        }
+    const bool seams = borders.wrap_x || borders.wrap_y;
+    if (!Stored<Real>::coarse && seams && work.once(grid.shape.border())) {  // leaps look across
+        extend_velocity(borders, grid.shape, grid.mass_u, grid.mass_v);
     }
     auto solver = solve<Solids, false, Real>;
     if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid

@@ -18,9 +18,7 @@ enum class Around : std::uint8_t { liquid, air, both };
 inline Around around_four(const float* level, std::int32_t stride, std::int32_t c) {
     const Lanes zero = all_lanes(0.0F);
     const Lanes here = load_lanes(level + c);
-    const Lanes least =
-        minimum(minimum(minimum(here, load_lanes(level + c - 1)), load_lanes(level + c + 1)),
-                minimum(load_lanes(level + c - stride), load_lanes(level + c + stride)));
+    const Lanes least = lowest_around<FourLanes>(level, stride, c);
     return all_true(least > zero) ? Around::liquid
                                   : (any_true(here > zero) ? Around::both : Around::air);
 }
@@ -104,10 +102,7 @@ inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& fa
     Lanes divergence =
         (faces.right * load_lanes(grid.u + c + 1) - faces.left * load_lanes(grid.u + c)) +
         (faces.upper * load_lanes(grid.v + up) - faces.lower * load_lanes(grid.v + c));
-    const Lanes least =
-        minimum(minimum(minimum(level, load_lanes(fields.level + c - 1)),
-                        load_lanes(fields.level + c + 1)),
-                minimum(load_lanes(fields.level + c - stride), load_lanes(fields.level + up)));
+    const Lanes least = lowest_around<FourLanes>(fields.level, stride, c);
     const LaneMask straight = (least > zero) & (minimum(minimum(faces.left, faces.right),
                                                         minimum(faces.lower, faces.upper)) > zero);
     if (fields.leaps && any_true(straight)) {

@@ -1,9 +1,8 @@
 // Paths bent four or eight faces at a time: the plain loop's sums, and so its bits.
 #pragma once
 
-#include "grid/staggered_grid.hpp"
-#include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
+#include "pressure/leap.hpp"
 
 namespace weir {
 
@@ -23,14 +22,6 @@ struct BendTask {
     bool leaps;   ///< the row's cells may be straight
     bool leapt;   ///< those before its faces
 };
-
-/// Lowest level of some cells and the four around each.
-template <class L>
-inline auto lowest_around(const float* level, std::int32_t stride, std::int32_t c) {
-    const auto across = L::minimum(L::load(level + c - 1), L::load(level + c + 1));
-    const auto up_and_down = L::minimum(L::load(level + c - stride), L::load(level + c + stride));
-    return L::minimum(L::load(level + c), L::minimum(across, up_and_down));
-}
 
 /// Whether all faces of some cells are wide open.
 template <class L>

@@ -1,6 +1,5 @@
 #include "step/bend_paths.hpp"
 
-#include "pressure/leap.hpp"
 #include "step/bend_lanes.hpp"
 
 namespace weir {
@@ -72,12 +71,10 @@ struct Bending {
         const std::int32_t cells = on_u() ? s.nx : s.ny;
         const bool wrap = on_u() ? borders.wrap_x : borders.wrap_y;
         const bool leaps = fields.leaps && line_inside(i, j);
-        const bool solids = walls.active;
-        // Straight is what the pressure sees to.
+        // As `goes_straight`; faces beside solids are left out.
         const auto straight = [&](std::int32_t at, std::int32_t c, bool liquid) {
             return liquid && leaps && (wrap || (at > 0 && at + 1 < cells)) &&
-                   level[c - side] > Real(0) && level[c + side] > Real(0) &&
-                   (!solids || untouched(walls, c, c + s.stride));
+                   level[c - side] > Real(0) && level[c + side] > Real(0);
         };
         std::int32_t at = on_u() ? i : j;
         std::int32_t face = s.index(i, j);
