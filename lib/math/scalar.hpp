@@ -103,6 +103,38 @@ inline bool is_finite(double value) {
     return (bits & 0x7FF0000000000000ULL) != 0x7FF0000000000000ULL;
 }
 
+/// Numbers that compare as the values do: as the magnitudes, or as values that are not NaN do with
+/// bounds that are not negative. Whole numbers where comparing floats takes another instruction to
+/// fetch the answer; NaN is larger than all numbers.
+template <class Real>
+inline Real magnitude_key(Real value) {
+    return absolute(value);
+}
+template <class Real>
+inline Real magnitude_of_key(Real key) {
+    return key;
+}
+template <class Real>
+inline Real bound_key(Real value) {
+    return value;
+}
+inline std::uint32_t magnitude_key(float value) {
+    std::uint32_t bits = 0;
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    return bits << 1U;
+}
+inline float magnitude_of_key(std::uint32_t key) {
+    const std::uint32_t bits = key >> 1U;
+    float value = 0.0F;
+    __builtin_memcpy(&value, &bits, sizeof value);
+    return value;
+}
+inline std::int32_t bound_key(float value) {
+    std::int32_t bits = 0;
+    __builtin_memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
 /// Largest integer not above the value; |value| < 2^31.
 template <class Real>
 inline std::int32_t floor_to_int(Real value) {

@@ -117,7 +117,7 @@ void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<
         }
         for (; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (!Stored<Real>::coarse || beside_liquid(level, s.stride, c)) {
+            if (beside_liquid(level, s.stride, c)) {
                 fill(i, j, c);
             }
         }

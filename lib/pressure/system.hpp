@@ -28,35 +28,29 @@ inline Real surface_share(Real weight, Real open, Real level, std::int32_t neigh
                                (Real(1) / liquid_fraction(level, air, open) - Real(1));
 }
 
-/// The equation of one cell, and where its solve starts. Adds to the sums of the system.
+/// Sum of what a liquid cell's faces add to its diagonal.
 template <bool Solids, bool Mixed, class Real>
-void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
-                const Leap<Real>& leap, PressureFields<Real>& fields, Solve<Real>& system) {
+Real diagonal_of(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
+                 const PressureFields<Real>& fields) {
+    const std::int32_t c = weights.grid.shape.index(i, j);
+    const std::int32_t up = c + weights.grid.shape.stride;
+    const std::int32_t down = c - weights.grid.shape.stride;
+    const Real level = fields.level[c];
+    const Faces<Real> w = weights.around(i, j);
+    return (face_coefficient(w.left, weights.open_u(c), level, fields.level[c - 1]) +
+            face_coefficient(w.right, weights.open_u(c + 1), level, fields.level[c + 1])) +
+           (face_coefficient(w.lower, weights.open_v(c), level, fields.level[down]) +
+            face_coefficient(w.upper, weights.open_v(up), level, fields.level[up]));
+}
+
+/// What flows out of it, less what is asked for and what pressure on the surface answers. `wide`:
+/// all its faces are.
+template <bool Solids, bool Mixed, class Real>
+Real divergence_of(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
+                   bool wide, const Leap<Real>& leap, const PressureFields<Real>& fields) {
     const Walls<Real>& walls = weights.walls;
     const GridShape& s = weights.grid.shape;
     const std::int32_t c = s.index(i, j);
-    const Real level = fields.level[c];
-    fields.inverse_diagonal[c] = Real(0);
-    if (!(level > Real(0))) {
-        if (!fields.on_surface) {  // otherwise other rows read it meanwhile
-            fields.pressure[c] = Real(0);
-        }
-        return;
-    }
-    const std::int32_t up = c + s.stride;
-    const std::int32_t down = c - s.stride;
-    const Faces<Real> w = weights.around(i, j);
-    const Faces<Real> open{weights.open_u(c), weights.open_u(c + 1), weights.open_v(c),
-                           weights.open_v(up)};
-    const Real diagonal = (face_coefficient(w.left, open.left, level, fields.level[c - 1]) +
-                           face_coefficient(w.right, open.right, level, fields.level[c + 1])) +
-                          (face_coefficient(w.lower, open.lower, level, fields.level[down]) +
-                           face_coefficient(w.upper, open.upper, level, fields.level[up]));
-    if (!(diagonal > Real(0))) {
-        fields.pressure[c] = Real(0);
-        return;
-    }
-    const bool wide = !Solids || untouched(walls, c, up);
     Real divergence = weights.outflow(i, j);
     if (wide && goes_straight(fields, s, weights.borders, i, j)) {
         divergence += wanted_convergence(weights.grid, c, leap);
@@ -65,15 +59,62 @@ void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
         divergence += wall_flow(s, walls, i, j);
     }
     if (fields.on_surface) {
-        divergence -= (surface_share(w.left, open.left, level, c - 1, fields) +
-                       surface_share(w.right, open.right, level, c + 1, fields)) +
-                      (surface_share(w.lower, open.lower, level, down, fields) +
-                       surface_share(w.upper, open.upper, level, up, fields));
+        const std::int32_t up = c + s.stride;
+        const std::int32_t down = c - s.stride;
+        const Real level = fields.level[c];
+        const Faces<Real> w = weights.around(i, j);
+        divergence -=
+            (surface_share(w.left, weights.open_u(c), level, c - 1, fields) +
+             surface_share(w.right, weights.open_u(c + 1), level, c + 1, fields)) +
+            (surface_share(w.lower, weights.open_v(c), level, down, fields) +
+             surface_share(w.upper, weights.open_v(up), level, up, fields));
+    }
+    return divergence;
+}
+
+/// Whether a cell's faces are all wide open and lead to liquid, inside the tank.
+template <bool Solids, bool Mixed, class Real>
+inline bool is_plain(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
+                     std::int32_t j, const LevelOf<Real>* level) {
+    const Walls<Real>& walls = weights.walls;
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t c = s.index(i, j);
+    return !Mixed && inside_tank(weights.borders, s, i, i, j) &&
+           liquid_around<Real>(level, s.stride, c) &&
+           (!Solids || (untouched(walls, c, c + s.stride) &&
+                        !(walls.moving && touches_wall(walls, c))));
+}
+
+/// The equation of one liquid cell, and where its solve starts. Adds to the sums of the system.
+template <bool Solids, bool Mixed, class Real>
+void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
+                const Leap<Real>& leap, PressureFields<Real>& fields, Solve<Real>& system) {
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t c = s.index(i, j);
+    const std::int32_t up = c + s.stride;
+    Real diagonal = Real(4);
+    Real divergence;
+    if (is_plain(weights, i, j, fields.level)) {
+        const StaggeredGrid<Real>& grid = weights.grid;
+        divergence = (Real(grid.u[c + 1]) - Real(grid.u[c])) +
+                     (Real(grid.v[up]) - Real(grid.v[c]));
+        if (fields.leaps) {
+            divergence += wanted_convergence(grid, c, leap);
+        }
+        fields.inverse_diagonal[c] = Real(0.25);
+    } else {
+        diagonal = diagonal_of(weights, i, j, fields);
+        if (!(diagonal > Real(0))) {
+            fields.inverse_diagonal[c] = Real(0);
+            fields.pressure[c] = Real(0);
+            return;
+        }
+        const bool wide = !Solids || untouched(weights.walls, c, up);
+        divergence = divergence_of(weights, i, j, wide, leap, fields);
+        // The sign tells `relax` which cells a wall touches.
+        fields.inverse_diagonal[c] = Real(wide ? 1 : -1) / diagonal;
     }
     fields.divergence[c] = divergence;
-    // The sign tells `relax` which cells a wall touches.
-    const Real sign = Real(wide ? 1 : -1);
-    fields.inverse_diagonal[c] = sign / diagonal;
     // A number that is none would stay for ever: the solve starts from the last pressure.
     const Real scaled = fields.pressure[c] * system.rescale;
     const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);
@@ -183,7 +224,15 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
             i = end;
         }
         for (; i < end; ++i) {
-            build_cell(weights, i, j, leap, fields, system);
+            const std::int32_t c = s.index(i, j);
+            if (fields.level[c] > Real(0)) {
+                build_cell(weights, i, j, leap, fields, system);
+                continue;
+            }
+            fields.inverse_diagonal[c] = Real(0);
+            if (!fields.on_surface) {  // otherwise other rows read it meanwhile
+                fields.pressure[c] = Real(0);
+            }
         }
     }
     return system;

@@ -1,7 +1,6 @@
 #include "pressure/volume_correction.hpp"
 
-#include "pressure/patches.hpp"
-#include "pressure/volume_lanes.hpp"
+#include "pressure/patch_drift.hpp"
 #include "pressure/volume_packed.hpp"
 
 namespace weir {
@@ -22,11 +21,6 @@ constexpr Real kCellWindow = Real(0.2);
 template <class Real>
 constexpr Real kPatchWindow = Real(0.03);
 
-/// Drift between patches over that between cells, at equal difference. With twice as much a column
-/// that starts too dense gains energy by its expansion, with four times waves of one cell grow.
-template <class Real>
-constexpr Real kPatchGain = Real(1);
-
 /// Just below the surface density is known to this: lattices are no continuum.
 template <class Real>
 constexpr Real kSubsurfaceSlack = Real(0.03);
@@ -36,10 +30,6 @@ constexpr Real kSubsurfaceSlack = Real(0.03);
 template <class Real>
 constexpr Real kOverfull = Real(0.15);
 constexpr std::int32_t kLeastOverfull = 8;
-
-/// Excess of a patch that a solid fills: no drift towards it, nor from it.
-template <class Real>
-constexpr Real kSolidPatch = Real(2);
 
 /// A cell below the surface sees less than 1: its kernel reaches 1½ cells up. `lowest`: level of
 /// the neighbour that is nearest to the surface, one cell less than its own, at most ½. Counted as
@@ -86,15 +76,21 @@ template <bool Solids, class Real>
 Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
              const PressureFields<Real>& f, std::int32_t& overfull) {
     Real sum = Real(0);
+    Real any = Real(0);
     std::int32_t count = 0;
     for (std::int32_t y = 0; y < patch.height; ++y) {
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            const std::int32_t c = s.index(patch.i + x, patch.j + y);
-            if (f.level[c] > Real(0)) {
-                sum += clamp<Real>(f.divergence[c], -kCellWindow<Real>, kCellWindow<Real>);
+        const std::int32_t row = s.index(patch.i, patch.j + y);
+        for (std::int32_t c = row; c < row + patch.width; ++c) {
+            const Real e = f.divergence[c];
+            if (bound_key(Real(f.level[c])) > bound_key(Real(0))) {
+                sum += clamp<Real>(e, -kCellWindow<Real>, kCellWindow<Real>);
                 count += 1;
             }
+            any = e != Real(0) ? Real(1) : any;
         }
+    }
+    if constexpr (!kHasLanes<Real>) {
+        f.coarse.residual[patch.q] = any;  // until the drift
     }
     if (count == 0) {
         return !Solids || has_room(s, walls, patch) ? Real(0) : kSolidPatch<Real>;
@@ -131,141 +127,6 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
         means[column] =
             f.on_surface ? Real(0) : average<Solids>(s, walls, patch_at(column), f, overfull);
     }
-}
-
-/// By how much the mean excess rises from one patch to the next, times the gain between them.
-template <class Real>
-inline Real rise(Real from, Real to) {
-    const bool solid = from == kSolidPatch<Real> || to == kSolidPatch<Real>;
-    return solid ? Real(0) : kPatchGain<Real> * (to - from);
-}
-
-/// The same on each of a patch's faces along an axis: between the patches' centres the mean excess
-/// is linear, so that the third face, on the centre, has half of both.
-template <class Real>
-void rises(const Real* excess, std::int32_t q, std::int32_t step, Real* on_face) {
-    const Real before = rise(excess[q - step], excess[q]);
-    const Real after = rise(excess[q], excess[q + step]);
-    on_face[0] = before;
-    on_face[1] = before;
-    on_face[2] = Real(0.5) * (before + after);
-    on_face[3] = after;
-}
-
-/// What the drift needs to know of a patch.
-template <bool Solids, class Real>
-struct Drift {
-    const Borders<Real>& borders;
-    const Walls<Real>& walls;
-    const PressureFields<Real>& fields;
-    const GridShape& shape;
-    const Patch& patch;
-    Real speed;  ///< where the excess rises by 1 from cell to cell, cells/s
-    Real along_x[kCoarseEdge];
-    Real along_y[kCoarseEdge];
-
-    bool first_moves_x() const { return patch.i > 0 || borders.wrap_x; }
-    bool moves_y(std::int32_t y) const { return patch.j + y > 0 || borders.wrap_y; }
-    const Walls<Real>* solids() const { return Solids ? &walls : nullptr; }
-
-    Real of(std::int32_t face, std::int32_t before, Real along) const {
-        const VelocityOf<Real>* e = fields.divergence;
-        return speed * ((e[face] - e[before]) + along);
-    }
-
-    /// visit(face, face before it, drift towards that, column of the patch, on u) for those that
-    /// are open, by row.
-    template <class Visit>
-    void for_each_face(const Visit& visit) const {
-        for (std::int32_t y = 0; y < patch.height; ++y) {
-            for (std::int32_t x = 0; x < patch.width; ++x) {
-                const std::int32_t c = shape.index(patch.i + x, patch.j + y);
-                const std::int32_t below = c - shape.stride;
-                if ((x > 0 || first_moves_x()) && (!Solids || walls.open_u[c] > Real(0))) {
-                    visit(c, c - 1, of(c, c - 1, along_x[x]), x, true);
-                }
-                if (moves_y(y) && (!Solids || walls.open_v[c] > Real(0))) {
-                    visit(c, below, of(c, below, along_y[y]), x, false);
-                }
-            }
-        }
-    }
-};
-
-/// Fixed point does without: squares of velocities are wider than its numbers.
-template <class Real>
-constexpr bool kPaysForLifting = sizeof(Product<Real>) == sizeof(Real);
-
-/// Sum of squares of a patch's excess from which on it counts as stirred: 0.025 a cell. A lattice
-/// that a wave passes has a tenth of that.
-template <class Real>
-constexpr Real kStirred = Real(0.01);
-
-/// At most a 64th of a patch's velocity is the price, and not more than a 256th comes back: impacts
-/// keep their pressure, and what is at rest stays so.
-template <class Real>
-constexpr Real kMostPrice = Real(64);
-template <class Real>
-constexpr Real kMostRefund = Real(256);
-
-/// Which share of its velocity a patch gives for what the drift lifts in it against the pressure,
-/// and gets for what it lets down. Liquid in order is not asked: what it does is reversed later.
-template <bool Solids, class Real>
-Real price_of(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid) {
-    const Real* p = drift.fields.pressure;
-    Weights<Real> sums;
-    bool done = false;
-    if constexpr (kHasLanes<Real>) {
-        done = drift.patch.width == kCoarseEdge;
-        if (done) {
-            weigh_rows(drift, grid, sums);
-        }
-    }
-    if (!done) {
-        const VelocityOf<Real>* e = drift.fields.divergence;
-        drift.for_each_face([&](std::int32_t face, std::int32_t before, Real way, std::int32_t x,
-                                bool on_u) {
-            const Real now = on_u ? grid.u[face] : grid.v[face];
-            sums.lifted[x] += way * (p[face] - p[before]);
-            sums.moving[x] += now * now;
-        });
-        for (std::int32_t y = 0; y < drift.patch.height; ++y) {
-            for (std::int32_t x = 0; x < drift.patch.width; ++x) {
-                const Real here = e[drift.shape.index(drift.patch.i + x, drift.patch.j + y)];
-                sums.disorder[x] += here * here;
-            }
-        }
-    }
-    const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
-    const Real work = in_turn(sums.lifted) * (disorder / kStirred<Real>);
-    const Real moving = in_turn(sums.moving);
-    if (work > Real(0)) {
-        return work / (moving + kMostPrice<Real> * work);
-    }
-    return moving > -kMostRefund<Real> * work ? work / moving : Real(0);
-}
-
-template <bool Solids, class Real>
-void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
-    Real price = Real(0);
-    if constexpr (kPaysForLifting<Real>) {
-        price = pays ? price_of(drift, grid) : Real(0);
-    }
-    if constexpr (kHasLanes<Real>) {
-        if (drift.patch.width == kCoarseEdge) {
-            drift_rows(drift, price, grid);
-            return;
-        }
-    }
-    drift.for_each_face([&](std::int32_t face, std::int32_t, Real way, std::int32_t, bool on_u) {
-        VelocityOf<Real>& velocity = on_u ? grid.u[face] : grid.v[face];
-        if constexpr (kPaysForLifting<Real>) {
-            if (price != Real(0)) {
-                (on_u ? grid.mass_u[face] : grid.mass_v[face]) -= price * velocity;
-            }
-        }
-        velocity -= way;
-    });
 }
 
 template <class Real>
@@ -308,6 +169,9 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     }
     if (work.once(big.border())) {
         mirror_cells(borders, big, fields.coarse.correction);
+        if constexpr (!kHasLanes<Real>) {
+            mirror_cells(borders, big, fields.coarse.residual);
+        }
     }
     share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
         static_assert(kCoarseEdge == 4, "rises() knows four faces");

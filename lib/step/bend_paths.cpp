@@ -1,6 +1,7 @@
 #include "step/bend_paths.hpp"
 
 #include "step/bend_lanes.hpp"
+#include "step/depth_bits.hpp"
 
 namespace weir {
 
@@ -26,36 +27,64 @@ struct Bending {
         return fields.level[face] > Real(0) || fields.level[face - back] > Real(0);
     }
 
-    /// No particle reads it, or those that read it look for themselves, or it is beside a wall.
-    bool left_out(std::int32_t face) const {
+    /// No particle reads it.
+    bool empty(std::int32_t face) const {
         return fields.level[face] <= kEmptyLevel<Real> ||
-               fields.level[face - back] <= kEmptyLevel<Real> ||
-               (walls.active && !(untouched(walls, face, face + s.stride) &&
+               fields.level[face - back] <= kEmptyLevel<Real>;
+    }
+
+    /// It is beside a wall, or those that read it look for themselves.
+    bool beside_wall(std::int32_t face) const {
+        return (walls.active && !(untouched(walls, face, face + s.stride) &&
                                   untouched(walls, face - back, face - back + s.stride))) ||
                (walls.thin != nullptr &&
                 ((walls.thin->mark[face] | walls.thin->mark[face - back]) & kTouching) != 0);
     }
 
-    /// ∂ũ along an axis, from liquid faces, `step` entries apart. `before`: where the levels of
-    /// the face before this one are.
-    Real slope(std::int32_t face, std::int32_t step, std::int32_t before) const {
-        const bool low = wet(before);
-        const bool high = wet(face + step);
+    /// ∂ũ along an axis, from liquid faces, `step` entries apart: the one before, the one behind.
+    Real slope(std::int32_t face, std::int32_t step, bool low, bool high) const {
         const Real below = low ? Real(along[face] - along[face - step]) : Real(0);
         const Real above = high ? Real(along[face + step] - along[face]) : Real(0);
         return low && high ? Real(0.5) * (below + above) : below + above;
     }
 
     /// `share`: all of the bend, or a half of it between the two kinds of cells.
-    void bend(std::int32_t face, bool on_seam, Seconds<Real> share) const {
-        // The face before the one on the seam has a cell that lies two beyond it: its image not.
-        const std::int32_t round = on_seam ? back * (on_u() ? s.nx : s.ny) : 0;
+    void bend(std::int32_t face, Seconds<Real> share, Real slope_along, Real slope_across) const {
         const std::int32_t side = on_u() ? s.stride : 1;
         const Real mean = Real(0.25) * ((across[face] + across[face - back]) +
                                         (across[face + side] + across[face + side - back]));
-        const Real turned = along[face] * slope(face, back, face - back + round) +
-                            mean * slope(face, side, face - side);
+        const Real turned = along[face] * slope_along + mean * slope_across;
         out[face] += share * turned;
+    }
+
+    void bend_one(std::int32_t face, bool on_seam, Seconds<Real> share) const {
+        // The face before the one on the seam has a cell that lies two beyond it: its image not.
+        const std::int32_t round = on_seam ? back * (on_u() ? s.nx : s.ny) : 0;
+        const std::int32_t side = on_u() ? s.stride : 1;
+        bend(face, share, slope(face, back, wet(face - back + round), wet(face + back)),
+             slope(face, side, wet(face - side), wet(face + side)));
+    }
+
+    /// Faces of a row: those to bend, those of them by a half, and which faces around are liquid's,
+    /// along and across: a bit each, the lowest one that of `place`.
+    struct Bits {
+        std::uint32_t bent;
+        std::uint32_t half;
+        std::uint32_t low;
+        std::uint32_t high;
+        std::uint32_t side_low;
+        std::uint32_t side_high;
+    };
+
+    void bend_bits(const Bits& bits, std::int32_t place) const {
+        const std::int32_t side = on_u() ? s.stride : 1;
+        for_each_bit(bits.bent, place, [&](std::int32_t face, std::uint32_t bit) {
+            if (!beside_wall(face)) {
+                bend(face, (bits.half & bit) != 0 ? Seconds<Real>(0.5) * bend_s : bend_s,
+                     slope(face, back, (bits.low & bit) != 0, (bits.high & bit) != 0),
+                     slope(face, side, (bits.side_low & bit) != 0, (bits.side_high & bit) != 0));
+            }
+        });
     }
 
     /// Whether the cells of a line along this component lie inside the tank, but for its ends.
@@ -87,8 +116,8 @@ struct Bending {
         for (std::int32_t k = 0; k < count; ++k) {
             const bool wet_after = level[face + back] > Real(0);
             const bool here = straight(at, face, wet_before && wet && wet_after);
-            if (!(here && before) && !left_out(face)) {
-                bend(face, at == 0, here || before ? Seconds<Real>(0.5) * bend_s : bend_s);
+            if (!(here && before) && !empty(face) && !beside_wall(face)) {
+                bend_one(face, at == 0, here || before ? Seconds<Real>(0.5) * bend_s : bend_s);
             }
             wet_before = wet;
             wet = wet_after;
@@ -135,20 +164,51 @@ struct Bending {
         }
     }
 
-    void rows(const Part& part) const {
+    void rows_in_lanes(const Part& part) const {
         const std::int32_t first_i = on_u() && !borders.wrap_x ? 1 : 0;
         const std::int32_t first_j = maximum(!on_u() && !borders.wrap_y ? 1 : 0, part.first);
-        if (kHasLanes<Real> || on_u()) {
-            for (std::int32_t j = first_j; j < part.end; ++j) {
-                kHasLanes<Real> ? row_in_lanes(first_i, j) : run(first_i, j, s.nx - first_i);
-            }
-        } else {
-            for (std::int32_t i = first_i; i < s.nx; ++i) {
-                run(i, first_j, part.end - first_j);
-            }
+        for (std::int32_t j = first_j; j < part.end; ++j) {
+            row_in_lanes(first_i, j);
         }
     }
 };
+
+/// Some rows of both components without lanes.
+template <class Real>
+void bend_rows(const Bending<Real>& of_u, const Bending<Real>& of_v, const Part& rows) {
+    const GridShape& s = of_u.s;
+    const Borders<Real>& b = of_u.borders;
+    for (std::int32_t j = rows.first; b.wrap_x && j < rows.end; ++j) {
+        of_u.run(0, j, 1);
+    }
+    for (std::int32_t i = 0; b.wrap_y && rows.first == 0 && i < s.nx; ++i) {
+        of_v.run(i, 0, 1);
+    }
+    const bool leaps = of_u.fields.leaps;
+    const auto row_inside = [&](std::int32_t j) {
+        return leaps && (b.wrap_y || (j > 0 && j + 1 < s.ny));
+    };
+    for_each_depth<Real>(s, of_u.fields.level, rows, [&](const DepthBits<Real>& at) {
+        // As `goes_straight`; faces beside solids are left out.
+        const std::uint32_t inside = b.wrap_x ? ~0U : at.inside;
+        const auto straight = [&](std::int32_t j, std::uint32_t below, std::uint32_t row,
+                                  std::uint32_t above) {
+            return row_inside(j) ? inside & below & row & (row << 1U) & (row >> 1U) & above : 0U;
+        };
+        const auto left = [](const CellBits& row) { return row.wet | (row.wet << 1U); };
+        const std::uint32_t here = straight(at.j, at.below.wet, at.here.wet, at.above.wet);
+        const std::uint32_t before = straight(at.j - 1, at.under.wet, at.below.wet, at.here.wet);
+        const std::uint32_t u = left(at.here);
+        const std::uint32_t v = at.here.wet | at.below.wet;
+        of_u.bend_bits({at.of_u & at.here.held & (at.here.held << 1U) & ~(here & (here << 1U)),
+                        here | (here << 1U), u << 1U, u >> 1U, left(at.below), left(at.above)},
+                       at.place);
+        of_v.bend_bits({at.of_v() & at.here.held & at.below.held & ~(here & before),
+                        here | before, at.below.wet | at.under.wet, at.above.wet | at.here.wet,
+                        v << 1U, v >> 1U},
+                       at.place);
+    });
+}
 
 }  // namespace
 
@@ -168,8 +228,12 @@ void bend_paths([[maybe_unused]] const Borders<Real>& borders,
         const Bending<Real> of_u{s, borders, walls, fields, bend_s, 1, u, v, grid.u};
         const Bending<Real> of_v{s, borders, walls, fields, bend_s, s.stride, v, u, grid.v};
         work.share(work.take(s.ny, 2 * s.nx), 2 * s.nx, 1, [&](const Part& rows, std::int32_t) {
-            of_u.rows(rows);
-            of_v.rows(rows);
+            if constexpr (kHasLanes<Real>) {
+                of_u.rows_in_lanes(rows);
+                of_v.rows_in_lanes(rows);
+            } else {
+                bend_rows(of_u, of_v, rows);
+            }
         });
         if (work.once(s.border())) {
             extend_velocity(borders, s, grid.u, grid.v);

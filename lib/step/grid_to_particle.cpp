@@ -2,6 +2,7 @@
 
 #include "grid/diffuse.hpp"
 #include "step/blend_packed.hpp"
+#include "step/depth_bits.hpp"
 #include "step/face_lanes.hpp"
 #include "step/tank_walls.hpp"
 #include "step/transfer_lanes.hpp"
@@ -33,52 +34,111 @@ inline Range<Real> range_around(const Field* field, std::int32_t face, std::int3
             maximum(here, maximum(maximum(left, right), maximum(lower, upper)))};
 }
 
-/// One component: out = field − kSmoothing ∇²field where liquid is all around, within what is
-/// there: beyond it, a jump such as a wall without slip makes would grow from step to step.
+/// field − kSmoothing ∇²field, within what is there: beyond it, a jump such as a wall without slip
+/// makes would grow from step to step.
 template <class Real>
-void sharpen(const ThinWalls<Real>* thin, const GridShape& s, const LevelOf<Real>* level,
-             std::int32_t back, std::int32_t first_i, std::int32_t first_j, const Part& rows,
-             const VelocityOf<Real>* field, VelocityOf<Real>* out) {
-    const auto deep = [&](std::int32_t face) {
+inline Real sharp(const VelocityOf<Real>* field, std::int32_t face, std::int32_t stride) {
+    const Real left = field[face - 1];
+    const Real right = field[face + 1];
+    const Real lower = field[face - stride];
+    const Real upper = field[face + stride];
+    const Real here = field[face];
+    const Real around = (left + right) + (lower + upper);
+    const Real value = here - kSmoothing<Real> * (around - Real(4) * here);
+    // Most values are, which two or four comparisons tell.
+    const bool within = (left <= value || right <= value || lower <= value || upper <= value) &&
+                        (left >= value || right >= value || lower >= value || upper >= value);
+    if (within) {
+        return value;
+    }
+    const Range<Real> range = range_around<Real>(field, face, stride);
+    return clamp(value, range.low, range.high);
+}
+
+/// One component: out = sharp where liquid is all around.
+template <class Real>
+struct Sharpening {
+    const GridShape& s;
+    const ThinWalls<Real>* thin;
+    const LevelOf<Real>* level;
+    std::int32_t back;  ///< from a face to the one before it across its own cells
+    const VelocityOf<Real>* field;
+    VelocityOf<Real>* out;
+
+    bool deep(std::int32_t face) const {
         return level[face] > Real(0) && level[face - back] > Real(0);
-    };
-    const auto beside_thin_wall = [&](std::int32_t face) {
-        return thin != nullptr && ((thin->mark[face] | thin->mark[face - back]) & kTouching) != 0;
-    };
-    // The face before the one on the seam has cells that lie two beyond it: its image has not.
-    const auto before = [&](std::int32_t face, std::int32_t i, std::int32_t j) {
-        const bool on_seam = (back == 1 ? i : j) == 0;
-        return face - back + (on_seam ? back * (back == 1 ? s.nx : s.ny) : 0);
-    };
-    const auto one = [&](std::int32_t i, std::int32_t j) {
-        const std::int32_t face = s.index(i, j);
-        const std::int32_t along = back == 1 ? s.stride : 1;
-        if (!deep(face) || !deep(before(face, i, j)) || !deep(face + back) ||
-            !deep(face - along) || !deep(face + along) || beside_thin_wall(face)) {
-            return;
-        }
-        const Real around = (field[face - 1] + field[face + 1]) +
-                            (field[face - s.stride] + field[face + s.stride]);
-        const Range<Real> range = range_around<Real>(field, face, s.stride);
-        out[face] = clamp(field[face] - kSmoothing<Real> * (around - Real(4) * field[face]),
-                          range.low, range.high);
-    };
-    for (std::int32_t j = maximum(first_j, rows.first); j < rows.end; ++j) {
-        std::int32_t i = first_i;
-        if constexpr (kHasLanes<Real>) {
-            for (; back == 1 && i < 1; ++i) {
-                one(i, j);
-            }
-            if (thin == nullptr && (back == 1 || j > 0)) {
-                const std::int32_t face = s.index(i, j);
-                i += sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, face,
-                                   s.index(s.nx, j), out) - face;
-            }
-        }
-        for (; i < s.nx; ++i) {
-            one(i, j);
+    }
+
+    /// A face with liquid all around.
+    void sharpen(std::int32_t face) const {
+        if (thin == nullptr || ((thin->mark[face] | thin->mark[face - back]) & kTouching) == 0) {
+            out[face] = sharp<Real>(field, face, s.stride);
         }
     }
+
+    void one(std::int32_t i, std::int32_t j) const {
+        const std::int32_t face = s.index(i, j);
+        const std::int32_t along = back == 1 ? s.stride : 1;
+        // The face before the one on the seam has cells that lie two beyond it: its image has not.
+        const bool on_seam = (back == 1 ? i : j) == 0;
+        const std::int32_t before =
+            face - back + (on_seam ? back * (back == 1 ? s.nx : s.ny) : 0);
+        if (deep(face) && deep(before) && deep(face + back) && deep(face - along) &&
+            deep(face + along)) {
+            sharpen(face);
+        }
+    }
+
+    void rows_in_lanes([[maybe_unused]] std::int32_t first_i,
+                       [[maybe_unused]] std::int32_t first_j,
+                       [[maybe_unused]] const Part& rows) const {
+        if constexpr (kHasLanes<Real>) {
+            for (std::int32_t j = maximum(first_j, rows.first); j < rows.end; ++j) {
+                std::int32_t i = first_i;
+                for (; back == 1 && i < 1; ++i) {
+                    one(i, j);
+                }
+                if (thin == nullptr && (back == 1 || j > 0)) {
+                    const std::int32_t face = s.index(i, j);
+                    i += sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, face,
+                                       s.index(s.nx, j), out) - face;
+                }
+                for (; i < s.nx; ++i) {
+                    one(i, j);
+                }
+            }
+        }
+    }
+};
+
+template <class Real>
+void sharpen_rows(const Borders<Real>& borders, const Part& rows, const Sharpening<Real>& of_u,
+                  const Sharpening<Real>& of_v) {
+    const GridShape& s = of_u.s;
+    if constexpr (kHasLanes<Real>) {
+        of_u.rows_in_lanes(borders.wrap_x ? 0 : 1, 0, rows);
+        of_v.rows_in_lanes(0, borders.wrap_y ? 0 : 1, rows);
+        return;
+    }
+    for (std::int32_t j = rows.first; borders.wrap_x && j < rows.end; ++j) {
+        of_u.one(0, j);
+    }
+    for (std::int32_t i = 0; borders.wrap_y && rows.first == 0 && i < s.nx; ++i) {
+        of_v.one(i, 0);
+    }
+    // Of a face's cells both, and those of the faces around.
+    const auto deep = [](std::uint32_t before, std::uint32_t own, std::uint32_t behind) {
+        return before & own & (own << 1U) & (own >> 1U) & behind;
+    };
+    const auto left = [](const CellBits& row) { return row.wet & (row.wet << 1U); };
+    for_each_depth<Real>(s, of_u.level, rows, [&](const DepthBits<Real>& at) {
+        const std::uint32_t u = at.of_u & deep(left(at.below), left(at.here), left(at.above));
+        const std::uint32_t v = at.of_v() & deep(at.under.wet & at.below.wet,
+                                                 at.below.wet & at.here.wet,
+                                                 at.here.wet & at.above.wet);
+        for_each_bit(u, at.place, [&](std::int32_t face, std::uint32_t) { of_u.sharpen(face); });
+        for_each_bit(v, at.place, [&](std::int32_t face, std::uint32_t) { of_v.sharpen(face); });
+    });
 }
 
 /// before = (now − before) + pic_ratio · sharp, for both components.
@@ -113,10 +173,8 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
         copy_rows(s, rows, grid.mass_v, sharp_v);
     });
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
-        sharpen<Real>(thin, s, fields.level, 1, borders.wrap_x ? 0 : 1, 0, rows, grid.mass_u,
-                      sharp_u);
-        sharpen<Real>(thin, s, fields.level, s.stride, 0, borders.wrap_y ? 0 : 1, rows,
-                      grid.mass_v, sharp_v);
+        sharpen_rows<Real>(borders, rows, {s, thin, fields.level, 1, grid.mass_u, sharp_u},
+                           {s, thin, fields.level, s.stride, grid.mass_v, sharp_v});
     });
     if (work.once(s.border())) {
         extend_velocity(borders, s, sharp_u, sharp_v);
@@ -130,11 +188,39 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
 
 namespace {
 
+/// What a particle moves within that meets nothing, as numbers to compare with.
+template <class Real>
+struct Clear {
+    using Magnitude = decltype(magnitude_key(Real()));
+    using Bound = decltype(bound_key(Real()));
+    Magnitude limit;
+    Magnitude near;
+    Bound low;
+    Bound right;
+    Bound top;
+
+    Clear(Vec2<Real> size, const Transfer<Real>& transfer)
+        : limit(magnitude_key(transfer.limit)),
+          near(magnitude_key(minimum(transfer.near, transfer.limit))),
+          low(bound_key(kWallGap<Real>)),
+          right(bound_key(size.x - kWallGap<Real>)),
+          top(bound_key(size.y - kWallGap<Real>)) {}
+
+    bool moves(Vec2<Real> along, Vec2<Real> to) const {
+        const Bound x = bound_key(to.x);
+        const Bound y = bound_key(to.y);
+        return magnitude_key(along.x) <= near && magnitude_key(along.y) <= near && x >= low &&
+               x <= right && y >= low && y <= top;
+    }
+};
+
 template <class Real>
 TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
                             Particles<Real>& particles) {
     const GridShape& s = grid.shape;
     const Vec2<Real> size{static_cast<Real>(s.nx), static_cast<Real>(s.ny)};
+    const Clear<Real> clear(size, transfer);
+    auto fastest = magnitude_key(Real(0));
     TransferResult<Real> result;
     for (std::int32_t k = 0; k < particles.count; ++k) {
         Vec2<Real> x = particles.position[k];
@@ -145,10 +231,21 @@ TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real
                                interpolate(grid.v, s.stride, at_v)};
         v.x = transfer.flip_ratio * v.x + interpolate(grid.mass_u, s.stride, at_u);
         v.y = transfer.flip_ratio * v.y + interpolate(grid.mass_v, s.stride, at_v);
+        const Vec2<Real> to = x + transfer.dt_s * along;
+        const auto speed_x = magnitude_key(v.x);
+        const auto speed_y = magnitude_key(v.y);
+        const auto speed = speed_x > speed_y ? speed_x : speed_y;
+        if (speed <= clear.limit && clear.moves(along, to)) {
+            fastest = speed > fastest ? speed : fastest;
+            particles.position[k] = to;
+            particles.velocity[k] = v;
+            continue;
+        }
         advect(size, {transfer, particles.kind_at(k)}, along, x, v, result);
         particles.position[k] = x;
         particles.velocity[k] = v;
     }
+    result.max_speed = maximum(result.max_speed, Real(magnitude_of_key(fastest)));
     return result;
 }
 

@@ -41,8 +41,8 @@ struct Table {
         return most;
     }
 };
-constexpr Table kWithoutSolids = {{0, 59, 44, 59, 82, 218, 0}};
-constexpr Table kWithSolids = {{580, 59, 47, 59, 95, 1820, 0}};
+constexpr Table kWithoutSolids = {{0, 59, 30, 44, 38, 170, 0}};
+constexpr Table kWithSolids = {{580, 59, 31, 56, 56, 1270, 0}};
 
 bool g_within = true;
 
