@@ -51,6 +51,24 @@ struct Particles {
     }
 };
 
+/// Between what places particles are, along either axis. SmallFixed asks for the high ones alone:
+/// its tanks are so small that what lies below and on the left is not worth a look.
+template <class Real>
+struct Extent {
+    Vec2<PositionOf<Real>> low;
+    Vec2<PositionOf<Real>> high;
+
+    /// That of one particle, or of none.
+    static Extent of_first(const Particles<Real>& particles) {
+        const Vec2<PositionOf<Real>>* first = particles.position;
+        return particles.count > 0 ? Extent{*first, *first} : Extent{};
+    }
+    void add(const Extent& other) {
+        low = {minimum(low.x, other.low.x), minimum(low.y, other.low.y)};
+        high = {maximum(high.x, other.high.x), maximum(high.y, other.high.y)};
+    }
+};
+
 /// Particles stay this far inside the tank, cells: every stencil then lies within the arrays.
 template <class Real>
 inline constexpr Real kWallGap = Real(1.0 / 64.0);
@@ -64,8 +82,10 @@ inline bool in_tank(const GridShape& s, Vec2<Real> x) {
 /// The nearest point that a particle may have.
 template <class Real>
 inline Vec2<Real> within_tank(const GridShape& s, Vec2<Real> x) {
-    return {clamp(x.x, kWallGap<Real>, static_cast<Real>(s.nx) - kWallGap<Real>),
-            clamp(x.y, kWallGap<Real>, static_cast<Real>(s.ny) - kWallGap<Real>)};
+    const Vec2<Real> low = corner_of<Real>(s, 0, 0);
+    const Vec2<Real> high = corner_of<Real>(s, s.nx, s.ny);
+    return {clamp(x.x, low.x + kWallGap<Real>, high.x - kWallGap<Real>),
+            clamp(x.y, low.y + kWallGap<Real>, high.y - kWallGap<Real>)};
 }
 
 }  // namespace weir

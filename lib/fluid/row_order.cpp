@@ -51,24 +51,25 @@ void swap_particles(Particles<Real>& particles, std::int32_t a, std::int32_t b) 
 /// Whoever stands in another row's part is swapped there (American flag sort: McIlroy, Bostic &
 /// McIlroy 1993).
 template <class Real>
-void sort_by_row(std::int32_t rows, std::int32_t* next, std::int32_t* end,
+void sort_by_row(const Part& rows, std::int32_t* next, std::int32_t* end,
                  Particles<Real>& particles) {
-    for (std::int32_t row = 0; row < rows; ++row) {
+    const std::int32_t count = rows.end - rows.first;
+    for (std::int32_t row = 0; row < count; ++row) {
         end[row] = 0;
     }
     for (std::int32_t k = 0; k < particles.count; ++k) {
-        ++end[row_of(particles, k)];
+        ++end[row_of(particles, k) - rows.first];
     }
     std::int32_t first = 0;
-    for (std::int32_t row = 0; row < rows; ++row) {
+    for (std::int32_t row = 0; row < count; ++row) {
         next[row] = first;
         first += end[row];
         end[row] = first;
     }
-    for (std::int32_t row = 0; row < rows; ++row) {
+    for (std::int32_t row = 0; row < count; ++row) {
         while (next[row] < end[row]) {
             const std::int32_t k = next[row];
-            const std::int32_t home = row_of(particles, k);
+            const std::int32_t home = row_of(particles, k) - rows.first;
             if (home != row) {
                 swap_particles(particles, k, next[home]);
             }
@@ -80,18 +81,19 @@ void sort_by_row(std::int32_t rows, std::int32_t* next, std::int32_t* end,
 }  // namespace
 
 template <class Real>
-void keep_row_order(const GridShape& shape, ArrayView<std::int32_t> scratch,
+void keep_row_order(const Part& rows, ArrayView<std::int32_t> scratch,
                     Particles<Real>& particles) {
     const std::int32_t blocks = particles.count / kTogether;
-    const std::int32_t least = shape.ny * kTogether / maximum(particles.count, 1);
-    if (2 * shape.ny <= scratch.size &&
+    const std::int32_t count = rows.end - rows.first;
+    const std::int32_t least = count * kTogether / maximum(particles.count, 1);
+    if (2 * count <= scratch.size &&
         spanned(particles) > static_cast<std::int64_t>(kMixed + least) * blocks) {
-        sort_by_row(shape.ny, scratch.data, scratch.data + shape.ny, particles);
+        sort_by_row(rows, scratch.data, scratch.data + count, particles);
     }
 }
 
 #define WEIR_INSTANTIATE(Real) \
-    template void keep_row_order(const GridShape&, ArrayView<std::int32_t>, Particles<Real>&);
+    template void keep_row_order(const Part&, ArrayView<std::int32_t>, Particles<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -11,9 +11,10 @@ namespace weir {
 /// span three rows more, on the average, than they have to. In place; the order is a function of
 /// the places and the order before, and of nothing else. Cost: a pass over the places, and if they
 /// are mixed two more and a swap for each particle that is not in its row's part of the pool.
+/// @param rows that the particles are in.
 /// @param scratch two numbers for each row. Too little: nothing is done.
 template <class Real>
-void keep_row_order(const GridShape& shape, ArrayView<std::int32_t> scratch,
+void keep_row_order(const Part& rows, ArrayView<std::int32_t> scratch,
                     Particles<Real>& particles);
 
 }  // namespace weir

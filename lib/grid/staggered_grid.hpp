@@ -14,16 +14,28 @@
 
 namespace weir {
 
+/// A tank's cells, or a part of them: numbered from the part's lower left corner, stored where they
+/// are in the whole.
 struct GridShape {
     std::int32_t nx = 0;
     std::int32_t ny = 0;
-    std::int32_t stride = 0;  ///< nx + 2: from a cell to the one above it
+    std::int32_t stride = 0;  ///< the tank's nx + 2: from a cell to the one above it
+    std::int32_t i0 = 0;  ///< of the tank's cells, the one that is (0, 0) here
+    std::int32_t j0 = 0;
 
     std::int32_t size() const { return (nx + 2) * (ny + 2); }
     /// Entries of the lines along all borders: what it costs to fill them.
     std::int32_t border() const { return 2 * (nx + ny + 4); }
-    std::int32_t index(std::int32_t i, std::int32_t j) const { return (j + 1) * stride + i + 1; }
+    std::int32_t index(std::int32_t i, std::int32_t j) const {
+        return (j0 + j + 1) * stride + i0 + i + 1;
+    }
 };
+
+/// Where in the tank the lower left corner of a cell is.
+template <class Real>
+inline Vec2<Real> corner_of(const GridShape& s, std::int32_t i, std::int32_t j) {
+    return {static_cast<Real>(s.i0 + i), static_cast<Real>(s.j0 + j)};
+}
 
 /// Entries of some rows, ghost rows counted from the lowest: in one run, but row by row where the
 /// grid is narrower than its numbering.
@@ -33,7 +45,7 @@ inline void for_each_run(const GridShape& s, const Part& rows, Visit visit) {
     const std::int32_t at_once = width == s.stride ? rows.end - rows.first : 1;
     if (width > 0 && at_once > 0) {
         for (std::int32_t row = rows.first; row < rows.end; row += at_once) {
-            const std::int32_t first = row * s.stride;
+            const std::int32_t first = s.index(-1, row - 1);
             visit(Part{first, first + (at_once - 1) * s.stride + width});
         }
     }

@@ -16,7 +16,7 @@ struct FaceAxis {
 
     std::int32_t other_node() const { return is_u ? s.stride : 1; }
     Vec2<Real> centre(std::int32_t i, std::int32_t j) const {
-        const Vec2<Real> corner{static_cast<Real>(i), static_cast<Real>(j)};
+        const Vec2<Real> corner = corner_of<Real>(s, i, j);
         constexpr Real kHalf = Real(0.5);
         return corner + (is_u ? Vec2<Real>{Real(0), kHalf} : Vec2<Real>{kHalf, Real(0)});
     }

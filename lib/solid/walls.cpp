@@ -8,7 +8,7 @@ template <class Real>
 Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i, std::int32_t j) {
     const std::int32_t node = shape.index(i, j);
     const std::int32_t up = node + shape.stride;
-    const Vec2<Real> corner{static_cast<Real>(i), static_cast<Real>(j)};
+    const Vec2<Real> corner = corner_of<Real>(shape, i, j);
     constexpr Real kHalf = Real(0.5);
     const auto thin = [&](std::int32_t face, ThinMark closed) {
         return walls.thin != nullptr && (walls.thin->mark[face] & closed) != 0;

@@ -59,15 +59,16 @@ inline void mark_near(Walls<Real>& walls, const GridShape& shape, std::int32_t i
 }
 
 /// Calls visit(i, j) for every cell of some rows that is marked, row by row. Where there is none,
-/// 32 cells cost one look.
+/// 32 cells cost one look. A part of the tank begins at a multiple of as many.
 template <class Real, class Visit>
 inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, const Part& rows,
                           Visit visit) {
     const std::int32_t words = near_words(shape);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        const std::uint32_t* row = walls.near + (shape.j0 + j) * words + shape.i0 / 32;
         for (std::int32_t k = 0; 32 * k < shape.nx; ++k) {
             std::int32_t i = 32 * k;
-            for (std::uint32_t left = walls.near[j * words + k]; left != 0; left >>= 1U, ++i) {
+            for (std::uint32_t left = row[k]; left != 0; left >>= 1U, ++i) {
                 if ((left & 1U) != 0) {
                     visit(i, j);
                 }

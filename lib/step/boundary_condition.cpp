@@ -68,8 +68,8 @@ Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<
 /// Whether the point's cell or one around it holds liquid.
 template <class Real>
 bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> point) {
-    const auto i = static_cast<std::int32_t>(point.x);
-    const auto j = static_cast<std::int32_t>(point.y);
+    const std::int32_t i = static_cast<std::int32_t>(point.x) - s.i0;
+    const std::int32_t j = static_cast<std::int32_t>(point.y) - s.j0;
     if (level[s.index(minimum(i, s.nx - 1), minimum(j, s.ny - 1))] > Real(0)) {
         return true;  // nearly always
     }

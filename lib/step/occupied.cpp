@@ -6,70 +6,86 @@ namespace weir {
 
 namespace {
 
-/// Rows above the row of the highest particle: one that its mass reaches, one that velocity is
-/// extrapolated to, and what stencils of smoothing and mirroring look at beyond.
-constexpr std::int32_t kMargin = 5;
+/// Rows above the row of the highest particle and below that of the lowest one: one that its mass
+/// reaches, one that velocity is extrapolated to, and what stencils of smoothing and mirroring look
+/// at beyond.
+constexpr std::int32_t kMargin = 4;
 
-template <class Position>
-Vec2<Position> furthest(const Vec2<Position>* position, std::int32_t first, std::int32_t count,
-                        Vec2<Position> so_far) {
+/// Parts begin at multiples of this: words of Walls::near, and pairs of cells of the coarse grid,
+/// which is relaxed by colours as the fine one is.
+constexpr std::int32_t kColumnsAtOnce = 32;
+constexpr std::int32_t kRowsAtOnce = 2 * kCoarseEdge;
+
+template <class Real>
+Extent<Real> extent_from(Extent<Real> so_far, const Vec2<PositionOf<Real>>* position,
+                       std::int32_t first, std::int32_t count) {
     for (std::int32_t k = first; k < count; ++k) {
-        so_far.x = maximum(so_far.x, position[k].x);
-        so_far.y = maximum(so_far.y, position[k].y);
+        so_far.add({position[k], position[k]});
     }
     return so_far;
 }
 
-template <class Position>
-Vec2<Position> furthest(const Vec2<Position>* position, std::int32_t count) {
-    return furthest(position, 0, count, {});
+template <class Real>
+Extent<Real> extent(const Particles<Real>& particles) {
+    return extent_from(Extent<Real>::of_first(particles), particles.position, 1, particles.count);
 }
 
 /// Of packed places the raw numbers tell. Four at a time: the loop costs as much as they do.
 template <>
-Vec2<PositionOf<SmallFixed>> furthest(const Vec2<PositionOf<SmallFixed>>* position,
-                                      std::int32_t first, std::int32_t count,
-                                      Vec2<PositionOf<SmallFixed>> so_far) {
-    std::uint32_t x = so_far.x.raw;
-    std::uint32_t y = so_far.y.raw;
-    std::int32_t k = first;
+Extent<SmallFixed> extent(const Particles<SmallFixed>& particles) {
+    using Position = PositionOf<SmallFixed>;
+    const Vec2<Position>* position = particles.position;
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::int32_t k = 0;
     const auto look = [&](std::int32_t n) {
         x = maximum<std::uint32_t>(x, position[n].x.raw);
         y = maximum<std::uint32_t>(y, position[n].y.raw);
     };
-    for (; k + 4 <= count; k += 4) {
+    for (; k + 4 <= particles.count; k += 4) {
         look(k);
         look(k + 1);
         look(k + 2);
         look(k + 3);
     }
-    for (; k < count; ++k) {
+    for (; k < particles.count; ++k) {
         look(k);
     }
-    return {PositionOf<SmallFixed>::of_raw(static_cast<std::uint16_t>(x)),
-            PositionOf<SmallFixed>::of_raw(static_cast<std::uint16_t>(y))};
+    return {{}, {Position::of_raw(static_cast<std::uint16_t>(x)),
+                 Position::of_raw(static_cast<std::uint16_t>(y))}};
 }
 
 #if WEIR_HAS_LANES
-/// Two particles a load, and two loads under way.
+/// Two particles a load.
 template <>
-Vec2<float> furthest(const Vec2<float>* position, std::int32_t count) {
-    Lanes one = all_lanes(0.0F);
-    Lanes other = one;
+Extent<float> extent(const Particles<float>& particles) {
+    const Vec2<float>* position = particles.position;
+    const float x = position[0].x;
+    const float y = position[0].y;
+    Lanes low{x, y, x, y};
+    Lanes high = low;
     std::int32_t k = 0;
-    for (; k + 4 <= count; k += 4) {
-        one = maximum(one, load_lanes(&position[k].x));
-        other = maximum(other, load_lanes(&position[k + 2].x));
+    for (; k + 2 <= particles.count; k += 2) {
+        const Lanes both = load_lanes(&position[k].x);
+        low = minimum(low, both);
+        high = maximum(high, both);
     }
-    one = maximum(one, other);
-    return furthest(position, k, count, {maximum(one[0], one[2]), maximum(one[1], one[3])});
+    const Extent<float> even{{minimum(low[0], low[2]), minimum(low[1], low[3])},
+                            {maximum(high[0], high[2]), maximum(high[1], high[3])}};
+    return extent_from(even, position, k, particles.count);
 }
 #endif
 
+/// Cells first … end − 1 along an axis of so many.
+Part span_of(std::int32_t cells, std::int32_t low, std::int32_t high, std::int32_t at_once) {
+    return {maximum(0, low - kMargin) / at_once * at_once, minimum(cells, high + kMargin + 1)};
+}
+
+/// Empties columns first … end − 1 of a row of the tank.
 template <class Real>
-void empty_row(const GridShape& tank, std::int32_t i0, std::int32_t i1, std::int32_t j,
+void empty_row(const GridShape& tank, std::int32_t first, std::int32_t end, std::int32_t j,
                PressureFields<Real>& fields) {
-    for (std::int32_t i = i0; i < i1; ++i) {
+    for (std::int32_t i = first; i < end; ++i) {
         const std::int32_t c = tank.index(i, j);
         fields.pressure[c] = Real(0);
         fields.density[c] = Real(0);
@@ -77,25 +93,34 @@ void empty_row(const GridShape& tank, std::int32_t i0, std::int32_t i1, std::int
     }
 }
 
+/// Cells along an axis of a part and its ghost cells, as far as they are the tank's.
+Part with_ghosts(std::int32_t first, std::int32_t cells, std::int32_t tank) {
+    return {maximum(0, first - 1), minimum(tank, first + cells + 1)};
+}
+
 }  // namespace
 
 template <class Real>
-Vec2<PositionOf<Real>> furthest_of(const Particles<Real>& particles,
-                                   Vec2<PositionOf<Real>> so_far) {
-    const auto end = furthest(particles.position, particles.count);
-    return {maximum(so_far.x, end.x), maximum(so_far.y, end.y)};
+Extent<Real> extent_of(const Particles<Real>& particles) {
+    return extent<Real>(particles);
 }
 
 template <class Real>
 GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
-                        Vec2<PositionOf<Real>> furthest) {
-    const Vec2<Real> last{Real(furthest.x), Real(furthest.y)};
+                        const Extent<Real>& extent, bool from_corner) {
+    const auto cell = [](PositionOf<Real> place) { return static_cast<std::int32_t>(Real(place)); };
     GridShape part = tank;
     if (!borders.wrap_x) {
-        part.nx = minimum(tank.nx, static_cast<std::int32_t>(last.x) + kMargin);
+        const Part columns = span_of(tank.nx, from_corner ? 0 : cell(extent.low.x),
+                                     cell(extent.high.x), kColumnsAtOnce);
+        part.i0 = columns.first;
+        part.nx = columns.end - columns.first;
     }
     if (!borders.wrap_y) {
-        part.ny = minimum(tank.ny, static_cast<std::int32_t>(last.y) + kMargin);
+        const Part rows = span_of(tank.ny, from_corner ? 0 : cell(extent.low.y),
+                                  cell(extent.high.y), kRowsAtOnce);
+        part.j0 = rows.first;
+        part.ny = rows.end - rows.first;
     }
     return part;
 }
@@ -107,7 +132,8 @@ bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies, const Wal
     }
     // Distances are known a band around a body; cut cells look one node further.
     const auto reached = [&](const NodeBox& box) {
-        return !box.empty() && box.i0 <= part.nx + 1 && box.j0 <= part.ny + 1;
+        return !box.empty() && box.i0 <= part.i0 + part.nx + 1 &&
+               box.j0 <= part.j0 + part.ny + 1 && box.i1 >= part.i0 - 1 && box.j1 >= part.j0 - 1;
     };
     for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
         const Body<Real>& body = bodies.body[slot];
@@ -121,21 +147,25 @@ bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies, const Wal
 template <class Real>
 void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape& now,
                   PressureFields<Real>& fields, Work work) {
-    // The last part's ghost cells lie within the tank, unless it was all of it.
-    const std::int32_t columns = minimum(last.nx + 1, tank.nx);
-    const std::int32_t all_rows = minimum(last.ny + 1, tank.ny);
-    const bool smaller = now.nx < columns || now.ny < all_rows;
-    const Part rows = work.take(smaller ? all_rows : 0, columns);
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        empty_row(tank, j < now.ny ? now.nx : 0, columns, j, fields);
+    const Part columns = with_ghosts(last.i0, last.nx, tank.nx);
+    const Part rows = with_ghosts(last.j0, last.ny, tank.ny);
+    const std::int32_t i1 = now.i0 + now.nx;
+    const std::int32_t j1 = now.j0 + now.ny;
+    const bool left = now.i0 > columns.first || i1 < columns.end || now.j0 > rows.first ||
+                      j1 < rows.end;
+    const Part part = work.take(left ? rows.end - rows.first : 0, columns.end - columns.first);
+    for (std::int32_t j = rows.first + part.first; j < rows.first + part.end; ++j) {
+        const bool beside = j >= now.j0 && j < j1;
+        empty_row(tank, columns.first, beside ? minimum(now.i0, columns.end) : columns.end, j,
+                  fields);
+        empty_row(tank, beside ? maximum(i1, columns.first) : columns.end, columns.end, j, fields);
     }
 }
 
 #define WEIR_INSTANTIATE(Real)                                                               \
-    template Vec2<PositionOf<Real>> furthest_of(const Particles<Real>&,                      \
-                                                Vec2<PositionOf<Real>>);                     \
+    template Extent<Real> extent_of(const Particles<Real>&);                                   \
     template GridShape occupied_part(const GridShape&, const Borders<Real>&,                 \
-                                     Vec2<PositionOf<Real>>);                                \
+                                     const Extent<Real>&, bool);                              \
     template bool walls_reach(const GridShape&, const BodyTable<Real>&, const Walls<Real>&); \
     template void empty_beyond(const GridShape&, const GridShape&, const GridShape&,         \
                                PressureFields<Real>&, Work);

@@ -1,6 +1,6 @@
-// Skip: the stages of the grid work on the part of the tank that particles can reach, from its
-// lower left corner on. A grid of fewer columns and rows is numbered as the whole one is: loops
-// end earlier, and what they would have found beyond is empty.
+// Skip: the stages of the grid work on the part of the tank that particles can reach, a rectangle.
+// Its cells are stored where they are in the whole: loops begin later and end earlier, and what
+// they would have found beyond is empty.
 #pragma once
 
 #include "fluid/particles.hpp"
@@ -10,16 +10,15 @@
 
 namespace weir {
 
-/// The larger of what is known so far and of the particles' places, along either axis.
-/// Cost: 2 comparisons a particle.
+/// Cost: 4 comparisons a particle, of which there is at least one.
 template <class Real>
-Vec2<PositionOf<Real>> furthest_of(const Particles<Real>& particles,
-                                   Vec2<PositionOf<Real>> so_far);
+Extent<Real> extent_of(const Particles<Real>& particles);
 
-/// The part of the tank that this substep needs. Along a seam it is always the whole tank.
+/// The part of the tank that this substep needs. Along a seam it is always the whole tank;
+/// `from_corner`: it begins in the lower left corner whatever is empty there.
 template <class Real>
 GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
-                        Vec2<PositionOf<Real>> furthest);
+                        const Extent<Real>& extent, bool from_corner);
 
 /// Whether a solid has to do with that part: if not, the stages need not know that there are any.
 /// Thin walls, and whoever counts what bodies receive, always have. Cost: a comparison a body.

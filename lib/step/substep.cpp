@@ -114,23 +114,27 @@ template <class Real>
 void skip_empty(Simulation<Real>& simulation, Work work) {
     const GridShape& tank = simulation.layers.shape;
     const Particles<Real>& particles = simulation.particles;
+    Walls<Real>& walls = simulation.layers.walls;
     if (work.once(1)) {
-        simulation.furthest = {};
+        simulation.extent = Extent<Real>::of_first(particles);
     }
-    Vec2<PositionOf<Real>> furthest[kMostPieces] = {};
+    Extent<Real> pieces[kMostPieces];
+    for (Extent<Real>& one : pieces) {
+        one = simulation.extent;
+    }
     work.share(work.take(particles.count, 1), 1, 1, [&](const Part& part, std::int32_t n) {
-        furthest[n] = furthest_of(particles.part(part.first, part.end - part.first), {});
+        pieces[n] = extent_of(particles.part(part.first, part.end - part.first));
     });
-    for (const Vec2<PositionOf<Real>>& one : furthest) {
-        simulation.furthest = {maximum(simulation.furthest.x, one.x),
-                               maximum(simulation.furthest.y, one.y)};
+    for (const Extent<Real>& one : pieces) {
+        simulation.extent.add(one);
     }
     if (work.once(1)) {
         GridShape& now = simulation.grid.shape;
-        now = occupied_part<Real>(tank, simulation.settings.borders, simulation.furthest);
+        // What thin walls and whoever counts forces know of cells is told from the corner on.
+        const bool from_corner = walls.thin != nullptr || simulation.bodies.load != nullptr;
+        now = occupied_part(tank, simulation.settings.borders, simulation.extent, from_corner);
         GridShape& coarse = simulation.pressure.coarse.shape;
         coarse = {coarse_cells(now.nx), coarse_cells(now.ny), coarse.stride};
-        Walls<Real>& walls = simulation.layers.walls;
         walls.active = walls_reach(now, simulation.bodies, walls);
         walls.sticking = walls.sticking && walls.active;
     }
@@ -149,7 +153,9 @@ void order_particles(Simulation<Real>& simulation, Work work) {
         // The coarse grid is not in use before the pressure.
         const CoarseGrid<Real>& coarse = simulation.pressure.coarse;
         const std::int32_t rows = coarse_cells(simulation.layers.shape.ny) + 2;
-        keep_row_order(simulation.grid.shape,
+        const auto row_of = [](PositionOf<Real> y) { return static_cast<std::int32_t>(Real(y)); };
+        const Extent<Real>& extent = simulation.extent;
+        keep_row_order({row_of(extent.low.y), row_of(extent.high.y) + 1},
                        {reinterpret_cast<std::int32_t*>(coarse.correction),
                         kFields * coarse.shape.stride * rows},
                        simulation.particles);

@@ -146,10 +146,10 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
     constexpr std::int32_t kCost = 4;  // units a particle: it takes as long as so many cells
     const GridShape& s = grid.shape;
     const std::int32_t blocks = (particles.count + kTogether - 1) / kTogether;
-    const Part rows{0, s.ny + 2};
-    const std::int32_t cost = particles.count / rows.end * kCost;
-    if (2 * blocks > grid.spans.size ||
-        work.pieces(rows.end, cost, kLeastRows) <= 1) {
+    const std::int32_t height = s.ny + 2;
+    const Part rows{s.j0, s.j0 + height};
+    const std::int32_t cost = particles.count / height * kCost;
+    if (2 * blocks > grid.spans.size || work.pieces(height, cost, kLeastRows) <= 1) {
         return false;
     }
     auto* spans = reinterpret_cast<Span*>(grid.spans.data);

@@ -54,7 +54,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, still_s, still_gravity, pending,
            substeps_left, plan, progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, pressure_fields, bodies, layers,
-                            free_bodies, body_diagonal, contacts, gathered, furthest,
+                            free_bodies, body_diagonal, contacts, gathered, extent,
                             max_speed, ticks, stages] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
                             on_surface, leaps, last_dt, change, solve] = pressure_fields;

@@ -66,6 +66,46 @@ TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
     }
 }
 
+/// Who counts forces begins at the tank's corner: the same bits, for more work.
+TYPED_TEST(Occupied, NorDoesAnEmptyCorner) {
+    using Real = TypeParam;
+    WorldDef def = small_def();
+    def.capacity.particles = 1000;
+    def.capacity.cells_x = 100;
+    def.capacity.cells_y = 70;
+    def.keep_sorted = true;
+    TestWorld<Real> part(def);
+    def.capacity.two_way = true;
+    TestWorld<Real> whole(def);
+    const Ring shelf = rectangle(0.60F, 0.06F);
+    const Ring vane = rectangle(0.20F, 0.04F);
+    for (TestWorld<Real>* world : {&part, &whole}) {
+        BodyId id;
+        ASSERT_EQ((*world)->add_static_body(body_of(shelf, {1.60F, 0.80F}), &id), Status::ok);
+        BodyDef wheel = body_of(vane, {1.70F, 1.00F});
+        wheel.motion.spin_radps = 5.0F;
+        ASSERT_EQ((*world)->add_moving_body(wheel, &id), Status::ok);
+        ASSERT_EQ((*world)->fill({{1.62F, 1.06F}, {2.0F, 1.30F}}), Status::ok);
+    }
+    std::int32_t fell = 0;
+    for (int k = 0; k < 80; ++k) {
+        const Vec2f gravity{0.0F, k >= 40 && k < 52 ? 6.0F : -9.81F};
+        ASSERT_EQ(part->set_gravity(gravity), Status::ok);
+        ASSERT_EQ(whole->set_gravity(gravity), Status::ok);
+        part->step(1.0F / 60.0F);
+        whole->step(1.0F / 60.0F);
+        const auto a = part->particle_positions();
+        const auto b = whole->particle_positions();
+        ASSERT_EQ(a.size, b.size);
+        ASSERT_EQ(std::memcmp(a.data, b.data, static_cast<std::size_t>(a.size) * sizeof a[0]), 0)
+            << "step " << k;
+        for (std::int32_t n = 0; k == 79 && n < a.size; ++n) {
+            fell += static_cast<float>(a[n].y) < 30.0F ? 1 : 0;
+        }
+    }
+    EXPECT_GT(fell, 10) << "some went over the edge";
+}
+
 /// Work of a step, in slices of so little that rows count.
 std::int32_t slices_of(World<float>& world) {
     StepReport report;
@@ -127,20 +167,48 @@ TEST(OccupiedPart, IsAllThatCostsWork) {
     }
 }
 
-TEST(OccupiedPart, EndsBeyondTheFurthestParticleAndNeverCutsASeam) {
+/// The same water in the far corner: the rows that both find empty are counted alike.
+TEST(OccupiedPart, CostsTheSameInAnyCorner) {
+    const auto slices = [](Vec2f from) {
+        WorldDef def = small_def();
+        def.capacity.particles = 1000;
+        def.capacity.cells_x = 512;
+        def.capacity.cells_y = 512;
+        TestWorld<float> world(def);
+        EXPECT_EQ(world->fill({from, {from.x + 0.2F, from.y + 0.4F}}), Status::ok);
+        world->step(1.0F / 60.0F);
+        return slices_of(*world);
+    };
+    const std::int32_t near = slices({0.0F, 0.0F});
+    EXPECT_LT(slices({10.04F, 9.84F}), 3 * near) << "a part begins at a multiple of 32 columns";
+    EXPECT_GT(near, 20);
+}
+
+TEST(OccupiedPart, BeginsAndEndsBeyondTheParticlesAndNeverCutsASeam) {
     Vec2f position[] = {{1.5F, 2.5F}, {7.5F, 0.5F}, {3.5F, 4.5F}, {0.5F, 0.5F}, {0.5F, 9.25F}};
     Vec2f velocity[5] = {};
     const GridShape tank{40, 30, 42};
     const Particles<float> all{position, velocity, 5, 5};
     Borders<float> borders;
-    GridShape part = occupied_part<float>(tank, borders, furthest_of(all, {}));
+    GridShape part = occupied_part<float>(tank, borders, extent_of(all), false);
     EXPECT_GE(part.nx, 7 + 3);
     EXPECT_LT(part.nx, 7 + 8);
     EXPECT_GE(part.ny, 9 + 3);
     EXPECT_LT(part.ny, 9 + 8);
     EXPECT_EQ(part.stride, tank.stride);
+    EXPECT_EQ(part.i0, 0);
+    for (Vec2f& place : position) {
+        place = {place.x + 70.0F, place.y + 20.0F};
+    }
+    const GridShape large{90, 60, 92};
+    part = occupied_part<float>(large, borders, extent_of(all), false);
+    EXPECT_EQ(part.i0, 64);
+    EXPECT_EQ(part.j0, 16);
+    EXPECT_GE(part.i0 + part.nx, 77 + 3);
+    EXPECT_GE(part.j0 + part.ny, 29 + 3);
+    EXPECT_EQ(occupied_part<float>(large, borders, extent_of(all), true).i0, 0);
     borders.wrap_x = borders.wrap_y = true;
-    part = occupied_part<float>(tank, borders, furthest_of(all, {}));
+    part = occupied_part<float>(tank, borders, extent_of(all), false);
     EXPECT_EQ(part.nx, 40);
     EXPECT_EQ(part.ny, 30);
 }

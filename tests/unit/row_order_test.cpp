@@ -32,7 +32,7 @@ struct Pool {
     static Vec2f told(Vec2f at) { return {3.0F * at.x, at.x - at.y}; }
     void order(std::int32_t room) {
         Particles<float> particles{position.data(), velocity.data(), kCount, kCount, kind.data()};
-        keep_row_order(GridShape{20, kRows, 22}, {scratch.data(), room}, particles);
+        keep_row_order({0, kRows}, {scratch.data(), room}, particles);
     }
     bool ordered() const {
         return std::is_sorted(position.begin(), position.end(), [](Vec2f a, Vec2f b) {

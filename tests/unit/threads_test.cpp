@@ -39,8 +39,10 @@ template <class Real>
 std::vector<std::uint64_t> hashes(std::int32_t kind, ParallelFor parallel_for) {
     TestWorld<Real> world(wide_def(kind, parallel_for));
     Dice dice(static_cast<std::uint64_t>(kind));
-    EXPECT_EQ(world->fill({{0.0F, 0.0F}, {1.6F, 1.1F}}), Status::ok);
-    EXPECT_EQ(world->add_particle({0.7F, 1.6F}, {30.0F, -20.0F}), Status::ok);
+    // Some hangs in the air, so that the part of the tank it is in begins elsewhere.
+    const Vec2f from = kind % 3 == 2 ? Vec2f{1.5F, 0.7F} : Vec2f{};
+    EXPECT_EQ(world->fill({from, {from.x + 1.6F, from.y + 1.1F}}), Status::ok);
+    EXPECT_EQ(world->add_particle({1.7F, 1.6F}, {30.0F, -20.0F}), Status::ok);
     std::vector<std::uint64_t> hashes;
     for (std::int32_t step = 0; step < 8; ++step) {
         disturb(*world, dice);

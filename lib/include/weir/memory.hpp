@@ -94,8 +94,8 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? 816 : 1104) + (std::is_same_v<Real, Fixed> ? 16 : 0)
-        : 1312;
+        ? (sizeof(void*) == 4 ? 856 : 1144) + (std::is_same_v<Real, Fixed> ? 16 : 0)
+        : 1360;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
