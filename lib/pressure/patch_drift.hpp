@@ -107,6 +107,17 @@ inline constexpr Real kMostRefund = Real(256);
 
 /// Which share of its velocity a patch gives for what the drift lifts in it against the pressure,
 /// and gets for what it lets down. Liquid in order is not asked: what it does is reversed later.
+template <class Real>
+inline Real price_of(const Weights<Real>& sums) {
+    const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
+    const Real work = in_turn(sums.lifted) * (disorder / kStirred<Real>);
+    const Real moving = in_turn(sums.moving);
+    if (work > Real(0)) {
+        return work / (moving + kMostPrice<Real> * work);
+    }
+    return moving > -kMostRefund<Real> * work ? work / moving : Real(0);
+}
+
 template <bool Solids, class Real>
 inline Real price_of(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid) {
     const Real* p = drift.fields.pressure;
@@ -134,17 +145,12 @@ inline Real price_of(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>
         sums.moving[x] = moving;
         sums.disorder[x] = disorder;
     }
-    const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
-    const Real work = in_turn(sums.lifted) * (disorder / kStirred<Real>);
-    const Real moving = in_turn(sums.moving);
-    if (work > Real(0)) {
-        return work / (moving + kMostPrice<Real> * work);
-    }
-    return moving > -kMostRefund<Real> * work ? work / moving : Real(0);
+    return price_of(sums);
 }
 
 template <bool Pays, bool Solids, class Real>
-inline void drift_columns(const Drift<Solids, Real>& drift, Real price, StaggeredGrid<Real>& grid) {
+inline void drift_columns(const Drift<Solids, Real>& drift, Real price,
+                          StaggeredGrid<Real>& grid) {
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         drift.for_each_face(
             x,
@@ -159,14 +165,38 @@ inline void drift_columns(const Drift<Solids, Real>& drift, Real price, Staggere
     }
 }
 
+#if WEIR_HAS_LANES
+/// A whole patch at once. False: not all of its faces move.
+template <bool Solids>
+inline bool drift_at_once(const Drift<Solids, float>& drift, bool pays,
+                          StaggeredGrid<float>& grid) {
+    if (!all_move(drift)) {
+        return false;
+    }
+    DriftOfPatch way;
+    float price = 0.0F;
+    if (pays) {
+        Weights<float> sums;
+        find_drift<true>(drift, grid, way, sums);
+        price = price_of(sums);
+    } else {
+        find_drift<false>(drift, grid, way, nullptr);
+    }
+    apply_drift(drift, way, price, grid);
+    return true;
+}
+#endif
+
 template <bool Solids, class Real>
 inline void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
-    if constexpr (!kHasLanes<Real>) {
-        if (drift.still()) {
+    if (drift.still()) {
+        return;
+    }
+    pays = pays && drift.has_excess(drift.patch.q);  // without disorder nothing is paid
+    if constexpr (kHasLanes<Real>) {
+        if (drift_at_once(drift, pays, grid)) {
             return;
         }
-        // Without disorder nothing is paid.
-        pays = pays && drift.has_excess(drift.patch.q);
     }
     Real price = Real(0);
     if constexpr (kPaysForLifting<Real>) {

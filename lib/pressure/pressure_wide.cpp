@@ -35,8 +35,8 @@ std::int32_t excess_wide(const PressureFields<float>& f, std::int32_t stride,
 
 std::uint32_t means_wide(const PressureFields<float>& f, const PatchLimits& limits,
                          std::int32_t stride, std::int32_t c, std::int32_t rows, float* means,
-                         std::int32_t& overfull) {
-    return means_of_patches<EightLanes>(f, limits, stride, c, rows, means, overfull);
+                         float* most, std::int32_t& overfull) {
+    return means_of_patches<EightLanes>(f, limits, stride, c, rows, means, most, overfull);
 }
 
 }  // namespace weir

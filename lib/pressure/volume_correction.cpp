@@ -89,9 +89,7 @@ Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
             any = e != Real(0) ? Real(1) : any;
         }
     }
-    if constexpr (!kHasLanes<Real>) {
-        f.coarse.residual[patch.q] = any;  // until the drift
-    }
+    f.coarse.residual[patch.q] = any;  // until the drift
     if (count == 0) {
         return !Solids || has_room(s, walls, patch) ? Real(0) : kSolidPatch<Real>;
     }
@@ -116,7 +114,8 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
         const Patch first = patch_at(0);
         column = f.on_surface ? 0
                               : means_of_row(f, limits, s.stride, s.index(0, first.j),
-                                             first.height, s.nx / kCoarseEdge, means, overfull,
+                                             first.height, s.nx / kCoarseEdge, means,
+                                             f.coarse.residual + first.q, overfull,
                                              [&](std::int32_t k) {
                                                  if (Solids && !has_room(s, walls, patch_at(k))) {
                                                      means[k] = kSolidPatch<Real>;
@@ -169,9 +168,7 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     }
     if (work.once(big.border())) {
         mirror_cells(borders, big, fields.coarse.correction);
-        if constexpr (!kHasLanes<Real>) {
-            mirror_cells(borders, big, fields.coarse.residual);
-        }
+        mirror_cells(borders, big, fields.coarse.residual);
     }
     share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
         static_assert(kCoarseEdge == 4, "rises() knows four faces");

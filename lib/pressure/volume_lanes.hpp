@@ -95,27 +95,33 @@ inline void transpose(typename L::Floats (&v)[4]) {
 }
 
 /// Mean excess of as many patches as there are lanes, four cells wide, from cell c on; 0 in air.
-/// `overfull` grows as that of `average`. A bit for each patch without liquid.
+/// `most` takes the largest excess of each, either way; `overfull` grows as that of `average`. A
+/// bit for each patch without liquid.
 template <class L>
 inline std::uint32_t means_of_patches(const PressureFields<float>& f, const PatchLimits& limits,
                                       std::int32_t stride, std::int32_t c, std::int32_t rows,
-                                      float* means, std::int32_t& overfull) {
+                                      float* means, float* most, std::int32_t& overfull) {
     const auto zero = L::all(0.0F);
     auto sum = zero;
     typename L::Floats wet[4] = {zero, zero, zero, zero};
+    typename L::Floats off[4] = {zero, zero, zero, zero};
     for (std::int32_t y = 0; y < rows; ++y, c += stride) {
         typename L::Floats said[4];
         for (std::int32_t k = 0; k < 4; ++k) {
             const std::int32_t at = c + k * L::kLanes;
             const auto liquid = L::load(f.level + at) > zero;
-            const auto cut = L::clamp(L::load(f.divergence + at), L::all(-limits.cell_window),
-                                      L::all(limits.cell_window));
+            const auto e = L::load(f.divergence + at);
+            const auto cut = L::clamp(e, L::all(-limits.cell_window), L::all(limits.cell_window));
+            off[k] = L::maximum(off[k], L::absolute(e));
             said[k] = liquid ? cut : zero;
             wet[k] += liquid ? L::all(1.0F) : zero;
         }
         transpose<L>(said);
         sum = (((sum + said[0]) + said[1]) + said[2]) + said[3];
     }
+    transpose<L>(off);
+    L::store(most, L::in_order(L::maximum(L::maximum(off[0], off[1]),
+                                          L::maximum(off[2], off[3]))));
     transpose<L>(wet);
     const auto count = (wet[0] + wet[1]) + (wet[2] + wet[3]);
     const auto none = count == zero;
@@ -136,7 +142,7 @@ inline std::uint32_t means_of_patches(const PressureFields<float>& f, const Patc
 #if WEIR_HAS_WIDE_LANES
 std::uint32_t means_wide(const PressureFields<float>& f, const PatchLimits& limits,
                          std::int32_t stride, std::int32_t c, std::int32_t rows, float* means,
-                         std::int32_t& overfull);
+                         float* most, std::int32_t& overfull);
 #endif
 
 /// The same for the patches of a row, four cells wide, as long as there are so many; `empty`(k) is
@@ -144,8 +150,8 @@ std::uint32_t means_wide(const PressureFields<float>& f, const PatchLimits& limi
 template <class Empty>
 inline std::int32_t means_of_row(const PressureFields<float>& f, const PatchLimits& limits,
                                  std::int32_t stride, std::int32_t c, std::int32_t rows,
-                                 std::int32_t patches, float* means, std::int32_t& overfull,
-                                 const Empty& empty) {
+                                 std::int32_t patches, float* means, float* most,
+                                 std::int32_t& overfull, const Empty& empty) {
     std::int32_t k = 0;
     const auto tell = [&](std::uint32_t bits) {
         for (; bits != 0; bits &= bits - 1) {
@@ -154,11 +160,12 @@ inline std::int32_t means_of_row(const PressureFields<float>& f, const PatchLimi
     };
 #if WEIR_HAS_WIDE_LANES
     for (; has_wide_lanes() && k + 8 <= patches; k += 8) {
-        tell(means_wide(f, limits, stride, c + 4 * k, rows, means + k, overfull));
+        tell(means_wide(f, limits, stride, c + 4 * k, rows, means + k, most + k, overfull));
     }
 #endif
     for (; k + 4 <= patches; k += 4) {
-        tell(means_of_patches<FourLanes>(f, limits, stride, c + 4 * k, rows, means + k, overfull));
+        tell(means_of_patches<FourLanes>(f, limits, stride, c + 4 * k, rows, means + k, most + k,
+                                         overfull));
     }
     return k;
 }
@@ -237,6 +244,89 @@ inline void drift_rows(const Drift& drift, float price, StaggeredGrid<float>& gr
         }
         store_lanes(velocity, of.moves ? now - of.way : now);
     });
+}
+
+/// Whether a patch is whole and all of its faces move.
+template <class Drift>
+inline bool all_move(const Drift& drift) {
+    if (drift.patch.width != kCoarseEdge || drift.patch.height != kCoarseEdge ||
+        !drift.first_moves_x() || !drift.moves_y(0)) {
+        return false;
+    }
+    if (drift.solids() == nullptr) {
+        return true;
+    }
+    Lanes least = all_lanes(1.0F);
+    std::int32_t c = drift.shape.index(drift.patch.i, drift.patch.j);
+    for (std::int32_t y = 0; y < kCoarseEdge; ++y, c += drift.shape.stride) {
+        least = minimum(least, minimum(load_lanes(drift.walls.open_u + c),
+                                       load_lanes(drift.walls.open_v + c)));
+    }
+    return all_true(least > all_lanes(0.0F));
+}
+
+/// The drift of such a patch's faces, row by row.
+struct DriftOfPatch {
+    Lanes u[kCoarseEdge];
+    Lanes v[kCoarseEdge];
+};
+
+/// `Weighed`: also what it weighs.
+template <bool Weighed, class Drift, class Sums>
+inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, DriftOfPatch& way,
+                       [[maybe_unused]] Sums&& sums) {
+    const std::int32_t stride = drift.shape.stride;
+    const std::int32_t first = drift.shape.index(drift.patch.i, drift.patch.j);
+    const float* e = drift.fields.divergence + first;
+    const float* p = drift.fields.pressure + first;
+    const Lanes along_x = load_lanes(drift.along_x);
+    const Lanes speed = all_lanes(drift.speed);
+    [[maybe_unused]] Lanes lifted = all_lanes(0.0F);
+    [[maybe_unused]] Lanes moving = lifted;
+    [[maybe_unused]] Lanes disorder = lifted;
+    Lanes e_below = load_lanes(e - stride);
+    [[maybe_unused]] Lanes p_below = load_lanes(p - stride);
+    std::int32_t c = first;
+    for (std::int32_t y = 0; y < kCoarseEdge; ++y) {
+        const Lanes here = load_lanes(e);
+        way.u[y] = speed * ((here - load_lanes(e - 1)) + along_x);
+        way.v[y] = speed * ((here - e_below) + all_lanes(drift.along_y[y]));
+        if constexpr (Weighed) {
+            const Lanes held = load_lanes(p);
+            const Lanes u = load_lanes(grid.u + c);
+            const Lanes v = load_lanes(grid.v + c);
+            lifted = lifted + way.u[y] * (held - load_lanes(p - 1));
+            lifted = lifted + way.v[y] * (held - p_below);
+            moving = (moving + u * u) + v * v;
+            disorder = disorder + here * here;
+            p_below = held;
+            p += stride;
+        }
+        e_below = here;
+        e += stride;
+        c += stride;
+    }
+    if constexpr (Weighed) {
+        store_lanes(sums.lifted, lifted);
+        store_lanes(sums.moving, moving);
+        store_lanes(sums.disorder, disorder);
+    }
+}
+
+template <class Drift>
+inline void apply_drift(const Drift& drift, const DriftOfPatch& way, float price,
+                        StaggeredGrid<float>& grid) {
+    std::int32_t c = drift.shape.index(drift.patch.i, drift.patch.j);
+    for (std::int32_t y = 0; y < kCoarseEdge; ++y, c += drift.shape.stride) {
+        const Lanes u = load_lanes(grid.u + c);
+        const Lanes v = load_lanes(grid.v + c);
+        if (price != 0.0F) {
+            store_lanes(grid.mass_u + c, load_lanes(grid.mass_u + c) - all_lanes(price) * u);
+            store_lanes(grid.mass_v + c, load_lanes(grid.mass_v + c) - all_lanes(price) * v);
+        }
+        store_lanes(grid.u + c, u - way.u[y]);
+        store_lanes(grid.v + c, v - way.v[y]);
+    }
 }
 
 #endif

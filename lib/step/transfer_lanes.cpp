@@ -81,7 +81,25 @@ struct Span {
 
 Span span_of(const Vec2<float>* position, std::int32_t count) {
     Span span{position[0].y, position[0].y};
-    for (std::int32_t k = 1; k < count; ++k) {
+    std::int32_t k = 0;
+    if (count >= 4) {  // two particles four numbers
+        Lanes low = load_lanes(&position->x);
+        Lanes high = low;
+        Lanes low_too = low;
+        Lanes high_too = low;
+        for (; k + 4 <= count; k += 4) {
+            const Lanes one = load_lanes(&position[k].x);
+            const Lanes other = load_lanes(&position[k + 2].x);
+            low = minimum(low, one);
+            high = maximum(high, one);
+            low_too = minimum(low_too, other);
+            high_too = maximum(high_too, other);
+        }
+        low = minimum(low, low_too);
+        high = maximum(high, high_too);
+        span = {minimum(low[1], low[3]), maximum(high[1], high[3])};
+    }
+    for (; k < count; ++k) {
         span.low = minimum(span.low, position[k].y);
         span.high = maximum(span.high, position[k].y);
     }
@@ -142,14 +160,16 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
 /// Row by row instead of particle by particle. False: it was not worth it, nothing was done.
 bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid<float>& grid,
                           Work work, const Pairs<float>& pairs) {
-    constexpr std::int32_t kLeastRows = 24;  // two are done by both neighbours
     constexpr std::int32_t kCost = 4;  // units a particle: it takes as long as so many cells
     const GridShape& s = grid.shape;
     const std::int32_t blocks = (particles.count + kTogether - 1) / kTogether;
     const std::int32_t height = s.ny + 2;
     const Part rows{s.j0, s.j0 + height};
+    // What lies about a border is looked at from both sides: two pieces if they are not too small,
+    // more only of many rows.
+    const std::int32_t least_rows = clamp(height / 2, 24, 40);
     const std::int32_t cost = particles.count / height * kCost;
-    if (2 * blocks > grid.spans.size || work.pieces(height, cost, kLeastRows) <= 1) {
+    if (2 * blocks > grid.spans.size || work.pieces(height, cost, least_rows) <= 1) {
         return false;
     }
     auto* spans = reinterpret_cast<Span*>(grid.spans.data);
@@ -169,7 +189,7 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
     if (all > kWidestSpan * static_cast<float>(blocks)) {
         return false;
     }
-    work.share(rows, cost, kLeastRows, [&](const Part& some, std::int32_t) {
+    work.share(rows, cost, least_rows, [&](const Part& some, std::int32_t) {
         scatter_to_rows(particles, spans, some, pairs);
     });
     return true;
