@@ -356,7 +356,7 @@ void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls,
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
     }
     const bool seams = borders.wrap_x || borders.wrap_y;
-    if (!Stored<Real>::coarse && seams && work.once(grid.shape.border())) {  // leaps look across
+    if (seams && work.once(grid.shape.border())) {  // leaps look across
         extend_velocity(borders, grid.shape, grid.mass_u, grid.mass_v);
     }
     auto solver = solve<Solids, false, Real>;

@@ -4,6 +4,7 @@
 
 #include "math/packed_arithmetic.hpp"
 #include "pressure/face_weights.hpp"
+#include "pressure/leap_packed.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -161,6 +162,7 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
     const GridShape& s = grid.shape;
     const auto* level = fields.level;
     const Walls<SmallFixed>& walls = weights.walls;
+    const PackedLeap leap(fields.leaps, fields.last_dt);
     const auto open = [&](std::int32_t c) {
         return !Solids || (untouched(walls, c, c + s.stride) &&
                            !(walls.moving && touches_wall(walls, c)));
@@ -179,8 +181,9 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
             if (inner_row && level[c - 1].raw > 0 && level[c + 1].raw > 0 && level[up].raw > 0 &&
                 level[c - s.stride].raw > 0 && weights.has_left(i) && weights.has_right(i) &&
                 open(c)) {
-                fields.divergence[c].raw = short_of((grid.u[c + 1].raw - grid.u[c].raw) +
-                                                    (grid.v[up].raw - grid.v[c].raw));
+                const std::int32_t flow = (grid.u[c + 1].raw - grid.u[c].raw) +
+                                          (grid.v[up].raw - grid.v[c].raw);
+                fields.divergence[c].raw = short_of(flow + wanted_convergence(grid, c, leap));
                 fields.inverse_diagonal[c].raw = 512;
                 fields.pressure[c] = rescaled(fields.pressure[c], fields.solve.rescale);
             } else {

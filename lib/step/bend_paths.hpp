@@ -13,8 +13,8 @@ namespace weir {
 ///     u += ¼ dt (ũ·∇)ũ, with surface tension or where nothing leaps ½ dt,
 /// of the velocity ũ before the step that `blend_change` left in the fields' divergence and inverse
 /// diagonal. Half as much between a cell that the pressure sees to and one that it does not.
-/// Beside solids nothing bends; beside thin walls the gather bends by what it sees, as it does
-/// everywhere in packed worlds.
+/// Beside solids nothing bends, nor in packed worlds; beside thin walls the gather bends by what it
+/// sees.
 /// Order: any.
 template <class Real>
 void bend_paths(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,

@@ -49,9 +49,8 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
                   Work work = {});
 
 /// Gathers both fields with the weights of particle-to-grid, moves the particle straight on,
-/// x += dt u, and keeps it in the tank. Packed worlds bend its way instead, x += dt (u + ½ dt ∇u·u)
-/// with ∇u from the same nodes. Any part of the pool can be gathered at a time, after one call of
-/// `prepare_gather`. Order: by particle. Cost: 16 loads, about 50 operations a particle.
+/// x += dt u, and keeps it in the tank. Any part of the pool can be gathered at a time, after one
+/// call of `prepare_gather`. Order: by particle. Cost: 16 loads, about 50 operations a particle.
 template <class Real>
 TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
                                       const Transfer<Real>& transfer,

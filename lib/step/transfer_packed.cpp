@@ -19,22 +19,17 @@ static_assert(Stored<Real>::particle_mass == 2, "256 units of mass a particle");
 /// Mass of 32 particles: 8 times what a full cell's faces hold.
 constexpr std::uint32_t kFull = 0x2000;
 
-/// A point among the faces of a kind, in 256ths.
-struct Point {
-    std::int32_t base;
-    std::int32_t fx;
-    std::int32_t fy;
-};
+/// Both places of a particle in a word, x below.
+inline std::uint32_t word_of(const Vec2<Place>* place) {
+    std::uint32_t word = 0;
+    __builtin_memcpy(&word, __builtin_assume_aligned(place, 4), sizeof word);
+    return word;
+}
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "x stands first");
 
-inline Point point_of(std::int32_t stride, std::int32_t x, std::int32_t y, std::int32_t origin) {
-    return {(y >> 8) * stride + (x >> 8) + origin, x & 255, y & 255};
-}
-inline Point on_u(std::int32_t stride, std::int32_t x, std::int32_t y) {
-    return point_of(stride, x, y + 128, 1);
-}
-inline Point on_v(std::int32_t stride, std::int32_t x, std::int32_t y) {
-    return point_of(stride, x + 128, y, stride);
-}
+/// From the faces of a kind to the corners of the cells that they are in the middle of.
+template <bool OnU>
+inline constexpr std::uint32_t kHalf = OnU ? 128U << 16U : 128U;
 
 /// What the four faces around a point get, 256ths that add up to 256.
 struct Weights {
@@ -44,10 +39,18 @@ struct Weights {
     std::int32_t upper_right;
 };
 
-inline Weights weights_of(const Point& at) {
-    const std::int32_t both = (at.fx * at.fy + 128) >> 8;
-    const std::int32_t upper = at.fy - both;
-    return {256 - at.fx - upper, at.fx - both, upper, both};
+inline Weights weights_of(std::uint32_t at) {
+    const auto fx = static_cast<std::int32_t>(at & 255U);
+    const auto fy = static_cast<std::int32_t>((at >> 16U) & 255U);
+    const std::int32_t both = (fx * fy + 128) >> 8;
+    const std::int32_t upper = fy - both;
+    return {256 - fx - upper, fx - both, upper, both};
+}
+
+/// The first of those faces, from the first one of the kind.
+inline std::int32_t base_of(std::uint32_t at, std::int32_t stride) {
+    return static_cast<std::int32_t>(at >> 24U) * stride +
+           static_cast<std::int32_t>((at >> 8U) & 255U);
 }
 
 /// Adds to the masses of four faces. False: one of them is full.
@@ -91,17 +94,16 @@ std::int32_t scatter(const Particles<Real>& particles, Speed* mass, Real* moment
     const Vec2<Speed>* velocity = particles.velocity;
     std::int32_t refused = 0;
     for (; place != end; ++place, ++velocity) {
-        const std::int32_t x = place->x.raw + (OnU ? 0 : 128);
-        const std::int32_t y = place->y.raw + (OnU ? 128 : 0);
-        const Point at = point_of(stride, x, y, 0);
+        const std::uint32_t at = word_of(place) + kHalf<OnU>;
         const Weights w = weights_of(at);
-        Speed* m = mass + at.base;
+        const std::int32_t base = base_of(at, stride);
+        Speed* m = mass + base;
         if (!add_masses(m, m + stride, w)) {
             ++refused;
             continue;
         }
         const std::int32_t v = (OnU ? velocity->x.raw : velocity->y.raw) * 4;  // 512ths
-        Real* p = momentum + at.base;
+        Real* p = momentum + base;
         p[0].raw += w.lower_left * v;
         p[1].raw += w.lower_right * v;
         p += stride;
@@ -111,47 +113,85 @@ std::int32_t scatter(const Particles<Real>& particles, Speed* mass, Real* moment
     return refused;
 }
 
-/// Of a field in 128ths.
-struct PackedSample {
-    std::int32_t value;    ///< 2^−15
-    std::int32_t slope_x;  ///< per cell, 128ths
-    std::int32_t slope_y;
+/// A velocity in 128ths of a cell a second times `scale` · 2^−shift is a way in 2^−14 cells.
+struct Clock {
+    std::int32_t scale;  ///< below 2^15
+    std::int32_t shift;
 };
 
-inline PackedSample sample(const Speed* field, std::int32_t stride, const Point& at) {
-    const Speed* p = field + at.base;
-    const std::int32_t low_left = p[0].raw;
-    const std::int32_t low_slope = p[1].raw - low_left;
-    p += stride;
-    const std::int32_t high_left = p[0].raw;
-    const std::int32_t high_slope = p[1].raw - high_left;
-    const std::int32_t low = low_left * 256 + at.fx * low_slope;
-    const std::int32_t rise = high_left * 256 + at.fx * high_slope - low;
-    return {low + ((at.fy * (rise >> 2)) >> 6),
-            low_slope + ((at.fy * (high_slope - low_slope)) >> 8), rise >> 8};
+Clock clock_of(Seconds<Real> dt_s) {
+    std::int32_t scale = minimum<std::int32_t>(dt_s.raw, (1 << 30) - 1);
+    std::int32_t shift = 23;
+    while (scale >= 0x8000) {
+        scale >>= 1;
+        --shift;
+    }
+    return {scale, shift};
 }
 
-/// One component's velocities: of what they were a share, and what the faces give. A pass for
-/// itself: what carries particles wants all registers. `change`: from its first face on.
-/// @return the fastest, 128ths of a cell a second.
-template <bool OnU>
-[[gnu::noinline]] std::int32_t gather_change(const Particles<Real>& particles, const Speed* change,
-                                             std::int32_t stride, std::int32_t flip) {
-    const Vec2<Place>* place = particles.position;
-    const Vec2<Place>* end = place + particles.count;
-    Vec2<Speed>* velocity = particles.velocity;
-    std::int32_t fastest = 0;
-    for (; place != end; ++place, ++velocity) {
-        const std::int32_t x = place->x.raw + (OnU ? 0 : 128);
-        const std::int32_t y = place->y.raw + (OnU ? 128 : 0);
-        const std::int32_t gained = sample(change, stride, point_of(stride, x, y, 0)).value;
-        std::int16_t& own = OnU ? velocity->x.raw : velocity->y.raw;
-        const std::int32_t now =
-            saturated<16>((flip * own + gained * 64 + (1 << 13)) >> 14);
-        own = static_cast<std::int16_t>(now);
-        fastest = maximum(fastest, absolute(now));
-    }
-    return fastest;
+#if defined(__ARM_ARCH_6M__)
+/// How far that is what carries a particle, 2^−15 cells a second.
+using Pace = Clock;
+inline Pace pace_of(const Clock& clock) {
+    return clock;
+}
+inline std::int32_t way_of(const Pace& pace, std::int32_t along) {
+    return (((along + 128) >> 8) * pace.scale) >> pace.shift;
+}
+#else
+/// The same where there are products of 64 bits: their upper half.
+using Pace = std::int32_t;
+inline Pace pace_of(const Clock& clock) {
+    return clock.scale << (24 - clock.shift);
+}
+inline std::int32_t way_of(Pace pace, std::int32_t along) {
+    return static_cast<std::int32_t>((std::int64_t{(along + 128) & ~255} * pace) >> 32);
+}
+#endif
+
+/// What gathering asks of all particles.
+struct Gather {
+    const StaggeredGrid<Real>& grid;
+    const Transfer<Real>& transfer;
+    Pace pace;
+    std::int32_t flip;
+    std::uint32_t low;   ///< halves of the lowest places between the tank's walls, a word
+    std::uint32_t high;  ///< and of the highest
+};
+
+/// Of a field in 128ths, 2^−15.
+inline std::int32_t weighed(const Speed* low, std::int32_t stride, const Weights& w) {
+    const Speed* high = low + stride;
+#if defined(__ARM_FEATURE_SIMD32)
+    // Two of 16 bits at a time.
+    const auto pair = [](std::int32_t left, std::int32_t right) { return left + right * 0x10000; };
+    const auto velocities = [](const Speed* at) {
+        std::int32_t two = 0;
+        __builtin_memcpy(&two, at, sizeof two);
+        return two;
+    };
+    const std::int32_t below =
+        __builtin_arm_smuad(velocities(low), pair(w.lower_left, w.lower_right));
+    return __builtin_arm_smlad(velocities(high), pair(w.upper_left, w.upper_right), below);
+#else
+    std::int32_t sum = w.lower_left * low[0].raw;
+    sum += w.lower_right * low[1].raw;
+    sum += w.upper_left * high[0].raw;
+    sum += w.upper_right * high[1].raw;
+    return sum;
+#endif
+}
+
+/// Of what the velocity was a share, and what the faces give. @return its size.
+inline std::int32_t change(std::int16_t& own, std::int32_t flip, std::int32_t gained) {
+    const std::int32_t now = saturated<16>((flip * own + gained * 64 + (1 << 13)) >> 14);
+    own = static_cast<std::int16_t>(now);
+    return absolute(now);
+}
+
+/// How far it goes, 256ths: bits that nobody uses decide what is rounded.
+inline std::int32_t moves(const Pace& pace, std::int32_t along) {
+    return (way_of(pace, along) + chance(along, 6)) >> 6;
 }
 
 /// Where there are particles that are too fast.
@@ -164,11 +204,11 @@ template <bool OnU>
     }
 }
 
-/// A unit towards rest. The share of PIC of a small velocity rounds to 0: below 16 units particles
-/// kept for ever what they have beyond the flow.
+/// A quarter towards rest, a unit at least. The share of PIC of a small velocity rounds to 0: below
+/// 16 units particles kept for ever what they have beyond the flow.
 [[gnu::noinline]] void settle(const Particles<Real>& particles) {
     const auto slower = [](std::int16_t v) {
-        return static_cast<std::int16_t>(v - (v > 0 ? 1 : 0) + (v < 0 ? 1 : 0));
+        return static_cast<std::int16_t>(v - (v + (v > 0 ? 3 : -3)) / 4);
     };
     for (std::int32_t k = 0; k < particles.count; ++k) {
         Vec2<Speed>& v = particles.velocity[k];
@@ -176,96 +216,82 @@ template <bool OnU>
     }
 }
 
-/// A velocity in 128ths of a cell a second times `scale` · 2^−shift is a way in 2^−14 cells.
-struct Clock {
-    std::int32_t scale;  ///< below 2^15
-    std::int32_t shift;
-};
-
-Clock clock_of(Seconds<Real> dt_s) {
-    std::int32_t scale = dt_s.raw;
-    std::int32_t shift = 23;
-    while (scale >= 0x8000) {
-        scale >>= 1;
-        --shift;
-    }
-    return {scale, shift};
-}
-
-inline std::int32_t first_way(const Clock& clock, std::int32_t value) {
-    return (((value + 128) >> 8) * clock.scale) >> clock.shift;
-}
-
-/// What the second order adds to the way along an axis, ½ dt² ∇u · u, in 2^−14 cells. Of ways
-/// longer than a cell nobody uses it, so that it may overflow.
-inline std::int32_t turn(const Clock& clock, const PackedSample& at, std::int32_t way_x,
-                         std::int32_t way_y) {
-    const auto product = [](std::int32_t a, std::int32_t b) {
-        return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b);
-    };
-    const auto sum = static_cast<std::int32_t>(product(at.slope_x, way_x >> 4) +
-                                               product(at.slope_y, way_y >> 4) + (1U << 11));
-    return static_cast<std::int32_t>(product(sum >> 12, clock.scale)) >> (clock.shift - 1);
-}
-
-constexpr std::int32_t kCell = 1 << 14;
-
-/// Not further than a cell along either axis.
-inline bool is_near(Vec2<std::int32_t> way) {
-    return (static_cast<std::uint32_t>(way.x + kCell) | static_cast<std::uint32_t>(way.y + kCell)) <
-           2U * kCell;
-}
-
-/// What a step of gathering needs to know.
-struct Limits {
-    Clock clock;
-    std::int32_t gap;      ///< nearer to the tank's walls nothing comes, 256ths
-    std::int32_t width;    ///< room between, 256ths
-    std::int32_t height;
-};
-
-Limits limits_of(const GridShape& s, const Transfer<Real>& transfer) {
-    const std::int32_t gap = Place(kWallGap<Real>).raw;
-    return {clock_of(transfer.dt_s), gap, s.nx * 256 - 2 * gap, s.ny * 256 - 2 * gap};
-}
-
-/// What carries a particle.
-struct Carried {
-    PackedSample u;
-    PackedSample v;
-    Vec2<std::int32_t> first;  ///< way of the first order
-    Vec2<std::int32_t> way;
-};
-
-[[gnu::always_inline]] inline Carried carried(const StaggeredGrid<Real>& grid,
-                                               const Clock& clock, std::int32_t x,
-                                               std::int32_t y) {
-    const std::int32_t stride = grid.shape.stride;
-    const PackedSample u = sample(grid.u, stride, on_u(stride, x, y));
-    const PackedSample v = sample(grid.v, stride, on_v(stride, x, y));
-    const Vec2<std::int32_t> first{first_way(clock, u.value), first_way(clock, v.value)};
-    return {u, v, first,
-            {first.x + turn(clock, u, first.x, first.y),
-             first.y + turn(clock, v, first.x, first.y)}};
-}
-
-/// Those few that go far, or come to the tank's walls.
-[[gnu::noinline]] void advect_rare(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
-                                   const Clock& clock, Vec2<Place>& place, Vec2<Speed>& speed,
-                                   TransferResult<Real>& result) {
-    const GridShape& s = grid.shape;
-    const Carried by = carried(grid, clock, place.x.raw, place.y.raw);
-    const Vec2<std::int32_t> way = is_near(by.first) ? by.way : by.first;
-    result.far += is_near(way) ? 0 : 1;
-    constexpr std::int32_t kLongest = 2 * kCell;
-    Vec2<Real> x{Real(place.x) + Real::of_raw(4 * clamp(way.x, -kLongest, kLongest)),
-                 Real(place.y) + Real::of_raw(4 * clamp(way.y, -kLongest, kLongest))};
+/// Those few that go further than a cell, or come to the tank's walls. `way`: 256ths.
+[[gnu::noinline]] void advect_rare(const Gather& gather, Vec2<std::int32_t> way, Vec2<Place>& place,
+                                   Vec2<Speed>& speed, TransferResult<Real>& result) {
+    const GridShape& s = gather.grid.shape;
+    const auto is_far = [](std::int32_t part) { return part < -256 || part > 256; };
+    result.far += is_far(way.x) || is_far(way.y) ? 1 : 0;
+    constexpr std::int32_t kLongest = 2 * 256;
+    Vec2<Real> x{Real(place.x) + Real::of_raw(256 * clamp(way.x, -kLongest, kLongest)),
+                 Real(place.y) + Real::of_raw(256 * clamp(way.y, -kLongest, kLongest))};
     Vec2<Real> v{speed.x, speed.y};
     meet_tank({static_cast<Real>(s.nx), static_cast<Real>(s.ny)},
-              TankBlow<Real>{transfer, nullptr}, x, v);
+              TankBlow<Real>{gather.transfer, nullptr}, x, v);
     place = {Place(x.x), Place(x.y)};
     speed = {Speed(v.x), Speed(v.y)};
-    result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
+}
+
+/// As many particles as are kept between the two passes.
+constexpr std::int32_t kStrip = 32;
+
+/// Along x: velocities, and how far each particle goes, 256ths. A pass for each component: both
+/// want more registers than there are. @return the fastest, 128ths of a cell a second.
+[[gnu::noinline]] std::int32_t gather_u(const Gather& gather, const Particles<Real>& strip,
+                                        std::int32_t* way_x) {
+    const std::int32_t stride = gather.grid.shape.stride;
+    const Speed* along = gather.grid.u + 1;
+    const Speed* gained = gather.grid.mass_u + 1;
+    const Pace pace = gather.pace;
+    const std::int32_t flip = gather.flip;
+    const Vec2<Place>* place = strip.position;
+    const Vec2<Place>* end = place + strip.count;
+    Vec2<Speed>* velocity = strip.velocity;
+    std::int32_t fastest = 0;
+    for (; place != end; ++place, ++velocity, ++way_x) {
+        const std::uint32_t at = word_of(place) + kHalf<true>;
+        const Weights w = weights_of(at);
+        const std::int32_t base = base_of(at, stride);
+        *way_x = moves(pace, weighed(along + base, stride, w));
+        fastest = maximum(
+            fastest, change(velocity->x.raw, flip, weighed(gained + base, stride, w)));
+    }
+    return fastest;
+}
+
+/// Along y, and there they go.
+[[gnu::noinline]] std::int32_t gather_v(const Gather& gather, const Particles<Real>& strip,
+                                        const std::int32_t* way_x, TransferResult<Real>& result) {
+    const std::int32_t stride = gather.grid.shape.stride;
+    const Speed* along = gather.grid.v + stride;
+    const Speed* gained = gather.grid.mass_v + stride;
+    const Pace pace = gather.pace;
+    const std::int32_t flip = gather.flip;
+    Vec2<Place>* place = strip.position;
+    const Vec2<Place>* end = place + strip.count;
+    Vec2<Speed>* velocity = strip.velocity;
+    std::int32_t fastest = 0;
+    for (; place != end; ++place, ++velocity, ++way_x) {
+        const std::uint32_t from = word_of(place);
+        const std::uint32_t at = from + kHalf<false>;
+        const Weights w = weights_of(at);
+        const std::int32_t base = base_of(at, stride);
+        const std::int32_t way_y = moves(pace, weighed(along + base, stride, w));
+        fastest = maximum(
+            fastest, change(velocity->y.raw, flip, weighed(gained + base, stride, w)));
+        // Both axes in a word. Halves leave a bit that tells which of them is out of its bounds.
+        const std::uint32_t way =
+            static_cast<std::uint32_t>(*way_x) + static_cast<std::uint32_t>(way_y) * 0x10000U;
+        const std::uint32_t to = from + way;
+        const std::uint32_t half = (to >> 1U) & 0x7FFF7FFFU;
+        const std::uint32_t out = (half - gather.low) | (gather.high - half);
+        if (((way + 0x1000100U) & 0xFE00FE00U) == 0 && (out & 0x80008000U) == 0) {
+            __builtin_memcpy(__builtin_assume_aligned(place, 4), &to, sizeof to);
+        } else {
+            advect_rare(gather, {*way_x, way_y}, *place, *velocity, result);
+        }
+    }
+    return fastest;
 }
 
 }  // namespace
@@ -278,38 +304,32 @@ std::int32_t scatter_packed(const Particles<Real>& particles, StaggeredGrid<Real
 
 TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
                                    Particles<Real>& particles) {
-    const std::int32_t stride = grid.shape.stride;
-    const std::int32_t flip = transfer.flip_ratio.raw >> 2;
+    const GridShape& s = grid.shape;
+    constexpr std::uint32_t kGap = Place(kWallGap<Real>).raw;
+    const auto highest = [](std::int32_t cells) {
+        return (static_cast<std::uint32_t>(cells) * 256U - kGap - 1U) / 2U;
+    };
+    const Gather gather{grid,
+                        transfer,
+                        pace_of(clock_of(transfer.dt_s)),
+                        transfer.flip_ratio.raw >> 2,
+                        (kGap + 1U) / 2U * 0x10001U,
+                        highest(s.nx) + highest(s.ny) * 0x10000U};
     TransferResult<Real> result;
-    result.max_speed = Real::of_raw(
-        512 * maximum(gather_change<true>(particles, grid.mass_u + 1, stride, flip),
-                      gather_change<false>(particles, grid.mass_v + stride, stride, flip)));
+    std::int32_t fastest = 0;
+    std::int32_t way_x[kStrip];
+    for (std::int32_t k = 0; k < particles.count; k += kStrip) {
+        const Particles<Real> strip = particles.part(k, minimum(kStrip, particles.count - k));
+        fastest = maximum(fastest, gather_u(gather, strip, way_x));
+        fastest = maximum(fastest, gather_v(gather, strip, way_x, result));
+    }
+    result.max_speed = Real::of_raw(512 * fastest);
     if (result.max_speed > transfer.limit) {
         limit_all(particles, transfer.limit, result);
         result.max_speed = transfer.limit;
     }
     if (transfer.settling) {
         settle(particles);
-    }
-    const Limits limits = limits_of(grid.shape, transfer);
-    for (std::int32_t k = 0; k < particles.count; ++k) {
-        const std::int32_t x = particles.position[k].x.raw;
-        const std::int32_t y = particles.position[k].y.raw;
-        const Carried by = carried(grid, limits.clock, x, y);
-        const std::int32_t thrown = chance(by.u.value ^ by.v.value, 12);
-        const std::int32_t to_x = x + ((by.way.x + (thrown & 63)) >> 6);
-        const std::int32_t to_y = y + ((by.way.y + (thrown >> 6)) >> 6);
-        if (is_near(by.way) &&
-            static_cast<std::uint32_t>(to_x - limits.gap) <=
-                static_cast<std::uint32_t>(limits.width) &&
-            static_cast<std::uint32_t>(to_y - limits.gap) <=
-                static_cast<std::uint32_t>(limits.height)) {
-            particles.position[k] = {Place::of_raw(static_cast<std::uint16_t>(to_x)),
-                                     Place::of_raw(static_cast<std::uint16_t>(to_y))};
-        } else {
-            advect_rare(grid, transfer, limits.clock, particles.position[k],
-                        particles.velocity[k], result);
-        }
     }
     return result;
 }

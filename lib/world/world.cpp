@@ -233,7 +233,7 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     carve(Carver(memory, plan), def.capacity, simulation);
     simulation.settings = settings_of<Real>(def, state_->cells_per_m);
     simulation.pressure.leaps =
-        def.pressure == Pressure::projection && !Stored<Real>::coarse &&
+        def.pressure == Pressure::projection &&
         (simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F);
     simulation.ticks = def.ticks;
 #if WEIR_PARALLEL

@@ -1,9 +1,10 @@
 // Second order in time: what is asked of the pressure, and which paths bend.
 #include <gtest/gtest.h>
 
+#include <random>
 #include <vector>
 
-#include "pressure/leap.hpp"
+#include "pressure/leap_packed.hpp"
 #include "step/bend_paths.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
@@ -62,6 +63,34 @@ TEST(Leap, AsksForWhatStraightPathsTake) {
     EXPECT_NEAR(wanted(0.5, 0.5), -kDt * 0.25, 1e-12);
     EXPECT_NEAR(wanted(0.5, 0.0), 0.0, 1e-12);
     EXPECT_NEAR(wanted(-40.0, 40.0), 0.0625 / kDt, 1e-12) << "within its limit";
+}
+
+/// In whole numbers, too: to the unit that velocities have.
+TEST(Leap, PackedWorldsAskForTheSame) {
+    constexpr double kUnit = 1.0 / 128.0;
+    std::mt19937 random(1);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const double largest = trial % 2 == 0 ? 2.0 : 25.0;
+        Flow<double> exact(0.0, 0.0);
+        const std::int32_t c = exact.shape.index(5, 5);
+        std::vector<VelocityOf<SmallFixed>> u(exact.u.size()), v(exact.v.size());
+        for (std::size_t k = 0; k < u.size(); ++k) {
+            const auto any = [&] { return (static_cast<double>(random()) / 2147483648.0 - 1.0) * largest; };
+            u[k] = SmallFixed(any());
+            v[k] = SmallFixed(any());
+            exact.before_u[k] = static_cast<double>(u[k]);
+            exact.before_v[k] = static_cast<double>(v[k]);
+        }
+        StaggeredGrid<SmallFixed> grid;
+        grid.shape = exact.shape;
+        grid.mass_u = u.data();
+        grid.mass_v = v.data();
+        const PackedLeap leap(true, Seconds<SmallFixed>(1.0 / 64.0));
+        const double wanted = wanted_convergence(exact.grid, c, Leap<double>(1.0 / 64.0));
+        EXPECT_NEAR(wanted_convergence(grid, c, leap) * kUnit, wanted,
+                    kUnit * (1.0 + 0.02 * largest));
+        EXPECT_EQ(wanted_convergence(grid, c, PackedLeap(false, Seconds<SmallFixed>(1.0))), 0);
+    }
 }
 
 /// Rotating, (u·∇)u = −ω² (x, y): towards the centre.
