@@ -139,6 +139,79 @@ Real corner_area(const Real open[4], std::uint32_t solid_nodes, bool joined) {
     return area;
 }
 
+/// By Green's theorem an integral over the liquid is one along its rim, over y, of what is
+/// integrated over x from the cell's left edge on. Upper and lower edge give nothing, nor does the
+/// left one.
+template <class Real>
+void add_right_edge(Real low, Real high, OpenMoments<Real>& sums) {
+    const auto square = [](Real y) { return Real(0.5) * (y * y); };
+    const Real way = high - low;
+    const Real up = square(high) - square(low);
+    const Real above = square(maximum(high, Real(0))) - square(maximum(low, Real(0)));
+    sums.area += way;
+    sums.first.y += up;
+    sums.upper.x += Real(0.125) * way;
+    sums.upper.y += above;
+    sums.y_right += Real(0.125) * up;
+}
+
+/// A straight piece that lies in one quadrant: Simpson's rule is exact.
+template <class Real>
+void add_piece(Vec2<Real> p, Vec2<Real> q, OpenMoments<Real>& sums) {
+    const Vec2<Real> m = Real(0.5) * (p + q);
+    const Real way = q.y - p.y;
+    const auto along = [&](Real at_p, Real at_m, Real at_q) {
+        return way * ((at_p + at_q + Real(4) * at_m) * Real(1.0 / 6.0));
+    };
+    const auto half = [](Real x) { return Real(0.5) * (x * x) - Real(0.125); };
+    const Real half_p = half(p.x);
+    const Real half_m = half(m.x);
+    const Real half_q = half(q.x);
+    const Real x = along(half_p, half_m, half_q);
+    const auto wide = [](Vec2<Real> at) { return (at.x + Real(0.5)) * at.y; };
+    const Real y = along(wide(p), wide(m), wide(q));
+    const Real xy = along(half_p * p.y, half_m * m.y, half_q * q.y);
+    sums.area += way * (m.x + Real(0.5));
+    sums.first.x += x;
+    sums.first.y += y;
+    sums.product += xy;
+    if (m.x > Real(0)) {
+        sums.upper.x += x + Real(0.125) * way;
+        sums.y_right += xy + Real(0.125) * (way * m.y);
+    }
+    if (m.y > Real(0)) {
+        sums.upper.y += y;
+        sums.x_above += xy;
+    }
+}
+
+/// Where on its way from `from` to `to` a coordinate passes 0; 1 if it does not.
+template <class Real>
+Real passes_zero(Real from, Real to) {
+    const bool passes = (from > Real(0)) != (to > Real(0)) && from != to;
+    return passes ? from / (from - to) : Real(1);
+}
+
+template <class Real>
+void add_line(Vec2<Real> from, Vec2<Real> to, OpenMoments<Real>& sums) {
+    const Real on_x = passes_zero(from.x, to.x);
+    const Real on_y = passes_zero(from.y, to.y);
+    const Real parts[] = {minimum(on_x, on_y), maximum(on_x, on_y), Real(1)};
+    Vec2<Real> p = from;
+    for (const Real part : parts) {
+        const Vec2<Real> q = part < Real(1) ? from + part * (to - from) : to;
+        if (q.y != p.y) {
+            add_piece(p, q, sums);
+        }
+        p = q;
+    }
+}
+
+template <class Real>
+Vec2<Real> about_centre(Vec2<Real> p) {
+    return {p.x - Real(0.5), p.y - Real(0.5)};
+}
+
 }  // namespace
 
 template <class Real>
@@ -212,12 +285,33 @@ Real open_area(const Real distance[4]) {
     }
 }
 
+template <class Real>
+OpenMoments<Real> open_moments(const Real distance[4]) {
+    const std::uint8_t solid_nodes = contour_case(distance);
+    OpenMoments<Real> sums;
+    const bool low_solid = (solid_nodes & 2U) != 0;
+    const bool high_solid = (solid_nodes & 4U) != 0;
+    if (!low_solid || !high_solid) {
+        const Real half = Real(0.5);
+        const Real crossing =
+            low_solid != high_solid ? crossing_point(distance, kRight).y - half : half;
+        add_right_edge(low_solid ? crossing : -half, high_solid ? crossing : half, sums);
+    }
+    const CaseLines& table = lines_of(solid_nodes, solids_joined(distance));
+    for (std::int32_t i = 0; i < table.lines; ++i) {
+        add_line(about_centre(crossing_point(distance, table.crossing[i].from)),
+                 about_centre(crossing_point(distance, table.crossing[i].to)), sums);
+    }
+    return sums;
+}
+
 #define WEIR_INSTANTIATE(Real)                                                        \
     template std::uint8_t contour_case(const Real*);                                  \
     template ContourCell<Real> contour_cell(const Real*);                             \
     template ContourHit<Real> contour_distance(const ContourCell<Real>&, Vec2<Real>); \
     template Real open_fraction(Real, Real);                                          \
-    template Real open_area(const Real*);
+    template Real open_area(const Real*);                                             \
+    template OpenMoments<Real> open_moments(const Real*);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -63,12 +63,28 @@ Real open_fraction(Real distance_0, Real distance_1);
 template <class Real>
 Real open_area(const Real distance[4]);
 
+/// Integrals over the liquid in the unit cell, about its centre.
+template <class Real>
+struct OpenMoments {
+    Real area = Real(0);
+    Vec2<Real> first;   ///< ∫ x, ∫ y
+    Vec2<Real> upper;   ///< ∫ x⁺, ∫ y⁺, where x⁺ is x to the right of the centre and 0 to its left
+    Real x_above = Real(0);  ///< ∫ x y⁺
+    Real y_right = Real(0);  ///< ∫ x⁺ y
+    Real product = Real(0);  ///< ∫ x y
+};
+
+/// Exact for the contour lines, to rounding.
+template <class Real>
+OpenMoments<Real> open_moments(const Real distance[4]);
+
 #define WEIR_INSTANTIATE(Real)                                                               \
     extern template std::uint8_t contour_case(const Real*);                                  \
     extern template ContourCell<Real> contour_cell(const Real*);                             \
     extern template ContourHit<Real> contour_distance(const ContourCell<Real>&, Vec2<Real>); \
     extern template Real open_fraction(Real, Real);                                          \
-    extern template Real open_area(const Real*);
+    extern template Real open_area(const Real*);                                             \
+    extern template OpenMoments<Real> open_moments(const Real*);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

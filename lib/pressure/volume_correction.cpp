@@ -1,5 +1,6 @@
 #include "pressure/volume_correction.hpp"
 
+#include "pressure/excess.hpp"
 #include "pressure/patch_drift.hpp"
 #include "pressure/volume_packed.hpp"
 
@@ -7,55 +8,17 @@ namespace weir {
 
 namespace {
 
-template <class Real>
-constexpr Real kWindow = Real(1);
-
-/// At the surface the density is that of a few particles: only what exceeds this counts there.
-/// Without it the surface of an agitated pool stands 5 % of ten cells too high.
-template <class Real>
-constexpr Real kSurfaceSlack = Real(0.2);
-
 /// What a single cell may say in the mean of its patch, and what a patch may say.
 template <class Real>
 constexpr Real kCellWindow = Real(0.2);
 template <class Real>
 constexpr Real kPatchWindow = Real(0.03);
 
-/// Just below the surface density is known to this: lattices are no continuum.
-template <class Real>
-constexpr Real kSubsurfaceSlack = Real(0.03);
-
 /// A patch with that many liquid cells that are too dense by this in the mean has not the room for
 /// its liquid. (Of a cell no more than kCellWindow counts.)
 template <class Real>
 constexpr Real kOverfull = Real(0.15);
 constexpr std::int32_t kLeastOverfull = 8;
-
-/// A cell below the surface sees less than 1: its kernel reaches 1½ cells up. `lowest`: level of
-/// the neighbour that is nearest to the surface, one cell less than its own, at most ½. Counted as
-/// a deficit it would make a pool's surface creep; under surface tension that pull is what stills
-/// ripples.
-template <class Real>
-inline Real expected_deficit(Real lowest) {
-    const Real missing = Real(0.5) - lowest;
-    return Real(0.125) * missing * missing;
-}
-
-/// How much too dense a cell is, or too thin where liquid is all around.
-template <class Real>
-inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32_t c) {
-    Real e = f.density[c] - Real(1);
-    const Real lowest = minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
-                                      minimum<Real>(f.level[c - s.stride], f.level[c + s.stride]));
-    if (!(f.level[c] > Real(0) && lowest > Real(0))) {
-        return clamp<Real>(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
-    }
-    if (lowest < Real(0.5) && !f.on_surface) {
-        e += expected_deficit(lowest);
-        e -= clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
-    }
-    return clamp(e, -kWindow<Real>, kWindow<Real>);
-}
 
 /// Whether there is anything but solid in a patch.
 template <class Real>
@@ -128,22 +91,6 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
     }
 }
 
-template <class Real>
-void find_excess(const GridShape& s, const Part& rows, PressureFields<Real>& fields) {
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        std::int32_t c = s.index(0, j);
-        const std::int32_t end = s.index(s.nx, j);
-        if constexpr (kHasLanes<Real>) {
-            const ExcessLimits limits{kSurfaceSlack<Real>, kSubsurfaceSlack<Real>, kWindow<Real>,
-                                      fields.on_surface};
-            c = excess_lanes(fields, s.stride, limits, c, end);
-        }
-        for (; c < end; ++c) {
-            fields.divergence[c] = excess(s, fields, c);
-        }
-    }
-}
-
 template <bool Solids, class Real>
 void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed, bool pays,
              PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
@@ -152,6 +99,9 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     const GridShape& big = fields.coarse.shape;
     work.share(work.take(s.ny, s.nx), s.nx, 1,
                [&](const Part& rows, std::int32_t) { find_excess(s, rows, fields); });
+    if constexpr (Solids) {
+        find_excess_beside_walls(s, walls, fields, work);
+    }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
     }

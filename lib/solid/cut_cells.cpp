@@ -96,21 +96,100 @@ void close_slivers(const GridShape& s, const NodeBox& cells, const VelocityOf<Re
     }
 }
 
-/// The kernel with which particles reach a cell's density, over the open areas around it: what
-/// the cell shows when they are full. At the tank's walls the areas are mirrored, as masses are.
+/// The kernel with which particles reach a cell's density, over the whole of a cell by another.
 template <class Real>
-Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t i,
-                  std::int32_t j) {
+constexpr Real kOwnShare = Real(0.375);
+template <class Real>
+constexpr Real kSideShare = Real(0.125);
+template <class Real>
+constexpr Real kCornerShare = Real(0.03125);
+
+/// The same over the nine cells around one, each counted by `room`. At the tank's walls the cells
+/// are mirrored, as masses are.
+template <class Real, class Room>
+Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const Room& room) {
     const std::int32_t left = maximum(0, i - 1);
     const std::int32_t right = minimum(s.nx - 1, i + 1);
     const std::int32_t low = maximum(0, j - 1);
     const std::int32_t high = minimum(s.ny - 1, j + 1);
-    const auto at = [&](std::int32_t column, std::int32_t row) {
-        return area[s.index(column, row)];
+    const auto at = [&](std::int32_t column, std::int32_t row) -> Real {
+        return room(s.index(column, row));
     };
     const Real sides = (at(left, j) + at(right, j)) + (at(i, low) + at(i, high));
     const Real corners = (at(left, low) + at(right, low)) + (at(left, high) + at(right, high));
-    return Real(0.375) * at(i, j) + (Real(0.125) * sides + Real(0.03125) * corners);
+    return kOwnShare<Real> * at(i, j) + (kSideShare<Real> * sides + kCornerShare<Real> * corners);
+}
+
+/// Whether cut cells add to the cells around them what the kernel finds in them, exactly. Packed
+/// worlds take the liquid in a cut cell for spread evenly: sums of shares of 1/128 would be no
+/// better.
+template <class Real>
+constexpr bool kExactShares = !Stored<Real>::coarse;
+
+/// Density that a cell shows when all around it is full; without the cut cells if they add theirs.
+template <class Real>
+Real full_density(const GridShape& s, const Walls<Real>& walls, const VelocityOf<Real>* area,
+                  std::int32_t i, std::int32_t j) {
+    return kernel_over<Real>(s, i, j, [&](std::int32_t c) -> Real {
+        return kExactShares<Real> ? Real(walls.cell_case[c] == kOpen ? 1 : 0) : Real(area[c]);
+    });
+}
+
+/// Kernel of the nine cells around one over its liquid, by row and column. With t the hat function
+/// of a cell's width and h(x) = t(x − ½) + t(x + ½) it is ¼ [h(x) t(y) + t(x) h(y)].
+template <class Real>
+struct Shares {
+    Real of[3][3];
+};
+
+template <class Real>
+Shares<Real> kernel_shares(const OpenMoments<Real>& m) {
+    // Hats of the three columns over the liquid, and of the rows; then with the other coordinate.
+    const Real tx[3] = {m.upper.x - m.first.x, m.area - ((m.upper.x + m.upper.x) - m.first.x),
+                        m.upper.x};
+    const Real ty[3] = {m.upper.y - m.first.y, m.area - ((m.upper.y + m.upper.y) - m.first.y),
+                        m.upper.y};
+    const Real y_tx[3] = {m.y_right - m.product,
+                          m.first.y - ((m.y_right + m.y_right) - m.product), m.y_right};
+    const Real x_ty[3] = {m.x_above - m.product,
+                          m.first.x - ((m.x_above + m.x_above) - m.product), m.x_above};
+    const auto wide = [](Real t, Real moment, std::int32_t k) {
+        return k == 1 ? t : Real(0.5) * t + (k == 0 ? -moment : moment);
+    };
+    Shares<Real> shares;
+    for (std::int32_t row = 0; row < 3; ++row) {
+        for (std::int32_t column = 0; column < 3; ++column) {
+            shares.of[row][column] = Real(0.25) * (wide(ty[row], x_ty[row], column) +
+                                                   wide(tx[column], y_tx[column], row));
+        }
+    }
+    return shares;
+}
+
+/// Cut cells in and around some cells add theirs to them.
+template <class Real>
+void add_cut_cells(const GridShape& s, const NodeBox& cells, Walls<Real>& walls) {
+    const NodeBox around{maximum(0, cells.i0 - 1), maximum(0, cells.j0 - 1),
+                         minimum(s.nx - 1, cells.i1 + 1), minimum(s.ny - 1, cells.j1 + 1)};
+    for (std::int32_t j = around.j0; j <= around.j1; ++j) {
+        for (std::int32_t i = around.i0; i <= around.i1; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if (!is_cut(walls.cell_case[c])) {
+                continue;
+            }
+            const Shares<Real> shares =
+                kernel_shares(open_moments(corners_of(s, walls, c).distance));
+            for (std::int32_t k = 0; k < 9; ++k) {
+                const std::int32_t column = clamp(i + k % 3 - 1, 0, s.nx - 1);
+                const std::int32_t row = clamp(j + k / 3 - 1, 0, s.ny - 1);
+                if (column >= cells.i0 && column <= cells.i1 && row >= cells.j0 &&
+                    row <= cells.j1) {
+                    ShareOf<Real>& full = walls.full_density[s.index(column, row)];
+                    full = Real(full) + shares.of[k / 3][k % 3];
+                }
+            }
+        }
+    }
 }
 
 /// Cases of a cell and the ones below and above it, joined.
@@ -151,7 +230,7 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
             const bool near = any != kOpen && (left.all & middle.all & right.all) != kSolid;
             const std::int32_t c = s.index(i, j);
             walls.full_density[c] =
-                near ? full_density<Real>(s, area, i, j) : Real(any == kOpen ? 1 : 0);
+                near ? full_density<Real>(s, walls, area, i, j) : Real(any == kOpen ? 1 : 0);
             mark_near(walls, s, i, j,
                       near && (thin || is_mirrored<Real>(walls, walls.open_u[c], c, c + s.stride) ||
                                is_mirrored<Real>(walls, walls.open_v[c], c, c + 1)));
@@ -173,6 +252,9 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, bool thin,
     open_areas(shape, cells_around(shape, nodes, 2), walls, scratch);
     close_slivers(shape, inner, scratch, walls);
     look_around(shape, inner, scratch, thin, walls);
+    if constexpr (kExactShares<Real>) {
+        add_cut_cells(shape, inner, walls);
+    }
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \

@@ -38,10 +38,13 @@ struct FaceAxis {
                     : Vec2<Real>{d[1] - d[0], Real(0.25) * ((d[t] + d[t + 1]) -
                                                             (d[-t] + d[1 - t]))};
     }
+    /// In the middle of a thin solid either side is as near: that to which the axis points.
     Vec2<Real> normal(std::int32_t face) const {
         const Vec2<Real> along = gradient(face);
         const Real steepness = length(along);
-        return steepness > Real(0) ? (Real(1) / steepness) * along : Vec2<Real>{};
+        return steepness > Real(0)
+                   ? (Real(1) / steepness) * along
+                   : (is_u ? Vec2<Real>{Real(1), Real(0)} : Vec2<Real>{Real(0), Real(1)});
     }
     std::uint16_t sticking(std::int32_t face) const {
         return sticking_body(walls, face, face + other_node());

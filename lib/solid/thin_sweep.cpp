@@ -50,9 +50,28 @@ bool comes_first(const Crossing<Real>& crossing, const WallEdge& edge,
                                            : edge.from < nearest.edge->from;
 }
 
-/// First wall on the way to a place.
+/// A way that ends short of an edge by less than half of the clearance. What is not moved away from
+/// it could be on its other side by rounding when it next moves.
 template <class Real>
-Nearest<Real> first_wall(const Journey<Real>& journey, Vec2<Real> to) {
+Crossing<Real> touch_edge(Vec2<Real> p, Vec2<Real> q, Vec2<Real> a, Vec2<Real> b) {
+    const Vec2<Real> edge = b - a;
+    const Real size = absolute(edge.x) + absolute(edge.y);
+    const Product<Real> zero{};
+    const Product<Real> short_of_it = cross(edge, q - a);
+    const Product<Real> least = product(Real(0.25) * kClearance<Real>, size);
+    Crossing<Real> crossing;
+    if (short_of_it > zero - least && short_of_it < least) {
+        const Product<Real> along = dot(q - a, edge);
+        crossing.found = along >= zero && along <= dot(edge, edge);
+        crossing.from_left = cross(edge, p - a) >= zero;
+        crossing.part = Real(1);
+    }
+    return crossing;
+}
+
+/// First wall on the way to a place. `touching`: or at its end.
+template <class Real>
+Nearest<Real> first_wall(const Journey<Real>& journey, Vec2<Real> to, bool touching) {
     const ThinWalls<Real>& thin = journey.thin;
     const Real reach = journey.follow ? thin.reach : Real(0);
     const Vec2<Real> from = journey.before;
@@ -65,8 +84,12 @@ Nearest<Real> first_wall(const Journey<Real>& journey, Vec2<Real> to) {
         thin, journey.shape, floor_to_int(left), floor_to_int(low), floor_to_int(right),
         floor_to_int(high), [&](const WallEdge& edge) {
             const Vec2<Real> seen = start(journey, edge.slot);
-            const Crossing<Real> crossing =
-                cross_edge(seen, to, thin.vertex[edge.from], thin.vertex[edge.to]);
+            const Vec2<Real> a = thin.vertex[edge.from];
+            const Vec2<Real> b = thin.vertex[edge.to];
+            Crossing<Real> crossing = cross_edge(seen, to, a, b);
+            if (touching && !crossing.found) {
+                crossing = touch_edge(seen, to, a, b);
+            }
             const bool closed = !journey.bodies[edge.slot].open && crossing.from_left;
             if (crossing.found && !closed && comes_first(crossing, edge, nearest)) {
                 nearest = {crossing, &edge, seen};
@@ -95,6 +118,30 @@ std::int32_t wall_too_near(const ThinWalls<Real>& thin, const ThinStop<Real>& st
     return -1;
 }
 
+/// An edge of a closed body as a place stands to it.
+template <class Real>
+struct NearEdge {
+    std::uint16_t slot = 0;
+    Real distance = Real(0);
+    Real depth = Real(0);  ///< behind it, > 0 inside
+    Vec2<Real> normal;     ///< outwards
+};
+
+template <class Real>
+NearEdge<Real> near_edge(const ThinWalls<Real>& thin, const WallEdge& edge, Vec2<Real> place) {
+    const Vec2<Real> a = thin.vertex[edge.from];
+    const Vec2<Real> way = thin.vertex[edge.to] - a;
+    const Vec2<Real> left = left_normal(thin, edge);
+    const Real depth = dot(place - a, left);
+    const Vec2<Real> along{left.y, Real(0) - left.x};
+    const Real before = Real(0) - static_cast<Real>(dot(place - a, along));
+    const Real behind = Real(0) - (static_cast<Real>(dot(way, along)) + before);
+    const Real beyond = maximum(Real(0), maximum(before, behind));
+    // At a corner both edges are as near: the one that is seen less slantingly decides.
+    const Real distance = length(Vec2<Real>{beyond, depth}) + kHair<Real> * beyond;
+    return {edge.slot, distance, depth, Vec2<Real>{} - left};
+}
+
 }  // namespace
 
 template <class Real>
@@ -106,7 +153,7 @@ bool keep_side(const ThinWalls<Real>& thin, const GridShape& shape, const Body<R
     std::int32_t vertex[kMostHits];
     for (stop.count = 0; stop.count < kMostHits; ++stop.count) {
         const std::int32_t hit = stop.count;
-        const Nearest<Real> wall = first_wall(journey, stop.place);
+        const Nearest<Real> wall = first_wall(journey, stop.place, true);
         if (wall.edge != nullptr) {
             const Vec2<Real> left = left_normal(thin, *wall.edge);
             stop.slot[hit] = wall.edge->slot;
@@ -128,7 +175,7 @@ bool keep_side(const ThinWalls<Real>& thin, const GridShape& shape, const Body<R
     // In a corner too narrow to slide along: back to where it was, as the wall took it along.
     const Vec2<Real> places[] = {within_tank(shape, carried), before};
     for (const Vec2<Real> place : places) {
-        if (first_wall(journey, place).edge == nullptr) {
+        if (first_wall(journey, place, false).edge == nullptr) {
             stop.place = place;
             return true;
         }
@@ -139,40 +186,41 @@ bool keep_side(const ThinWalls<Real>& thin, const GridShape& shape, const Body<R
 template <class Real>
 bool way_out_of_thin(const ThinWalls<Real>& thin, const GridShape& shape,
                      const Body<Real>* bodies, Vec2<Real> place, ThinStop<Real>& stop) {
-    constexpr Real kHalf = Real(0.5);
+    // Bodies overlap: the nearest edge of each says whether it holds the place.
+    NearEdge<Real> nearest[kMostHits];
+    std::int32_t bodies_near = 0;
     const auto i = static_cast<std::int32_t>(place.x);
     const auto j = static_cast<std::int32_t>(place.y);
-    Real least = kHalf * kThin<Real> + kHair<Real>;
-    Real depth = Real(0);
-    bool inside = false;
     for_each_wall_edge(thin, shape, i - 1, j - 1, i + 1, j + 1, [&](const WallEdge& edge) {
         if (bodies[edge.slot].open) {
             return;
         }
-        const Vec2<Real> a = thin.vertex[edge.from];
-        const Vec2<Real> way = thin.vertex[edge.to] - a;
-        const Vec2<Real> left = left_normal(thin, edge);
-        const Real height = dot(place - a, left);
-        const Vec2<Real> along{left.y, Real(0) - left.x};
-        const Real before = Real(0) - static_cast<Real>(dot(place - a, along));
-        const Real behind = Real(0) - (static_cast<Real>(dot(way, along)) + before);
-        const Real beyond = maximum(Real(0), maximum(before, behind));
-        // At a corner both edges are as near: the one that is seen less slantingly decides.
-        const Real distance = length(Vec2<Real>{beyond, height}) + kHair<Real> * beyond;
-        if (!(distance < least)) {
-            return;
+        const NearEdge<Real> here = near_edge(thin, edge, place);
+        std::int32_t n = 0;
+        while (n < bodies_near && nearest[n].slot != edge.slot) {
+            ++n;
         }
-        least = distance;
-        depth = height;
-        inside = height > Real(0);
-        stop.slot[0] = edge.slot;
-        stop.normal[0] = Vec2<Real>{} - left;
+        if (n == bodies_near && n < kMostHits) {
+            nearest[n] = {edge.slot, Real(0.5) * kThin<Real> + kHair<Real>, Real(0), {}};
+            ++bodies_near;
+        }
+        if (n < kMostHits && here.distance < nearest[n].distance) {
+            nearest[n] = here;
+        }
     });
-    if (!inside) {
+    const NearEdge<Real>* out = nullptr;
+    for (std::int32_t n = 0; n < bodies_near; ++n) {
+        if (nearest[n].depth > Real(0) && (out == nullptr || nearest[n].distance < out->distance)) {
+            out = nearest + n;
+        }
+    }
+    if (out == nullptr) {
         return false;
     }
+    stop.slot[0] = out->slot;
+    stop.normal[0] = out->normal;
     stop.count = 1;
-    stop.place = within_tank(shape, place + (kClearance<Real> + depth) * stop.normal[0]);
+    stop.place = within_tank(shape, place + (kClearance<Real> + out->depth) * stop.normal[0]);
     return true;
 }
 

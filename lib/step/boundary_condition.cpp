@@ -167,6 +167,27 @@ bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_
     return !(distance < kDeepestMirror<Real>);
 }
 
+/// The same to the other side of a solid that is thin here. False: it is thick, or ends at the
+/// tank's wall.
+template <class Real>
+bool from_other_side(const FaceAxis<Real>& axis, const Edge<Real>& edge, Vec2<Real> normal,
+                     Mirror<Real>& mirror) {
+    const Vec2<Real> across = edge.centre - normal;
+    if (!in_tank(axis.s, across)) {
+        return false;
+    }
+    const auto i = static_cast<std::int32_t>(across.x);
+    const auto j = static_cast<std::int32_t>(across.y);
+    const Stencil<Real> at{axis.s.index(i, j), across.x - static_cast<Real>(i),
+                           across.y - static_cast<Real>(j)};
+    const Real distance = interpolate(axis.walls.distance, axis.s.stride, at) - Real(1);
+    if (distance > Real(0) || !(distance > Real(-1))) {
+        return false;
+    }
+    mirror = mirror_of(axis.s, axis.walls, edge, distance, Real(-1) * normal);
+    return true;
+}
+
 /// Where a face takes its velocity from. False: it keeps its own.
 template <class Real>
 bool is_image(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32_t i,
@@ -178,12 +199,15 @@ bool is_image(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32
     if (!is_mirrored<Real>(axis.walls, open, distance, face, other)) {
         return false;
     }
-    mirror = mirror_of(axis.s, axis.walls, {axis.centre(i, j), face, other}, distance,
-                       axis.normal(face));
-    mirror.open = open > Real(0);
-    if (!near_liquid(axis.s, level, mirror.point)) {
+    const Edge<Real> edge{axis.centre(i, j), face, other};
+    const Vec2<Real> normal = axis.normal(face);
+    mirror = mirror_of(axis.s, axis.walls, edge, distance, normal);
+    if (!near_liquid(axis.s, level, mirror.point) &&
+        !(from_other_side(axis, edge, normal, mirror) &&
+          near_liquid(axis.s, level, mirror.point))) {
         return false;
     }
+    mirror.open = open > Real(0);
     mirror.at_u = stencil_u(axis.s, mirror.point);
     mirror.at_v = stencil_v(axis.s, mirror.point);
     return true;

@@ -42,7 +42,7 @@ struct Table {
     }
 };
 constexpr Table kWithoutSolids = {{0, 59, 30, 44, 38, 170, 0}};
-constexpr Table kWithSolids = {{580, 59, 31, 56, 56, 1270, 0}};
+constexpr Table kWithSolids = {{940, 59, 31, 56, 56, 1270, 0}};
 
 bool g_within = true;
 

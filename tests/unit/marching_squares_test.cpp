@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -378,6 +379,48 @@ TYPED_TEST(MarchingSquares, OpenAreaMatchesClippingInAllCases) {
     }
     EXPECT_GT(saddles[0], 50);
     EXPECT_GT(saddles[1], 50);
+}
+
+TYPED_TEST(MarchingSquares, OpenMomentsMatchSamplesInAllCases) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> size(0.01, 1.0);
+    for (int trial = 0; trial < 16 * 8; ++trial) {
+        const int which = trial % 16;
+        double d[4];
+        for (int k = 0; k < 4; ++k) {
+            d[k] = (which >> k & 1) != 0 ? -size(random) : size(random);
+        }
+        const auto cell = contour_cell<double>(d);
+        constexpr int kSamples = 100;
+        OpenMoments<double> sum;
+        for (int k = 0; k < kSamples * kSamples; ++k) {
+            const Vec2<double> p{(k % kSamples + 0.5) / kSamples, (k / kSamples + 0.5) / kSamples};
+            if (contour_distance(cell, p).distance > 0.0) {
+                const double part = 1.0 / (kSamples * kSamples);
+                const double x = p.x - 0.5;
+                const double y = p.y - 0.5;
+                sum.area += part;
+                sum.first = sum.first + part * Vec2<double>{x, y};
+                sum.upper = sum.upper + part * Vec2<double>{std::max(x, 0.0), std::max(y, 0.0)};
+                sum.x_above += part * x * std::max(y, 0.0);
+                sum.y_right += part * y * std::max(x, 0.0);
+                sum.product += part * x * y;
+            }
+        }
+        const auto given = distances<TypeParam>(d);
+        const auto open = open_moments(given.at);
+        const auto expect = [&](auto value, double exact) {
+            EXPECT_NEAR(static_cast<double>(value), exact, 2e-3) << which;
+        };
+        EXPECT_NEAR(static_cast<double>(open.area), static_cast<double>(open_area(given.at)), 1e-4);
+        expect(open.first.x, sum.first.x);
+        expect(open.first.y, sum.first.y);
+        expect(open.upper.x, sum.upper.x);
+        expect(open.upper.y, sum.upper.y);
+        expect(open.x_above, sum.x_above);
+        expect(open.y_right, sum.y_right);
+        expect(open.product, sum.product);
+    }
 }
 
 }  // namespace

@@ -217,6 +217,27 @@ TEST(ThinWalls, WhoSlidesAlongTwoWallsKeepsItsDistanceToBoth) {
     EXPECT_GT(met_both, 1000);
 }
 
+/// A way that ends at a wall without crossing it is a hit, too, for the same reason.
+TEST(ThinWalls, WhoStopsAtAWallKeepsItsDistance) {
+    TestWorld<float> world(tank());
+    Ring line = {{16.1F, -8}, {16.4F, 40}};
+    const Vec2f from = line[0];  // cells
+    const Vec2f to = line[1];
+    add(*world, line_of(line));
+    const auto& state = *reinterpret_cast<const detail::WorldState<float>*>(world.memory());
+    for (int trial = 0; trial < 100; ++trial) {
+        const float height = 1.0e-5F * static_cast<float>(trial - 50);
+        const Vec2<float> at{from.x + (16.0F - from.y) / (to.y - from.y) * (to.x - from.x) + height,
+                             16.0F};
+        ThinStop<float> stop;
+        ASSERT_TRUE(keep_side(state.simulation.layers.thin, state.simulation.layers.shape,
+                              state.simulation.layers.walls.body, {at.x + 0.3F, at.y}, at, false,
+                              stop));
+        const float side = cross(to - from, stop.place - from) / length(to - from);
+        EXPECT_LT(side, -9.0e-4F) << height;
+    }
+}
+
 TEST(ThinWalls, AMovingLineTakesAlongWhatItMeets) {
     for (const bool told : {false, true}) {
         for (const float speed : {0.4F, 0.9F, 1.8F, 3.6F}) {
@@ -289,6 +310,21 @@ TEST(ThinWalls, APlatePutOverLiquidIsLeft) {
     }
     EXPECT_EQ(world->particle_positions().size, added);
     EXPECT_EQ(world->add_particle({0.32F, 0.1F}, {0, 0}), Status::particle_inside_solid);
+}
+
+/// In a plate, and nearer to an edge of another one from outside.
+TEST(ThinWalls, APlateIsLeftAlsoBesideAnother) {
+    TestWorld<float> world(tank());
+    ASSERT_EQ(world->add_particle({15.9F * kCell, 10.0F * kCell}, {0, 0}), Status::ok);
+    const Ring plate = rectangle(1.4F * kCell, 10 * kCell);
+    const Ring beside = rectangle(1.2F * kCell, 4 * kCell);
+    add(*world, body_of(plate, {16.0F * kCell, 10.0F * kCell}));
+    add(*world, body_of(beside, {16.6F * kCell, 10.0F * kCell}));
+    EXPECT_EQ(world->add_particle({15.9F * kCell, 10.0F * kCell}, {0, 0}),
+              Status::particle_inside_solid);
+    world->step(kFrame);
+    ASSERT_EQ(world->particle_positions().size, 1);
+    EXPECT_LT(world->particle_positions()[0].x, 15.3F);
 }
 
 TEST(ThinWalls, RoomForEdgesIsKeptAndGivenBack) {

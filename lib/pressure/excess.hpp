@@ -1,0 +1,108 @@
+// How much too dense cells are: what the volume stage drifts away from.
+#pragma once
+
+#include "pressure/pressure_fields.hpp"
+#include "pressure/volume_lanes.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+template <class Real>
+inline constexpr Real kWindow = Real(1);
+
+/// At the surface the density is that of a few particles: only what exceeds this counts there.
+/// Without it the surface of an agitated pool stands 5 % of ten cells too high.
+template <class Real>
+inline constexpr Real kSurfaceSlack = Real(0.2);
+
+/// Just below the surface density is known to this: lattices are no continuum.
+template <class Real>
+inline constexpr Real kSubsurfaceSlack = Real(0.03);
+
+/// A cell below the surface sees less than 1: its kernel reaches 1½ cells up. `lowest`: level of
+/// the neighbour that is nearest to the surface, one cell less than its own, at most ½. Counted as
+/// a deficit it would make a pool's surface creep; under surface tension that pull is what stills
+/// ripples.
+template <class Real>
+inline Real expected_deficit(Real lowest) {
+    const Real missing = Real(0.5) - lowest;
+    return Real(0.125) * missing * missing;
+}
+
+/// How much too dense a cell is, or too thin where liquid is all around. `lowest`: level of the
+/// lowest cell next to it.
+template <class Real>
+inline Real excess(const PressureFields<Real>& f, std::int32_t c, Real lowest) {
+    Real e = f.density[c] - Real(1);
+    if (!(f.level[c] > Real(0) && lowest > Real(0))) {
+        return clamp<Real>(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
+    }
+    if (lowest < Real(0.5) && !f.on_surface) {
+        e += expected_deficit(lowest);
+        e -= clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
+    }
+    return clamp(e, -kWindow<Real>, kWindow<Real>);
+}
+
+template <class Real>
+inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32_t c) {
+    return excess<Real>(f, c,
+                        minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
+                                      minimum<Real>(f.level[c - s.stride], f.level[c + s.stride])));
+}
+
+/// Beside closed faces: what is behind them is no surface.
+template <class Real>
+Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
+                        const PressureFields<Real>& f, std::int32_t c) {
+    Real lowest = f.level[c];
+    const auto look = [&](Real open, std::int32_t neighbour) {
+        lowest = open > Real(0) ? minimum<Real>(lowest, f.level[neighbour]) : lowest;
+    };
+    look(walls.open_u[c], c - 1);
+    look(walls.open_u[c + 1], c + 1);
+    look(walls.open_v[c], c - s.stride);
+    look(walls.open_v[c + s.stride], c + s.stride);
+    return excess<Real>(f, c, lowest);
+}
+
+/// Of the cells of some rows, into `divergence`.
+template <class Real>
+void find_excess(const GridShape& s, const Part& rows, PressureFields<Real>& fields) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        std::int32_t c = s.index(0, j);
+        const std::int32_t end = s.index(s.nx, j);
+        if constexpr (kHasLanes<Real>) {
+            const ExcessLimits limits{kSurfaceSlack<Real>, kSubsurfaceSlack<Real>, kWindow<Real>,
+                                      fields.on_surface};
+            c = excess_lanes(fields, s.stride, limits, c, end);
+        }
+        for (; c < end; ++c) {
+            fields.divergence[c] = excess(s, fields, c);
+        }
+    }
+}
+
+/// The same of the cells beside closed faces. What has little room shows little, and the density of
+/// few particles is known to the slack.
+template <class Real>
+void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
+                              PressureFields<Real>& fields, Work work) {
+    const auto look = [&](std::int32_t i, std::int32_t j) {
+        const std::int32_t c = s.index(i, j);
+        const Real e = excess_beside_wall(s, walls, fields, c);
+        const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
+        fields.divergence[c] = known * minimum<Real>(Real(1), walls.full_density[c]);
+    };
+    for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
+        look(i, j);
+        if (i > 0) {
+            look(i - 1, j);
+        }
+        if (j > 0) {
+            look(i, j - 1);
+        }
+    });
+}
+
+}  // namespace weir
