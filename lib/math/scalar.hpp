@@ -134,6 +134,11 @@ inline std::int32_t bound_key(float value) {
     __builtin_memcpy(&bits, &value, sizeof bits);
     return bits;
 }
+inline float of_bound_key(std::int32_t key) {
+    float value = 0.0F;
+    __builtin_memcpy(&value, &key, sizeof value);
+    return value;
+}
 
 /// Largest integer not above the value; |value| < 2^31.
 template <class Real>

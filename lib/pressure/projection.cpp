@@ -103,7 +103,9 @@ template <bool Solids, bool Mixed, class Real>
 void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
            PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    Real* p = fields.pressure;
+    Real* const p = fields.pressure;
+    const VelocityOf<Real>* const divergence = fields.divergence;
+    const VelocityOf<Real>* const inverse_diagonal = fields.inverse_diagonal;
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         const std::int32_t end = s.index(s.nx, j);
         std::int32_t c = s.index((j + colour) & 1, j);
@@ -112,10 +114,10 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
                                   kRelaxation<Real>, s.stride, c, end);
         }
         for (; c < end; c += 2) {
-            const Real inverse = fields.inverse_diagonal[c];
-            if (inverse != Real(0)) {
-                const Real target =
-                    (weights.weighted(p, c, inverse) - fields.divergence[c]) * absolute(inverse);
+            const Real inverse = inverse_diagonal[c];
+            if (magnitude_key(inverse) != magnitude_key(Real(0))) {
+                const Real target = (weights.weighted(p, c, inverse) - divergence[c]) *
+                                    (Solids ? absolute(inverse) : inverse);
                 p[c] += kRelaxation<Real> * (target - p[c]);
             }
         }

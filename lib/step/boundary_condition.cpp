@@ -315,7 +315,7 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     const Field<Real> was{{s, grid.mass_u, grid.mass_v}, fields.level, before<Real>};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
-    if constexpr (kHasLanes<Real>) {  // others have little room for code
+    if constexpr (!Stored<Real>::coarse) {  // those have little room for code
         const bool whole = enough && rows.first == 0 && rows.end == s.ny;
         if (whole && s.ny >= 2 * kTurns && work.pieces(s.ny, s.nx, 1) <= 1) {
             mirror_together(walls, fields, grid);

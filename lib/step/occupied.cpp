@@ -74,6 +74,34 @@ Extent<float> extent(const Particles<float>& particles) {
                             {maximum(high[0], high[2]), maximum(high[1], high[3])}};
     return extent_from(even, position, k, particles.count);
 }
+#else
+/// Places are not negative: they compare as whole numbers do. Of two the lower one can only be the
+/// lowest, the higher one the highest.
+template <>
+Extent<float> extent(const Particles<float>& particles) {
+    const Vec2<float>* position = particles.position;
+    using Key = decltype(bound_key(0.0F));
+    struct Range {
+        Key low;
+        Key high;
+        void add(Key a, Key b) {
+            const bool rises = a < b;
+            low = minimum(low, rises ? a : b);
+            high = maximum(high, rises ? b : a);
+        }
+    };
+    const Key first_x = bound_key(position[0].x);
+    const Key first_y = bound_key(position[0].y);
+    Range x{first_x, first_x};
+    Range y{first_y, first_y};
+    std::int32_t k = particles.count & 1;
+    for (; k < particles.count; k += 2) {
+        x.add(bound_key(position[k].x), bound_key(position[k + 1].x));
+        y.add(bound_key(position[k].y), bound_key(position[k + 1].y));
+    }
+    return {{of_bound_key(x.low), of_bound_key(y.low)},
+            {of_bound_key(x.high), of_bound_key(y.high)}};
+}
 #endif
 
 /// Cells first … end − 1 along an axis of so many.
