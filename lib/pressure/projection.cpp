@@ -105,7 +105,6 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
     const GridShape& s = weights.grid.shape;
     Real* const p = fields.pressure;
     const VelocityOf<Real>* const divergence = fields.divergence;
-    const VelocityOf<Real>* const inverse_diagonal = fields.inverse_diagonal;
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         const std::int32_t end = s.index(s.nx, j);
         std::int32_t c = s.index((j + colour) & 1, j);
@@ -114,7 +113,7 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
                                   kRelaxation<Real>, s.stride, c, end);
         }
         for (; c < end; c += 2) {
-            const Real inverse = inverse_diagonal[c];
+            const Real inverse = fields.inverse_diagonal[c];
             if (magnitude_key(inverse) != magnitude_key(Real(0))) {
                 const Real target = (weights.weighted(p, c, inverse) - divergence[c]) *
                                     (Solids ? absolute(inverse) : inverse);

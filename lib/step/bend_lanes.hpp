@@ -21,7 +21,28 @@ struct BendTask {
     std::int32_t stride;
     bool leaps;   ///< the row's cells may be straight
     bool leapt;   ///< those before its faces
+    std::int32_t first;  ///< cells of the row that touch neither side of the tank
+    std::int32_t last;
+    std::int32_t before;  ///< from their row down to that of the cells before its faces
 };
+
+/// No level is above it, but for the eight in the middle.
+constexpr float kNone = __builtin_inff();
+constexpr float kOnlyMiddle[] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone,
+                                 0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,
+                                 kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+
+/// What the levels about some cells have to exceed, if paths may go straight at all there.
+template <class L>
+inline auto least_inside(std::int32_t cell, std::int32_t first, std::int32_t last, bool leaps) {
+    if (!leaps || (cell >= first && cell + L::kLanes - 1 <= last)) {
+        return L::all(leaps ? 0.0F : kNone);
+    }
+    const std::int32_t low = clamp(first - cell, 0, 8);
+    const std::int32_t high = clamp(cell + L::kLanes - 1 - last, 0, 8);
+    return L::maximum(L::load(kOnlyMiddle + 8 - low),
+                      L::load(kOnlyMiddle + 16 - L::kLanes + high));
+}
 
 /// Whether all faces of some cells are wide open.
 template <class L>
@@ -48,41 +69,50 @@ inline auto slope_of_faces(const BendTask& task, std::int32_t face, std::int32_t
     return (low & high) ? L::all(0.5F) * sum : sum;
 }
 
+/// Bends a group of faces but for the first few, which are done. False: a solid touches their
+/// cells, nothing was done.
+template <class L>
+inline bool bend_group(const BendTask& task, std::int32_t face, std::int32_t done) {
+    auto kept = L::minimum(L::load(task.level + face), L::load(task.level + face - task.back)) >
+                L::all(kEmptyLevel<float>);
+    if (done > 0) {
+        kept &= L::load(kOnlyMiddle + 8 - done) == L::all(0.0F);
+    }
+    if (!L::any_true(kept)) {
+        return true;
+    }
+    if (task.open_u != nullptr &&
+        !(wide_open<L>(task, face) && wide_open<L>(task, face - task.back))) {
+        return false;
+    }
+    const std::int32_t beyond = face - task.back;
+    const auto here = lowest_around<L>(task.level, task.stride, face) >
+                      least_inside<L>(face, task.first, task.last, task.leaps);
+    const auto before = lowest_around<L>(task.level, task.stride, beyond) >
+                        least_inside<L>(beyond, task.first - task.before, task.last - task.before,
+                                        task.leapt);
+    const auto bent = kept & ~(here & before);
+    if (!L::any_true(bent)) {
+        return true;
+    }
+    const std::int32_t side = task.back == 1 ? task.stride : 1;
+    const float* across = task.across + face;
+    const auto mean =
+        L::all(0.25F) * ((L::load(across) + L::load(across - task.back)) +
+                         (L::load(across + side) + L::load(across + side - task.back)));
+    const auto turned = L::load(task.along + face) * slope_of_faces<L>(task, face, task.back) +
+                        mean * slope_of_faces<L>(task, face, side);
+    const auto share = (here | before) ? L::all(0.5F * task.bend_s) : L::all(task.bend_s);
+    const auto now = L::load(task.out + face);
+    L::store(task.out + face, bent ? now + share * turned : now);
+    return true;
+}
+
 /// Bends faces `face`, `face` + 1 … of a row as long as enough are left before `end` and no solid
-/// touches their cells; two cells and more from the row's ends. Returns the next one to do.
+/// touches their cells. Returns the next one to do.
 template <class L>
 inline std::int32_t bend_faces(const BendTask& task, std::int32_t face, std::int32_t end) {
-    for (; face + L::kLanes <= end; face += L::kLanes) {
-        const auto kept = L::minimum(L::load(task.level + face),
-                                     L::load(task.level + face - task.back)) >
-                          L::all(kEmptyLevel<float>);
-        if (!L::any_true(kept)) {
-            continue;
-        }
-        if (task.open_u != nullptr &&
-            !(wide_open<L>(task, face) && wide_open<L>(task, face - task.back))) {
-            break;
-        }
-        const auto above = [](bool asked) { return L::all(asked ? 0.0F : __builtin_inff()); };
-        const auto here = lowest_around<L>(task.level, task.stride, face) > above(task.leaps);
-        const auto before =
-            lowest_around<L>(task.level, task.stride, face - task.back) > above(task.leapt);
-        const auto bent = kept & ~(here & before);
-        if (!L::any_true(bent)) {
-            continue;
-        }
-        const std::int32_t side = task.back == 1 ? task.stride : 1;
-        const float* across = task.across + face;
-        const auto mean =
-            L::all(0.25F) * ((L::load(across) + L::load(across - task.back)) +
-                             (L::load(across + side) + L::load(across + side - task.back)));
-        const auto turned =
-            L::load(task.along + face) * slope_of_faces<L>(task, face, task.back) +
-            mean * slope_of_faces<L>(task, face, side);
-        const auto share =
-            (here | before) ? L::all(0.5F * task.bend_s) : L::all(task.bend_s);
-        const auto now = L::load(task.out + face);
-        L::store(task.out + face, bent ? now + share * turned : now);
+    for (; face + L::kLanes <= end && bend_group<L>(task, face, 0); face += L::kLanes) {
     }
     return face;
 }
@@ -91,13 +121,19 @@ inline std::int32_t bend_faces(const BendTask& task, std::int32_t face, std::int
 std::int32_t bend_wide(const BendTask& task, std::int32_t face, std::int32_t end);
 #endif
 
-inline std::int32_t bend_lanes(const BendTask& task, std::int32_t face, std::int32_t end) {
+/// All of them, if no solid touches their cells; faces from `row` on exist.
+inline std::int32_t bend_lanes(const BendTask& task, std::int32_t row, std::int32_t face,
+                               std::int32_t end) {
 #if WEIR_HAS_WIDE_LANES
     if (has_wide_lanes()) {
         face = bend_wide(task, face, end);
     }
 #endif
-    return bend_faces<FourLanes>(task, face, end);
+    face = bend_faces<FourLanes>(task, face, end);
+    // The last few with some of those that are done.
+    const std::int32_t back = end - 4;
+    const bool fits = face < end && back < face && back >= row;
+    return fits && bend_group<FourLanes>(task, back, face - back) ? end : face;
 }
 
 #endif

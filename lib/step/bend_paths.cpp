@@ -131,10 +131,12 @@ struct Bending {
     std::int32_t in_lanes([[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j) const {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
-            if (walls.thin == nullptr && i > 1 && (j > 0 || on_u())) {
+            if (walls.thin == nullptr && (i > 0 || !on_u()) && (j > 0 || on_u())) {
                 const auto inside = [&](std::int32_t y) {
-                    return fields.leaps && inside_tank(borders, s, 1, 1, y);
+                    return fields.leaps && (borders.wrap_y || (y > 0 && y + 1 < s.ny));
                 };
+                const std::int32_t row = s.index(0, j);
+                const std::int32_t side = borders.wrap_x ? -1 : 1;  // beyond a seam it goes on
                 const BendTask task{fields.level,
                                     walls.active ? walls.open_u : nullptr,
                                     walls.open_v,
@@ -145,9 +147,11 @@ struct Bending {
                                     back,
                                     s.stride,
                                     inside(j),
-                                    inside(on_u() ? j : j - 1)};
-                const std::int32_t row = s.index(0, j);
-                return bend_lanes(task, row + i, row + s.nx - 1) - row;
+                                    inside(on_u() ? j : j - 1),
+                                    row + side,
+                                    row + s.nx - 1 - side,
+                                    on_u() ? 0 : s.stride};
+                return bend_lanes(task, row, row + i, row + s.nx) - row;
             }
         }
 #endif
@@ -157,7 +161,7 @@ struct Bending {
     void row_in_lanes(std::int32_t first_i, std::int32_t j) const {
         for (std::int32_t i = first_i; i < s.nx;) {
             i = in_lanes(i, j);
-            const std::int32_t end = minimum(i < 2 ? i + 1 : i + 4, s.nx);
+            const std::int32_t end = minimum(on_u() && i == 0 ? 1 : i + 4, s.nx);
             for (; i < end; ++i) {
                 run(i, j, 1);
             }

@@ -41,8 +41,8 @@ struct Table {
         return most;
     }
 };
-constexpr Table kWithoutSolids = {{0, 59, 30, 44, 38, 170, 0}};
-constexpr Table kWithSolids = {{940, 59, 31, 56, 56, 1270, 0}};
+constexpr Table kWithoutSolids = {{0, 61, 28, 44, 38, 170, 0}};
+constexpr Table kWithSolids = {{1045, 61, 31, 55, 54, 1315, 0}};
 
 bool g_within = true;
 
