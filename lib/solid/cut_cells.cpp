@@ -126,15 +126,6 @@ Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const Room&
 template <class Real>
 constexpr bool kExactShares = !Stored<Real>::coarse;
 
-/// Density that a cell shows when all around it is full; without the cut cells if they add theirs.
-template <class Real>
-Real full_density(const GridShape& s, const Walls<Real>& walls, const VelocityOf<Real>* area,
-                  std::int32_t i, std::int32_t j) {
-    return kernel_over<Real>(s, i, j, [&](std::int32_t c) -> Real {
-        return kExactShares<Real> ? Real(walls.cell_case[c] == kOpen ? 1 : 0) : Real(area[c]);
-    });
-}
-
 /// Kernel of the nine cells around one over its liquid, by row and column. With t the hat function
 /// of a cell's width and h(x) = t(x − ½) + t(x + ½) it is ¼ [h(x) t(y) + t(x) h(y)].
 template <class Real>
@@ -179,24 +170,40 @@ void add_cut_cells(const GridShape& s, const NodeBox& cells, Walls<Real>& walls)
             }
             const Shares<Real> shares =
                 kernel_shares(open_moments(corners_of(s, walls, c).distance));
-            for (std::int32_t k = 0; k < 9; ++k) {
-                const std::int32_t column = clamp(i + k % 3 - 1, 0, s.nx - 1);
-                const std::int32_t row = clamp(j + k / 3 - 1, 0, s.ny - 1);
-                if (column >= cells.i0 && column <= cells.i1 && row >= cells.j0 &&
-                    row <= cells.j1) {
-                    ShareOf<Real>& full = walls.full_density[s.index(column, row)];
-                    full = Real(full) + shares.of[k / 3][k % 3];
+            for (std::int32_t y = 0; y < 3; ++y) {
+                const std::int32_t row = clamp(j + y - 1, 0, s.ny - 1);
+                for (std::int32_t x = 0; row >= cells.j0 && row <= cells.j1 && x < 3; ++x) {
+                    const std::int32_t column = clamp(i + x - 1, 0, s.nx - 1);
+                    if (column >= cells.i0 && column <= cells.i1) {
+                        ShareOf<Real>& full = walls.full_density[s.index(column, row)];
+                        full = Real(full) + shares.of[y][x];
+                    }
                 }
             }
         }
     }
 }
 
-/// Cases of a cell and the ones below and above it, joined.
+/// Cases of a cell and the ones below and above it, joined, and how many of them are open.
 struct Column {
     std::uint32_t any;
     std::uint32_t all;
+    std::int32_t own;
+    std::int32_t ends;
 };
+
+/// Density that a cell shows when all around it is full: without the cut cells if they add theirs.
+template <class Real>
+Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t i, std::int32_t j,
+                  const Column& left, const Column& middle, const Column& right) {
+    if constexpr (kExactShares<Real>) {
+        // Shares of the kernel are so many 32nds.
+        const std::int32_t sides = (left.own + right.own) + middle.ends;
+        return kCornerShare<Real> *
+               static_cast<Real>(12 * middle.own + 4 * sides + (left.ends + right.ends));
+    }
+    return kernel_over<Real>(s, i, j, [&](std::int32_t c) -> Real { return area[c]; });
+}
 
 /// Whether the mirror writes the face between two nodes: it is closed and not too deep, or the
 /// liquid may stick near it.
@@ -220,7 +227,9 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
             const std::uint32_t low = at[below];
             const std::uint32_t here = at[0];
             const std::uint32_t high = at[above];
-            return Column{low | here | high, low & here & high};
+            const auto open = [](std::uint32_t nodes) { return nodes == kOpen ? 1 : 0; };
+            return Column{low | here | high, low & here & high, open(here),
+                          open(low) + open(high)};
         };
         Column left = column(cells.i0 - 1);
         Column middle = column(cells.i0);
@@ -230,7 +239,8 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
             const bool near = any != kOpen && (left.all & middle.all & right.all) != kSolid;
             const std::int32_t c = s.index(i, j);
             walls.full_density[c] =
-                near ? full_density<Real>(s, walls, area, i, j) : Real(any == kOpen ? 1 : 0);
+                near ? full_density<Real>(s, area, i, j, left, middle, right)
+                     : Real(any == kOpen ? 1 : 0);
             mark_near(walls, s, i, j,
                       near && (thin || is_mirrored<Real>(walls, walls.open_u[c], c, c + s.stride) ||
                                is_mirrored<Real>(walls, walls.open_v[c], c, c + 1)));
