@@ -99,7 +99,7 @@ template <class Real>
 void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
                   const Part& rows, LevelOf<Real>* level) {
     const auto fill = [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        if (level[c] <= Real(0) && surrounded(s, borders, walls, level, i, j)) {
+        if (surrounded(s, borders, walls, level, i, j)) {
             level[c] = kFilledLevel<Real>;
         }
     };
@@ -117,7 +117,7 @@ void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<
         }
         for (; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (beside_liquid(level, s.stride, c)) {
+            if (level[c] <= Real(0) && beside_liquid(level, s.stride, c)) {
                 fill(i, j, c);
             }
         }
@@ -131,7 +131,10 @@ void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<
 // are quadratic; g(−s) = 1 − g(s).
 template <class Real>
 Real level_of_density(Real density) {
-    const Real full = clamp(density, Real(0), Real(1));
+    if (density >= Real(1)) {
+        return Real(1.5);
+    }
+    const Real full = maximum(density, Real(0));
     const bool upper = full > Real(0.5);
     const Real g = upper ? Real(1) - full : full;
     Real depth;
