@@ -9,7 +9,7 @@ namespace weir {
 /// As `Leap`. A slope in 128ths of 1/s times `scale` · 2^−shift is its part of a step, 2^−14.
 struct PackedLeap {
     PackedLeap(bool leaps, Seconds<SmallFixed> dt_s) : scale(leaps ? dt_s.raw : 0) {
-        while (scale >= 0x4000) {
+        while (scale >= 0x8000) {
             scale >>= 1;
             --shift;
         }
@@ -18,10 +18,10 @@ struct PackedLeap {
         }
     }
 
-    /// In a step, no more than a half: of more than a quarter the limit is all that is left.
-    std::int32_t of_step(std::int32_t slope) const {
-        constexpr std::int32_t kHalf = 1 << 13;
-        return clamp(rounded_shift(slope * scale, shift), -kHalf, kHalf);
+    /// Two slopes' product over a step times 2^−less, 2^−21. Of the first one no more than 1 in a
+    /// step counts: a quarter is at the limit.
+    std::int32_t product(std::int32_t a, std::int32_t b, std::int32_t less) const {
+        return saturated<15>((saturated<16>(a) * scale) >> (shift + less)) * saturated<16>(b);
     }
 
     std::int32_t scale;
@@ -35,14 +35,14 @@ inline std::int32_t wanted_convergence(const StaggeredGrid<SmallFixed>& grid, st
     const std::int32_t stride = grid.shape.stride;
     const VelocityOf<SmallFixed>* u = grid.mass_u + c;
     const VelocityOf<SmallFixed>* v = grid.mass_v + c;
-    const std::int32_t strain = ((u[1].raw - u[0].raw) - (v[stride].raw - v[0].raw)) / 2;
-    const std::int32_t u_over_y =
-        ((u[stride].raw + u[stride + 1].raw) - (u[-stride].raw + u[1 - stride].raw)) / 4;
-    const std::int32_t v_over_x =
-        ((v[1].raw + v[stride + 1].raw) - (v[-1].raw + v[stride - 1].raw)) / 4;
-    const std::int32_t det =
-        leap.of_step(strain) * strain + leap.of_step(u_over_y) * v_over_x;
-    return clamp(-rounded_shift(det, 14), -leap.most, leap.most);
+    const std::int32_t twice_strain = (u[1].raw - u[0].raw) - (v[stride].raw - v[0].raw);
+    const std::int32_t four_u_over_y =
+        (u[stride].raw + u[stride + 1].raw) - (u[-stride].raw + u[1 - stride].raw);
+    const std::int32_t four_v_over_x =
+        (v[1].raw + v[stride + 1].raw) - (v[-1].raw + v[stride - 1].raw);
+    const std::int32_t four_times = leap.product(twice_strain, twice_strain, 0) +
+                                    leap.product(four_u_over_y, four_v_over_x, 2);
+    return clamp(((1 << 15) - four_times) >> 16, -leap.most, leap.most);
 }
 
 }  // namespace weir

@@ -1,6 +1,7 @@
 // Density and surface level in whole numbers: levels from a table.
 #pragma once
 
+#include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -15,6 +16,9 @@ inline constexpr std::int8_t kDepth[] = {
     13, 12, 12, 12, 11, 11, 11, 10, 10, 9, 9, 9, 8, 8, 8, 7, 7, 7, 6, 6, 5, 5, 5, 4, 4, 4, 3, 3,
     3, 2, 2, 2, 1, 1, 1, 0, 0,
 };
+
+/// Level of an air cell that is taken as filled.
+inline constexpr std::int32_t kFilledRaw = 32;
 
 /// `density` in 256ths.
 inline std::int8_t packed_level(std::int32_t density) {
@@ -43,6 +47,31 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid, const Walls<Sm
             fields.level[c].raw = packed_level(density);
         }
     }
+}
+
+/// Whether liquid surrounds an air cell: it covers four fifths of the cell's open faces, three
+/// fifths of those of a cell that a contour crosses. A level just set by this rule is no evidence.
+[[gnu::noinline]] inline bool packed_surrounded(const GridShape& s,
+                                                const Borders<SmallFixed>& borders,
+                                                const Walls<SmallFixed>& walls,
+                                                const LevelOf<SmallFixed>* level, std::int32_t i,
+                                                std::int32_t j) {
+    const std::int32_t c = s.index(i, j);
+    const ShareOf<SmallFixed>* open_u = walls.active ? walls.open_u : nullptr;
+    const ShareOf<SmallFixed>* open_v = walls.active ? walls.open_v : nullptr;
+    std::int32_t open = 0;
+    std::int32_t covered = 0;
+    const auto face = [&](bool inside, const ShareOf<SmallFixed>* shares, std::int32_t at,
+                          std::int32_t neighbour) {
+        const std::int32_t share = !inside ? 0 : shares != nullptr ? shares[at].raw : 128;
+        open += share;
+        covered += level[neighbour].raw > 0 && level[neighbour].raw != kFilledRaw ? share : 0;
+    };
+    face(i > 0 || borders.wrap_x, open_u, c, c - 1);
+    face(i + 1 < s.nx || borders.wrap_x, open_u, c + 1, c + 1);
+    face(j > 0 || borders.wrap_y, open_v, c, c - s.stride);
+    face(j + 1 < s.ny || borders.wrap_y, open_v, c + s.stride, c + s.stride);
+    return open > 0 && 5 * covered >= (open_u != nullptr && walls.cell_case[c] != 0 ? 3 : 4) * open;
 }
 
 /// Most air cells are far from any liquid.

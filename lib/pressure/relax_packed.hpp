@@ -54,14 +54,33 @@ inline std::int32_t relaxed(std::int32_t here, std::int32_t residual, std::int32
 
 /// A cell with no weight in between: `Sides` of its faces are open, and liquid is behind each.
 template <int Sides, class Real>
-inline void relax_plain(const Real* below, Real* here, const Real* above,
-                        std::int32_t divergence, std::int32_t factor) {
+[[gnu::always_inline]] inline void relax_plain(Real* here, std::ptrdiff_t stride,
+                                               std::int32_t divergence, std::int32_t factor) {
     // In two's complement: with pressures at their limits it may wrap around, and is limited.
     const auto raw = [](Real pressure) { return static_cast<std::uint32_t>(pressure.raw); };
-    const std::uint32_t sum = (raw(here[-1]) + raw(here[1])) + (raw(*below) + raw(*above));
+    const std::uint32_t sum =
+        (raw(here[-1]) + raw(here[1])) + (raw(here[-stride]) + raw(here[stride]));
     const std::uint32_t flow = static_cast<std::uint32_t>(divergence) * 512U;
     here->raw = relaxed(here->raw, static_cast<std::int32_t>(sum - flow - Sides * raw(*here)),
                         factor);
+}
+
+/// 2048 / n, and for n = 0 as for 1.
+struct Inverses {
+    constexpr Inverses() {
+        for (std::int32_t n = 1; n <= 64; ++n) {
+            of[n] = static_cast<std::uint16_t>(2048 / n);
+        }
+    }
+    std::uint16_t of[65] = {2048};
+};
+inline constexpr Inverses kInverses;
+
+/// ω / n in 256ths without a division: of a diagonal rounded up to a 32nd of 2048, or an eighth.
+inline std::int32_t coarse_factor(std::int32_t step, std::int32_t diagonal) {
+    const int less = diagonal > 2048 ? 3 : 0;
+    const std::int32_t n = ((diagonal >> less) + 31) >> 5;
+    return minimum((step * kInverses.of[minimum(n, 64)]) >> (16 + less), 511);
 }
 
 /// A cell at the surface or at a wall; `step`: ω in 1/2^15ths.
@@ -73,7 +92,7 @@ template <bool Solids, class Real>
     const std::int32_t here = fields.pressure[c].raw;
     const std::int32_t sum = neighbours<Solids>(fields.pressure, walls, c, stride, kept);
     const std::int32_t flow = std::int32_t{fields.divergence[c].raw} * 512;
-    const std::int32_t factor = minimum(step / diagonal, 511);
+    const std::int32_t factor = coarse_factor(step, diagonal);
     fields.pressure[c].raw =
         relaxed(here, fixed::subtract(sum - flow, times_diagonal(diagonal, here)), factor);
 }
@@ -83,28 +102,22 @@ template <bool Solids, class Real>
 void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls, Real omega,
                       std::int32_t stride, std::int32_t c, std::int32_t end) {
     Real* here = fields.pressure + c;
-    const Real* below = here - stride;
-    const Real* above = here + stride;
-    const VelocityOf<Real>* divergence = fields.divergence + c;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;
     const VelocityOf<Real>* last = fields.inverse_diagonal + end;
+    // Both lie in the caller's memory.
+    const std::ptrdiff_t to_divergence = fields.divergence - fields.inverse_diagonal;
     const std::int32_t step = omega.raw >> 1;  // ω in 1/2^15ths, so that ω / n has 8 bits
     const std::int32_t step_of_4 = step / 512;
-    const std::int32_t step_of_3 = step / 384;
-    for (; diagonal < last; diagonal += 2) {
+    for (; diagonal < last; diagonal += 2, here += 2) {
         const std::int32_t kept = diagonal->raw;
         if (kept == 512) {
-            relax_plain<4>(below, here, above, divergence->raw, step_of_4);
+            relax_plain<4>(here, stride, diagonal[to_divergence].raw, step_of_4);
         } else if (kept == 384) {
-            relax_plain<3>(below, here, above, divergence->raw, step_of_3);
+            relax_plain<3>(here, stride, diagonal[to_divergence].raw, step / 384);
         } else if (kept != 0) {
             relax_rare<Solids>(fields, walls, step, stride,
                                static_cast<std::int32_t>(here - fields.pressure));
         }
-        below += 2;
-        here += 2;
-        above += 2;
-        divergence += 2;
     }
 }
 

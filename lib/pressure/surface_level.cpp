@@ -21,6 +21,7 @@ constexpr Real kFilledShareOfCut = Real(0.6);
 
 template <class Real>
 constexpr Real kFilledLevel = Real(0.5);
+static_assert(LevelOf<SmallFixed>(kFilledLevel<SmallFixed>).raw == kFilledRaw, "the same in both");
 
 /// Mass on those faces that a cell's centre sees past thin walls.
 template <class Real>
@@ -71,6 +72,9 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
 template <class Real>
 bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
                 const LevelOf<Real>* level, std::int32_t i, std::int32_t j) {
+    if constexpr (Stored<Real>::coarse) {
+        return packed_surrounded(s, borders, walls, level, i, j);
+    }
     const std::int32_t c = s.index(i, j);
     Real open = Real(0);
     Real covered = Real(0);

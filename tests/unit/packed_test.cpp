@@ -166,6 +166,20 @@ TEST(Packed, WhatIsAtRestStaysAsItIs) {
     }
 }
 
+// What leads liquid to rest does not hold back what was at rest until now.
+TEST(Packed, WhatIsLetGoFallsAtOnce) {
+    WorldDef def;
+    def.capacity.cells_x = 16;
+    def.capacity.cells_y = 16;
+    def.capacity.particles = 64;
+    def.cell_m = 0.02F;
+    const auto memory = measure::memory_for<SmallFixed>(def);
+    World<SmallFixed> world;
+    ASSERT_EQ(world.init(def, memory.data(), memory.size()), Status::ok);
+    ASSERT_EQ(world.fill({{0.12F, 0.20F}, {0.20F, 0.28F}}), Status::ok);
+    EXPECT_NEAR(world.step(1.0F / 60.0F).max_speed_mps, 9.81 / 60.0, 0.01 * 9.81 / 60.0);
+}
+
 TEST(Packed, LevelsAreThoseOfTheFormula) {
     for (std::int32_t density = 0; density <= 300; ++density) {
         const double level = level_of_density(density / 256.0);
