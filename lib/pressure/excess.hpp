@@ -88,19 +88,21 @@ void find_excess(const GridShape& s, const Part& rows, PressureFields<Real>& fie
 template <class Real>
 void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
                               PressureFields<Real>& fields, Work work) {
-    const auto look = [&](std::int32_t i, std::int32_t j) {
-        const std::int32_t c = s.index(i, j);
-        const Real e = excess_beside_wall(s, walls, fields, c);
-        const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
-        fields.divergence[c] = known * minimum<Real>(Real(1), walls.full_density[c]);
+    const auto look = [&](std::int32_t c) {
+        if (fields.level[c] > Real(0)) {  // else there is none
+            const Real e = excess_beside_wall(s, walls, fields, c);
+            const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
+            fields.divergence[c] = known * minimum<Real>(Real(1), walls.full_density[c]);
+        }
     };
     for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
-        look(i, j);
-        if (i > 0) {
-            look(i - 1, j);
+        const std::int32_t c = s.index(i, j);
+        look(c);
+        if (i > 0 && !is_near(walls, s, i - 1, j)) {
+            look(c - 1);
         }
-        if (j > 0) {
-            look(i, j - 1);
+        if (j > 0 && !is_near(walls, s, i, j - 1)) {
+            look(c - s.stride);
         }
     });
 }

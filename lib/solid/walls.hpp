@@ -58,6 +58,14 @@ inline void mark_near(Walls<Real>& walls, const GridShape& shape, std::int32_t i
     word = near ? word | bit : word & ~bit;
 }
 
+template <class Real>
+inline bool is_near(const Walls<Real>& walls, const GridShape& shape, std::int32_t i,
+                    std::int32_t j) {
+    const std::int32_t column = shape.i0 + i;
+    const std::uint32_t word = walls.near[(shape.j0 + j) * near_words(shape) + column / 32];
+    return (word >> (static_cast<std::uint32_t>(column) % 32U) & 1U) != 0;
+}
+
 /// Calls visit(i, j) for every cell of some rows that is marked, row by row. Where there is none,
 /// 32 cells cost one look. A part of the tank begins at a multiple of as many.
 template <class Real, class Visit>

@@ -172,19 +172,21 @@ bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_
 template <class Real>
 bool from_other_side(const FaceAxis<Real>& axis, const Edge<Real>& edge, Vec2<Real> normal,
                      Mirror<Real>& mirror) {
+    const GridShape& s = axis.s;
     const Vec2<Real> across = edge.centre - normal;
-    if (!in_tank(axis.s, across)) {
+    const Vec2<Real> inside = within_tank(s, across);
+    if (inside.x != across.x || inside.y != across.y) {
         return false;
     }
     const auto i = static_cast<std::int32_t>(across.x);
     const auto j = static_cast<std::int32_t>(across.y);
-    const Stencil<Real> at{axis.s.index(i, j), across.x - static_cast<Real>(i),
+    const Stencil<Real> at{s.index(i - s.i0, j - s.j0), across.x - static_cast<Real>(i),
                            across.y - static_cast<Real>(j)};
-    const Real distance = interpolate(axis.walls.distance, axis.s.stride, at) - Real(1);
+    const Real distance = interpolate(axis.walls.distance, s.stride, at) - Real(1);
     if (distance > Real(0) || !(distance > Real(-1))) {
         return false;
     }
-    mirror = mirror_of(axis.s, axis.walls, edge, distance, Real(-1) * normal);
+    mirror = mirror_of(s, axis.walls, edge, distance, Real(-1) * normal);
     return true;
 }
 
