@@ -29,10 +29,15 @@ inline Real expected_deficit(Real lowest) {
     return Real(0.125) * missing * missing;
 }
 
-/// How much too dense a cell is, or too thin where liquid is all around. `lowest`: level of the
-/// lowest cell next to it.
+/// Of a cell of liquid, as a pressure; a weaker gravity counts as this.
 template <class Real>
-inline Real excess(const PressureFields<Real>& f, std::int32_t c, Real lowest) {
+inline constexpr Real kLeastWeight = Real(1.0e-4);
+
+/// How much too dense a cell is, or too thin where liquid is all around. `lowest`: level of the
+/// lowest cell next to it. Liquid whose pressure is below the air's hangs under gravity: to draw it
+/// together would lift it, and nothing would pay. `hanging`: 1 / weight of a cell of liquid, or 0.
+template <class Real>
+inline Real excess(const PressureFields<Real>& f, Real hanging, std::int32_t c, Real lowest) {
     Real e = f.density[c] - Real(1);
     if (!(f.level[c] > Real(0) && lowest > Real(0))) {
         return clamp<Real>(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
@@ -41,12 +46,16 @@ inline Real excess(const PressureFields<Real>& f, std::int32_t c, Real lowest) {
         e += expected_deficit(lowest);
         e -= clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
     }
+    if (e < Real(0)) {
+        e = clamp<Real>(Real(1) + hanging * f.pressure[c], Real(0), Real(1)) * e;
+    }
     return clamp(e, -kWindow<Real>, kWindow<Real>);
 }
 
 template <class Real>
-inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32_t c) {
-    return excess<Real>(f, c,
+inline Real excess(const GridShape& s, const PressureFields<Real>& f, Real hanging,
+                   std::int32_t c) {
+    return excess<Real>(f, hanging, c,
                         minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
                                       minimum<Real>(f.level[c - s.stride], f.level[c + s.stride])));
 }
@@ -54,7 +63,7 @@ inline Real excess(const GridShape& s, const PressureFields<Real>& f, std::int32
 /// Beside closed faces: what is behind them is no surface.
 template <class Real>
 Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
-                        const PressureFields<Real>& f, std::int32_t c) {
+                        const PressureFields<Real>& f, Real hanging, std::int32_t c) {
     Real lowest = f.level[c];
     const auto look = [&](Real open, std::int32_t neighbour) {
         lowest = open > Real(0) ? minimum<Real>(lowest, f.level[neighbour]) : lowest;
@@ -63,22 +72,23 @@ Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
     look(walls.open_u[c + 1], c + 1);
     look(walls.open_v[c], c - s.stride);
     look(walls.open_v[c + s.stride], c + s.stride);
-    return excess<Real>(f, c, lowest);
+    return excess<Real>(f, hanging, c, lowest);
 }
 
 /// Of the cells of some rows, into `divergence`.
 template <class Real>
-void find_excess(const GridShape& s, const Part& rows, PressureFields<Real>& fields) {
+void find_excess(const GridShape& s, const Part& rows, Real hanging,
+                 PressureFields<Real>& fields) {
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t c = s.index(0, j);
         const std::int32_t end = s.index(s.nx, j);
         if constexpr (kHasLanes<Real>) {
             const ExcessLimits limits{kSurfaceSlack<Real>, kSubsurfaceSlack<Real>, kWindow<Real>,
-                                      fields.on_surface};
+                                      fields.on_surface, hanging};
             c = excess_lanes(fields, s.stride, limits, c, end);
         }
         for (; c < end; ++c) {
-            fields.divergence[c] = excess(s, fields, c);
+            fields.divergence[c] = excess(s, fields, hanging, c);
         }
     }
 }
@@ -86,11 +96,11 @@ void find_excess(const GridShape& s, const Part& rows, PressureFields<Real>& fie
 /// The same of the cells beside closed faces. What has little room shows little, and the density of
 /// few particles is known to the slack.
 template <class Real>
-void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
+void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls, Real hanging,
                               PressureFields<Real>& fields, Work work) {
     const auto look = [&](std::int32_t c) {
         if (fields.level[c] > Real(0)) {  // else there is none
-            const Real e = excess_beside_wall(s, walls, fields, c);
+            const Real e = excess_beside_wall(s, walls, fields, hanging, c);
             const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
             fields.divergence[c] = known * minimum<Real>(Real(1), walls.full_density[c]);
         }

@@ -92,15 +92,17 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
 }
 
 template <bool Solids, class Real>
-void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed, bool pays,
+void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed, Real weight,
              PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
              Work work) {
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
+    const bool pays = weight > Real(0);
+    const Real hanging = pays ? Real(1) / maximum(weight, kLeastWeight<Real>) : Real(0);
     work.share(work.take(s.ny, s.nx), s.nx, 1,
-               [&](const Part& rows, std::int32_t) { find_excess(s, rows, fields); });
+               [&](const Part& rows, std::int32_t) { find_excess(s, rows, hanging, fields); });
     if constexpr (Solids) {
-        find_excess_beside_walls(s, walls, fields, work);
+        find_excess_beside_walls(s, walls, hanging, fields, work);
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
@@ -131,7 +133,7 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 
 template <bool Solids, class Real>
 void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                 Real gain, bool pays, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
+                 Real gain, Real weight, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
                  std::int32_t& overfull, Work work) {
     if (work.once(1)) {
         overfull = 0;
@@ -139,7 +141,7 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
     if constexpr (Stored<Real>::coarse) {
         correct_packed<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
     } else {
-        correct<Solids>(borders, walls, gain / dt_s, pays, fields, grid, overfull, work);
+        correct<Solids>(borders, walls, gain / dt_s, weight, fields, grid, overfull, work);
     }
 }
 
@@ -147,26 +149,26 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
 
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, bool pays, PressureFields<Real>& fields,
+                       Real gain, Real weight, PressureFields<Real>& fields,
                        StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
     const auto stage = walls.active ? keep_volume<true, Real> : keep_volume<false, Real>;
-    stage(borders, walls, dt_s, gain, pays, fields, grid, overfull, work);
+    stage(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
 }
 
 template <class Real>
 void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                               Seconds<Real> dt_s, Real gain, bool pays,
+                               Seconds<Real> dt_s, Real gain, Real weight,
                                PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
                                std::int32_t& overfull, Work work) {
-    keep_volume<false, Real>(borders, walls, dt_s, gain, pays, fields, grid, overfull, work);
+    keep_volume<false, Real>(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                          \
     template void volume_correction(const Borders<Real>&, const Walls<Real>&,           \
-                                    Seconds<Real>, Real, bool, PressureFields<Real>&,   \
+                                    Seconds<Real>, Real, Real, PressureFields<Real>&,   \
                                     StaggeredGrid<Real>&, std::int32_t&, Work);         \
     template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,   \
-                                            Seconds<Real>, Real, bool, PressureFields<Real>&, \
+                                            Seconds<Real>, Real, Real, PressureFields<Real>&, \
                                             StaggeredGrid<Real>&, std::int32_t&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

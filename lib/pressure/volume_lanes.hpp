@@ -14,6 +14,7 @@ struct ExcessLimits {
     float subsurface_slack;
     float window;
     bool exact_below;  ///< no allowance below the surface
+    float hanging;     ///< 1 / weight of a cell of liquid; 0 without gravity
 };
 
 /// What the excess of cells and of patches is cut to, and of what a patch is overfull.
@@ -45,6 +46,7 @@ inline std::int32_t excess_cells(const PressureFields<float>& f, std::int32_t st
                                  const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
     const auto zero = L::all(0.0F);
     const auto half = L::all(0.5F);
+    const auto one = L::all(1.0F);
     const auto slack = L::all(limits.subsurface_slack);
     const auto window = L::all(limits.window);
     for (; c + L::kLanes <= end; c += L::kLanes) {
@@ -61,6 +63,9 @@ inline std::int32_t excess_cells(const PressureFields<float>& f, std::int32_t st
             const auto more = e + L::all(0.125F) * missing * missing;
             inside = below ? more - L::clamp(more, -slack, slack) : e;
         }
+        const auto under = one + L::all(limits.hanging) * L::load(f.pressure + c);
+        const auto held = L::clamp(under, zero, one);
+        inside = inside < zero ? held * inside : inside;
         L::store(f.divergence + c, inner ? L::clamp(inside, -window, window) : at_surface);
     }
     return c;

@@ -30,6 +30,7 @@ struct Walls {
     bool active = false;  ///< there are bodies; within a substep: and one is near the liquid
     bool moving = false;                ///< a body has a velocity or a spin
     bool binary = false;                ///< Contour::mid_edge
+    bool elastic = false;               ///< Pressure::equation_of_state
     bool sticking = false;              ///< the liquid is viscous, and a body without slip
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
     SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody

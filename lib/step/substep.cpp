@@ -225,9 +225,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection &&
         !plan.settling) {
         const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
-        // Without gravity nothing that is lifted falls again.
-        const bool pays = settings.gravity.x != Real(0) || settings.gravity.y != Real(0);
-        stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s), pays,
+        const Vec2<Real> g = settings.gravity;
+        const Real weight = maximum(absolute(g.x), absolute(g.y)) * dt_s;
+        stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s), weight,
               simulation.pressure, grid, report.cells_overfull, work);
     }
     clock.charge(Stage::volume);

@@ -62,7 +62,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,
                             vertex_capacity, vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, thin, nodes, scratch] = layers;
-    [[maybe_unused]] auto& [active, moving, binary, sticking, distance, nearest, cell_case,
+    [[maybe_unused]] auto& [active, moving, binary, elastic, sticking, distance, nearest, cell_case,
                             open_u, open_v, full_density, near, wall_body, thin_walls, wall_bodies,
                             wall_load, particle_mass] = walls;
     any_member(stream, settings.gravity);

@@ -154,10 +154,15 @@ Borders<Real> borders_of(const WorldDef& def, Face<Real> cells_per_m) {
     Borders<Real> borders;
     borders.wrap_x = def.periodic_x;
     borders.wrap_y = def.periodic_y;
-    borders.bottom = surface_law<Real>(def.walls.bottom, cells_per_m);
-    borders.right = surface_law<Real>(def.walls.right, cells_per_m);
-    borders.top = surface_law<Real>(def.walls.top, cells_per_m);
-    borders.left = surface_law<Real>(def.walls.left, cells_per_m);
+    const auto law = [&](const Surface& wall) {
+        SurfaceLaw<Real> result = surface_law<Real>(wall, cells_per_m);
+        result.no_slip = result.no_slip && def.viscosity_m2ps > 0.0F;  // otherwise nothing sticks
+        return result;
+    };
+    borders.bottom = law(def.walls.bottom);
+    borders.right = law(def.walls.right);
+    borders.top = law(def.walls.top);
+    borders.left = law(def.walls.left);
     return borders;
 }
 
@@ -242,6 +247,7 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     simulation.stages = &open_stages<Real>();
     simulation.layers.contour = def.contour;
     simulation.layers.walls.binary = def.contour == Contour::mid_edge;
+    simulation.layers.walls.elastic = def.pressure == Pressure::equation_of_state;
     name_units(*state_);
     for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {
         new (simulation.bodies.body + slot) Body<Real>();

@@ -133,6 +133,22 @@ float speed_above_a_belt(bool no_slip, bool viscous, float* drag) {
     return sum / static_cast<float>(count);
 }
 
+TEST(Surface, WallsStickToViscousLiquidAlone) {
+    const auto fall = [](bool no_slip, float viscosity_m2ps) {
+        WorldDef def = small_def();
+        def.viscosity_m2ps = viscosity_m2ps;
+        def.walls = every_wall({0.0F, 0.0F, no_slip, 0.0F});
+        TestWorld<float> world{def};
+        EXPECT_EQ(world->fill({{0.0F, 0.1F}, {0.1F, 0.3F}}), Status::ok);
+        for (int k = 0; k < 20; ++k) {
+            world->step(1.0F / 60.0F);
+        }
+        return world->state_hash();
+    };
+    EXPECT_EQ(fall(true, 0.0F), fall(false, 0.0F));
+    EXPECT_NE(fall(true, 2.0e-3F), fall(false, 2.0e-3F));
+}
+
 TEST(Surface, ViscousLiquidSticksToBodies) {
     float drag = 0;
     EXPECT_LT(std::fabs(speed_above_a_belt<float>(false, true, &drag)), 0.005F);
