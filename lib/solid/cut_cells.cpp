@@ -104,16 +104,16 @@ constexpr Real kSideShare = Real(0.125);
 template <class Real>
 constexpr Real kCornerShare = Real(0.03125);
 
-/// The same over the nine cells around one, each counted by `room`. At the tank's walls the cells
-/// are mirrored, as masses are.
-template <class Real, class Room>
-Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const Room& room) {
+/// The same over the open areas of the nine cells around one. At the tank's walls the cells are
+/// mirrored, as masses are.
+template <class Real>
+Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const VelocityOf<Real>* area) {
     const std::int32_t left = maximum(0, i - 1);
     const std::int32_t right = minimum(s.nx - 1, i + 1);
     const std::int32_t low = maximum(0, j - 1);
     const std::int32_t high = minimum(s.ny - 1, j + 1);
     const auto at = [&](std::int32_t column, std::int32_t row) -> Real {
-        return room(s.index(column, row));
+        return area[s.index(column, row)];
     };
     const Real sides = (at(left, j) + at(right, j)) + (at(i, low) + at(i, high));
     const Real corners = (at(left, low) + at(right, low)) + (at(left, high) + at(right, high));
@@ -206,7 +206,7 @@ Real full_density(const GridShape& s, const Walls<Real>& walls, const VelocityOf
         return kCornerShare<Real> *
                static_cast<Real>(12 * middle.own + 4 * sides + (left.ends + right.ends));
     }
-    return kernel_over<Real>(s, i, j, [&](std::int32_t c) -> Real { return area[c]; });
+    return kernel_over<Real>(s, i, j, area);
 }
 
 /// Whether the mirror writes the face between two nodes: it is closed and not too deep, or the

@@ -23,10 +23,11 @@ public:
         : s_(s),
           level_(level),
           count_(minimum(kColumns, s.nx - first) + 3),
+          with_first_((count_ > 3 ? (0xFFFFFFFFU >> (35 - count_)) << 2U : 0U) |
+                      (first == 1 ? 2U : 0U)),
           j(row),
           place(s.index(first - 2, row)),
-          of_u(count_ > 3 ? (0xFFFFFFFFU >> (35 - count_)) << 2U : 0U),
-          with_first_(first == 1 ? of_u | 2U : of_u),
+          of_u(with_first_ & ~2U),
           under(j > 0 ? look(-2) : CellBits()),
           below(look(-1)),
           here(look(0)),
@@ -64,15 +65,12 @@ private:
     const GridShape& s_;
     const LevelOf<Real>* level_;
     std::int32_t count_;
+    std::uint32_t with_first_;  ///< the columns, and column 0 where it is before them
 
 public:
     std::int32_t j;
     std::int32_t place;    ///< index of the lowest bit's cell in row j
     std::uint32_t of_u;    ///< u faces that are looked at
-private:
-    std::uint32_t with_first_;
-
-public:
     CellBits under;        ///< row j − 2; none where j is 0
     CellBits below;
     CellBits here;

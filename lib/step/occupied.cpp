@@ -18,7 +18,7 @@ constexpr std::int32_t kRowsAtOnce = 2 * kCoarseEdge;
 
 template <class Real>
 Extent<Real> extent_from(Extent<Real> so_far, const Vec2<PositionOf<Real>>* position,
-                       std::int32_t first, std::int32_t count) {
+                         std::int32_t first, std::int32_t count) {
     for (std::int32_t k = first; k < count; ++k) {
         so_far.add({position[k], position[k]});
     }
@@ -191,7 +191,7 @@ void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape&
 }
 
 #define WEIR_INSTANTIATE(Real)                                                               \
-    template Extent<Real> extent_of(const Particles<Real>&);                                   \
+    template Extent<Real> extent_of(const Particles<Real>&);                                 \
     template GridShape occupied_part(const GridShape&, const Borders<Real>&,                 \
                                      const Extent<Real>&, bool);                              \
     template bool walls_reach(const GridShape&, const BodyTable<Real>&, const Walls<Real>&); \

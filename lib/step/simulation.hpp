@@ -29,7 +29,7 @@ struct Simulation {
     Real* body_diagonal = nullptr;                      ///< for them, a cell field
     Contacts<Real> contacts;
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
-    Extent<Real> extent;         ///< of all particles
+    Extent<Real> extent;       ///< of all particles
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;
     const Stages<Real>* stages = nullptr;
