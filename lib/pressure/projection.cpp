@@ -41,13 +41,13 @@ Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     const Real* p = fields.pressure;
     Solve<Real> row;
     const std::int32_t end = s.index(s.nx, j);
-    for (std::int32_t c = s.index(0, j); c < end; ++c) {
-        if constexpr (kHasLanes<Real> && !Mixed) {
-            c = weigh_lanes(fields, s.stride, c, end, row.there);
-            if (c == end) {
-                break;
-            }
-        }
+    std::int32_t c = s.index(0, j);
+    if constexpr (kHasLanes<Real> && !Mixed) {
+        const Walls<Real>& walls = weights.walls;
+        c = weigh_lanes(fields, Solids ? walls.open_u : nullptr, walls.open_v, s.stride, c, end,
+                        row.there);
+    }
+    for (; c < end; ++c) {
         const Real inverse = fields.inverse_diagonal[c];
         if (inverse != Real(0)) {
             row.there = row.there - product(p[c], weights.weighted(p, c, inverse));

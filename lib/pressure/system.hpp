@@ -125,13 +125,66 @@ void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
     system.there = system.there + product(start * diagonal, start);
 }
 
-/// Cells i … i + 3 in one, if they are alike. False: to be done one by one.
+#if WEIR_HAS_LANES
+
+/// Cells i … i + 3 of any kind in one. False: to be done one by one.
+template <bool Solids>
+bool build_any_four(const FaceWeights<Solids, false, float>& weights, std::int32_t i,
+                    std::int32_t j, const Leap<float>& leap, PressureFields<float>& fields,
+                    Solve<float>& system) {
+    const Walls<float>& walls = weights.walls;
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t c = s.index(i, j);
+    const Lanes one = all_lanes(1.0F);
+    const auto is = [](bool there) { return there ? 1.0F : 0.0F; };
+    FourFaces faces{{is(weights.has_left(i)), 1.0F, 1.0F, 1.0F},
+                    {1.0F, 1.0F, 1.0F, is(weights.has_right(i + 3))},
+                    all_lanes(is(weights.has_lower(j))),
+                    all_lanes(is(weights.has_upper(j)))};
+    FourKinds kinds{one == one, {}};
+    if constexpr (Solids) {
+        const std::int32_t up = c + s.stride;
+        const FourFaces open{load_lanes(walls.open_u + c), load_lanes(walls.open_u + c + 1),
+                             load_lanes(walls.open_v + c), load_lanes(walls.open_v + up)};
+        kinds.wide = least_of(open) == one;
+        faces = {faces.left * open.left, faces.right * open.right, faces.lower * open.lower,
+                 faces.upper * open.upper};
+    }
+    if (fields.leaps) {
+        kinds.straight = (lowest_around<FourLanes>(fields.level, s.stride, c) > all_lanes(0.0F)) &
+                         (least_of(faces) == one);
+    }
+    const auto add_flow = [&]([[maybe_unused]] std::int32_t cell, [[maybe_unused]] Lanes& flow,
+                              [[maybe_unused]] LaneMask wet) {
+        if constexpr (Solids) {
+            for (std::int32_t k = 0; walls.moving && k < 4; ++k) {
+                if (wet[k] != 0 && (kinds.wide[k] == 0 || touches_wall(walls, cell + k))) {
+                    flow[k] += wall_flow(s, walls, i + k, j);
+                }
+            }
+        }
+    };
+    bool any = false;
+    if (!build_any_four(weights.grid, faces, kinds, leap, system.rescale, c, fields, system,
+                        add_flow, any)) {
+        return false;
+    }
+    if (any) {
+        system.first_row = minimum(system.first_row, j);
+        system.last_row = j;
+    }
+    return true;
+}
+
+#endif
+
+/// Cells i … i + 3 in one. False: to be done one by one.
 template <bool Solids, bool Mixed, class Real>
-bool build_alike([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weights,
-                 [[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j,
-                 [[maybe_unused]] const Leap<Real>& leap,
-                 [[maybe_unused]] PressureFields<Real>& fields,
-                 [[maybe_unused]] Solve<Real>& system) {
+bool build_in_lanes([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weights,
+                    [[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j,
+                    [[maybe_unused]] const Leap<Real>& leap,
+                    [[maybe_unused]] PressureFields<Real>& fields,
+                    [[maybe_unused]] Solve<Real>& system) {
 #if WEIR_HAS_LANES
     if constexpr (kHasLanes<Real> && !Mixed) {
         const Walls<Real>& walls = weights.walls;
@@ -143,29 +196,18 @@ bool build_alike([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weight
             store_lanes(fields.pressure + c, all_lanes(0.0F));
             return true;
         }
-        if (Solids && (!four_untouched(walls, s.stride, c, !walls.moving) ||
-                       (walls.moving && walls.thin != nullptr))) {
-            return false;
-        }
         const bool inner = inside_tank(weights.borders, s, i, i + 3, j);
-        if (around == Around::liquid && inner) {
+        const bool moving_thin = walls.moving && walls.thin != nullptr;
+        if (around == Around::liquid && inner &&
+            (!Solids || (four_untouched(walls, s.stride, c, !walls.moving) && !moving_thin))) {
             if (!build_four(weights.grid, leap, system.rescale, c, fields, system)) {
                 return false;
             }
-        } else {
-            const auto is = [](bool there) { return there ? 1.0F : 0.0F; };
-            const FourFaces faces{{is(weights.has_left(i)), 1.0F, 1.0F, 1.0F},
-                                  {1.0F, 1.0F, 1.0F, is(weights.has_right(i + 3))},
-                                  all_lanes(is(weights.has_lower(j))),
-                                  all_lanes(is(weights.has_upper(j)))};
-            if (fields.on_surface ||
-                !build_any_four(weights.grid, faces, leap, system.rescale, c, fields, system)) {
-                return false;
-            }
+            system.first_row = minimum(system.first_row, j);
+            system.last_row = j;
+            return true;
         }
-        system.first_row = minimum(system.first_row, j);
-        system.last_row = j;
-        return true;
+        return !fields.on_surface && build_any_four(weights, i, j, leap, fields, system);
     }
 #endif
     return false;
@@ -220,7 +262,8 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     system.rescale = fields.solve.rescale;
     for (std::int32_t i = 0; i < s.nx;) {
         const std::int32_t end = kHasLanes<Real> ? minimum(i + 4, s.nx) : s.nx;
-        if (kHasLanes<Real> && i + 4 == end && build_alike(weights, i, j, leap, fields, system)) {
+        if (kHasLanes<Real> && i + 4 == end &&
+            build_in_lanes(weights, i, j, leap, fields, system)) {
             i = end;
         }
         for (; i < end; ++i) {

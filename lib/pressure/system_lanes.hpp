@@ -1,5 +1,4 @@
-// The projection's equations four cells at a time, where liquid is all around and no wall is near:
-// the plain loops' sums, and so their bits. Elsewhere the plain loops do them.
+// The projection's equations four cells at a time: the plain loops' sums, and so their bits.
 #pragma once
 
 #include "math/lanes.hpp"
@@ -69,7 +68,7 @@ inline bool build_four(const StaggeredGrid<float>& grid, const Leap<float>& leap
     return true;
 }
 
-/// 1 for each face of four cells that belongs to the tank, 0 for one on its walls.
+/// The open share of each face of four cells; 0 on the tank's walls.
 struct FourFaces {
     Lanes left;
     Lanes right;
@@ -77,71 +76,93 @@ struct FourFaces {
     Lanes upper;
 };
 
-/// As `liquid_fraction` with open faces, where one of the levels is above 0 and the other not.
-inline Lanes fraction_between(Lanes a, Lanes b) {
-    const Lanes liquid = maximum(a, b);
-    return maximum(all_lanes(0.05F), liquid / (liquid - minimum(a, b)));
+inline Lanes least_of(const FourFaces& faces) {
+    return minimum(minimum(faces.left, faces.right), minimum(faces.lower, faces.upper));
 }
 
-/// The equations of four cells of any kind whose faces are open, but for the tank's walls. False:
-/// the start is no number.
+/// As `liquid_fraction`, where one of the levels is above 0 and the other not.
+inline Lanes fraction_between(Lanes a, Lanes b, Lanes open) {
+    const Lanes liquid = maximum(a, b);
+    const Lanes least = maximum(all_lanes(0.05F), all_lanes(1.0F) - all_lanes(4.0F) * open);
+    return maximum(least, liquid / (liquid - minimum(a, b)));
+}
+
+/// What four cells are to their equations.
+struct FourKinds {
+    LaneMask wide;      ///< all faces are open, but for the tank's walls
+    LaneMask straight;  ///< and the pressure sees to what straight paths do (`goes_straight`)
+};
+
+/// The equations of four cells of any kind. add_flow(c, divergence, which of them are wet): what
+/// moving walls push into them. `any`: whether one of them is wet. False: the start is no number.
+template <class Flow>
 inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& faces,
-                           const Leap<float>& leap, float rescale, std::int32_t c,
-                           PressureFields<float>& fields, Solve<float>& system) {
+                           const FourKinds& kinds, const Leap<float>& leap, float rescale,
+                           std::int32_t c, PressureFields<float>& fields, Solve<float>& system,
+                           const Flow& add_flow, bool& any) {
     const std::int32_t stride = grid.shape.stride;
     const std::int32_t up = c + stride;
     const Lanes zero = all_lanes(0.0F);
     const Lanes level = load_lanes(fields.level + c);
     const auto coefficient = [&](Lanes weight, std::int32_t at) {
         const Lanes beside = load_lanes(fields.level + at);
-        return beside > zero ? weight : weight / fraction_between(level, beside);
+        return beside > zero ? weight : weight / fraction_between(level, beside, weight);
     };
     const Lanes diagonal = (coefficient(faces.left, c - 1) + coefficient(faces.right, c + 1)) +
                            (coefficient(faces.lower, c - stride) + coefficient(faces.upper, up));
     const LaneMask wet = (level > zero) & (diagonal > zero);
-    Lanes divergence =
-        (faces.right * load_lanes(grid.u + c + 1) - faces.left * load_lanes(grid.u + c)) +
-        (faces.upper * load_lanes(grid.v + up) - faces.lower * load_lanes(grid.v + c));
-    const Lanes least = lowest_around<FourLanes>(fields.level, stride, c);
-    const LaneMask straight = (least > zero) & (minimum(minimum(faces.left, faces.right),
-                                                        minimum(faces.lower, faces.upper)) > zero);
-    if (fields.leaps && any_true(straight)) {
-        const Lanes wanted = divergence + wanted_convergence_lanes(grid, c, leap);
-        divergence = straight ? wanted : divergence;
-    }
     const Lanes scaled = load_lanes(fields.pressure + c) * all_lanes(rescale);
     if (!all_true((absolute(scaled) < all_lanes(__builtin_inff())) | (wet == 0))) {
         return false;
     }
+    Lanes divergence =
+        (faces.right * load_lanes(grid.u + c + 1) - faces.left * load_lanes(grid.u + c)) +
+        (faces.upper * load_lanes(grid.v + up) - faces.lower * load_lanes(grid.v + c));
+    if (any_true(kinds.straight)) {
+        const Lanes wanted = divergence + wanted_convergence_lanes(grid, c, leap);
+        divergence = kinds.straight ? wanted : divergence;
+    }
+    add_flow(c, divergence, wet);
     const Lanes start = wet ? scaled : zero;
+    const Lanes one = all_lanes(1.0F);
     store_lanes(fields.divergence + c, wet ? divergence : load_lanes(fields.divergence + c));
     store_lanes(fields.inverse_diagonal + c,
-                wet ? all_lanes(1.0F) / (wet ? diagonal : all_lanes(1.0F)) : zero);
+                wet ? (kinds.wide ? one : -one) / (wet ? diagonal : one) : zero);
     store_lanes(fields.pressure + c, start);
     system.wanted = subtract_in_order(system.wanted, wet ? start * divergence : zero);
     system.there = add_in_order(system.there, wet ? (start * diagonal) * start : zero);
+    any = any_true(wet);
     return true;
 }
 
-/// Takes pᵀ(neighbours of p) from `there`, cells c … as long as four are alike before `end`:
-/// inner liquid or air. Returns the next cell to do.
-inline std::int32_t weigh_lanes(const PressureFields<float>& fields, std::int32_t stride,
-                                std::int32_t c, std::int32_t end, float& there) {
+/// Takes pᵀ(neighbours of p) from `there`, cells c … as long as four are left before `end`.
+/// `open_u` null: no solids. Returns the next cell to do.
+inline std::int32_t weigh_lanes(const PressureFields<float>& fields, const float* open_u,
+                                const float* open_v, std::int32_t stride, std::int32_t c,
+                                std::int32_t end, float& there) {
     const Lanes zero = all_lanes(0.0F);
     for (; c + 4 <= end; c += 4) {
         const Lanes inverse = load_lanes(fields.inverse_diagonal + c);
-        if (all_true(inverse > zero)) {
-            const Lanes p = load_lanes(fields.pressure + c);
-            there = subtract_in_order(there, p * neighbours_of_four(fields.pressure, stride, c));
-        } else if (!all_true(inverse == zero)) {
-            return c;
+        const LaneMask wet = inverse != zero;
+        if (!any_true(wet)) {
+            continue;
         }
+        const float* at = fields.pressure + c;
+        Lanes around = neighbours_of_four(fields.pressure, stride, c);
+        if (open_u != nullptr && any_negative(inverse)) {
+            const Lanes weighted = (load_lanes(open_u + c) * load_lanes(at - 1) +
+                                    load_lanes(open_u + c + 1) * load_lanes(at + 1)) +
+                                   (load_lanes(open_v + c) * load_lanes(at - stride) +
+                                    load_lanes(open_v + c + stride) * load_lanes(at + stride));
+            around = inverse < zero ? weighted : around;
+        }
+        there = subtract_in_order(there, wet ? load_lanes(at) * around : zero);
     }
     return c;
 }
 
 /// velocity −= the pressure's rise across both faces of cells i … in a row, as long as four are
-/// left and their faces are open. `has_lower`: otherwise their lower faces are the tank's wall.
+/// left. `has_lower`: otherwise their lower faces are the tank's wall. `open_u` null: no solids.
 /// Returns how many.
 inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const float* open_u,
                                      const float* open_v, const GridShape& s, std::int32_t i,
@@ -151,12 +172,12 @@ inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const 
     const std::int32_t first = s.index(i, j);
     const std::int32_t end = s.index(s.nx, j);
     std::int32_t c = first;
-    const auto at_surface = [&](float* velocity, Lanes here, Lanes before, Lanes rise) {
+    const auto any_kind = [&](float* velocity, Lanes here, Lanes before, Lanes rise, Lanes open) {
         const Lanes now = load_lanes(velocity + c);
         const LaneMask both = minimum(here, before) > zero;
-        const LaneMask liquid = maximum(here, before) > zero;
-        const Lanes answer = both ? rise : rise / fraction_between(here, before);
-        store_lanes(velocity + c, liquid ? now - answer : now);
+        const LaneMask moves = (maximum(here, before) > zero) & (open > zero);
+        const Lanes answer = both ? rise : rise / fraction_between(here, before, open);
+        store_lanes(velocity + c, moves ? now - answer : now);
     };
     for (; c + 4 <= end; c += 4) {
         const Lanes here = load_lanes(fields.level + c);
@@ -165,21 +186,20 @@ inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const 
         if (!any_true(maximum(here, maximum(left, lower)) > zero)) {
             continue;
         }
-        if (open_u != nullptr &&
-            !all_true((load_lanes(open_u + c) == one) & (load_lanes(open_v + c) == one))) {
-            break;
-        }
+        const Lanes wide_u = open_u != nullptr ? load_lanes(open_u + c) : one;
+        const Lanes wide_v = open_u != nullptr ? load_lanes(open_v + c) : one;
         const Lanes p = load_lanes(fields.pressure + c);
         const Lanes rise_x = p - load_lanes(fields.pressure + c - 1);
         const Lanes rise_y = p - load_lanes(fields.pressure + c - s.stride);
-        if (has_lower && all_true(minimum(here, minimum(left, lower)) > zero)) {
+        const Lanes narrow = minimum(wide_u, wide_v);
+        if (has_lower && all_true(minimum(narrow, minimum(here, minimum(left, lower))) > zero)) {
             store_lanes(grid.u + c, load_lanes(grid.u + c) - rise_x);
             store_lanes(grid.v + c, load_lanes(grid.v + c) - rise_y);
             continue;
         }
-        at_surface(grid.u, here, left, rise_x);
+        any_kind(grid.u, here, left, rise_x, wide_u);
         if (has_lower) {
-            at_surface(grid.v, here, lower, rise_y);
+            any_kind(grid.v, here, lower, rise_y, wide_v);
         }
     }
     return c - first;

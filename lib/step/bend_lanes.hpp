@@ -44,13 +44,13 @@ inline auto least_inside(std::int32_t cell, std::int32_t first, std::int32_t las
                       L::load(kOnlyMiddle + 16 - L::kLanes + high));
 }
 
-/// Whether all faces of some cells are wide open.
+/// Of some cells, those of which all faces are wide open.
 template <class L>
-inline bool wide_open(const BendTask& task, std::int32_t c) {
+inline auto wide_open(const BendTask& task, std::int32_t c) {
     const auto least =
         L::minimum(L::minimum(L::load(task.open_u + c), L::load(task.open_u + c + 1)),
                    L::minimum(L::load(task.open_v + c), L::load(task.open_v + c + task.stride)));
-    return L::all_true(least == L::all(1.0F));
+    return least == L::all(1.0F);
 }
 
 /// As `Bending::slope`, where the faces before and after are `step` entries away.
@@ -69,21 +69,19 @@ inline auto slope_of_faces(const BendTask& task, std::int32_t face, std::int32_t
     return (low & high) ? L::all(0.5F) * sum : sum;
 }
 
-/// Bends a group of faces but for the first few, which are done. False: a solid touches their
-/// cells, nothing was done.
+/// Bends a group of faces but for the first few, which are done, and those beside solids.
 template <class L>
-inline bool bend_group(const BendTask& task, std::int32_t face, std::int32_t done) {
+inline void bend_group(const BendTask& task, std::int32_t face, std::int32_t done) {
     auto kept = L::minimum(L::load(task.level + face), L::load(task.level + face - task.back)) >
                 L::all(kEmptyLevel<float>);
     if (done > 0) {
         kept &= L::load(kOnlyMiddle + 8 - done) == L::all(0.0F);
     }
     if (!L::any_true(kept)) {
-        return true;
+        return;
     }
-    if (task.open_u != nullptr &&
-        !(wide_open<L>(task, face) && wide_open<L>(task, face - task.back))) {
-        return false;
+    if (task.open_u != nullptr) {
+        kept &= wide_open<L>(task, face) & wide_open<L>(task, face - task.back);
     }
     const std::int32_t beyond = face - task.back;
     const auto here = lowest_around<L>(task.level, task.stride, face) >
@@ -93,7 +91,7 @@ inline bool bend_group(const BendTask& task, std::int32_t face, std::int32_t don
                                         task.leapt);
     const auto bent = kept & ~(here & before);
     if (!L::any_true(bent)) {
-        return true;
+        return;
     }
     const std::int32_t side = task.back == 1 ? task.stride : 1;
     const float* across = task.across + face;
@@ -105,14 +103,14 @@ inline bool bend_group(const BendTask& task, std::int32_t face, std::int32_t don
     const auto share = (here | before) ? L::all(0.5F * task.bend_s) : L::all(task.bend_s);
     const auto now = L::load(task.out + face);
     L::store(task.out + face, bent ? now + share * turned : now);
-    return true;
 }
 
-/// Bends faces `face`, `face` + 1 … of a row as long as enough are left before `end` and no solid
-/// touches their cells. Returns the next one to do.
+/// Bends faces `face`, `face` + 1 … of a row as long as enough are left before `end`. Returns the
+/// next one to do.
 template <class L>
 inline std::int32_t bend_faces(const BendTask& task, std::int32_t face, std::int32_t end) {
-    for (; face + L::kLanes <= end && bend_group<L>(task, face, 0); face += L::kLanes) {
+    for (; face + L::kLanes <= end; face += L::kLanes) {
+        bend_group<L>(task, face, 0);
     }
     return face;
 }
@@ -121,7 +119,7 @@ inline std::int32_t bend_faces(const BendTask& task, std::int32_t face, std::int
 std::int32_t bend_wide(const BendTask& task, std::int32_t face, std::int32_t end);
 #endif
 
-/// All of them, if no solid touches their cells; faces from `row` on exist.
+/// All of them, if they are enough; faces from `row` on exist.
 inline std::int32_t bend_lanes(const BendTask& task, std::int32_t row, std::int32_t face,
                                std::int32_t end) {
 #if WEIR_HAS_WIDE_LANES
@@ -132,8 +130,11 @@ inline std::int32_t bend_lanes(const BendTask& task, std::int32_t row, std::int3
     face = bend_faces<FourLanes>(task, face, end);
     // The last few with some of those that are done.
     const std::int32_t back = end - 4;
-    const bool fits = face < end && back < face && back >= row;
-    return fits && bend_group<FourLanes>(task, back, face - back) ? end : face;
+    if (face < end && back < face && back >= row) {
+        bend_group<FourLanes>(task, back, face - back);
+        return end;
+    }
+    return face;
 }
 
 #endif
