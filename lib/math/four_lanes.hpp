@@ -40,18 +40,19 @@ struct FourLanes {
     /// A pair for each group, in its lanes 0 and 1.
     static Floats spread_pairs(const float* from) { return load_pair(from); }
     template <int G>
-    static void store_group(float* to, Floats lanes) {
-        store_lanes(to, lanes);
-    }
-    template <int G>
     static void add_group(float* to, Floats lanes) {
         store_lanes(to, load_lanes(to) + lanes);
     }
-    /// Lanes First and First + 1 of a group.
-    template <int G, int First>
-    static void store_pair(std::uint32_t* to, Ints lanes) {
-        const Ints pair = __builtin_shufflevector(lanes, lanes, First, First + 1, 0, 0);
-        __builtin_memcpy(to, &pair, 2 * sizeof *to);
+    /// Lanes 0 and 1 of each group here, 2 and 3 there.
+    static void store_halves(std::uint32_t* first, std::uint32_t* second, Ints lanes) {
+        const Ints later = __builtin_shufflevector(lanes, lanes, 2, 3, 2, 3);
+        __builtin_memcpy(first, &lanes, 2 * sizeof *first);
+        __builtin_memcpy(second, &later, 2 * sizeof *second);
+    }
+    /// A group of a, one of b, the next of a …
+    static void store_in_turn(float* to, Floats a, Floats b) {
+        store_lanes(to, a);
+        store_lanes(to + 4, b);
     }
     /// Within each group.
     template <int I, int J, int K, int L>

@@ -38,6 +38,7 @@ struct EightLanes {
     using Ints = std::int32_t __attribute__((vector_size(32)));
     using Shorts = std::int16_t __attribute__((vector_size(32)));
     using Four = float __attribute__((vector_size(16)));
+    using FourInts = std::int32_t __attribute__((vector_size(16)));
     static constexpr std::int32_t kGroups = 2;
     static constexpr std::int32_t kLanes = 8;
     static constexpr std::integral_constant<std::int32_t, 0> kFirstGroup{};
@@ -81,20 +82,20 @@ struct EightLanes {
         return __builtin_shufflevector(both, both, 0, 1, 0, 1, 2, 3, 2, 3);
     }
     template <int G>
-    static void store_group(float* to, Floats a) {
-        const Four lanes = group<G>(a);
-        __builtin_memcpy(to, &lanes, sizeof lanes);
-    }
-    template <int G>
     static void add_group(float* to, Floats a) {
         const Four lanes = load_four(to) + group<G>(a);
         __builtin_memcpy(to, &lanes, sizeof lanes);
     }
-    template <int G, int First>
-    static void store_pair(std::uint32_t* to, Ints a) {
-        const Ints pair = __builtin_shufflevector(a, a, 4 * G + First, 4 * G + First + 1, 0, 0, 0,
-                                                  0, 0, 0);
-        __builtin_memcpy(to, &pair, 2 * sizeof *to);
+    static void store_halves(std::uint32_t* first, std::uint32_t* second, Ints a) {
+        const Ints halves = __builtin_shufflevector(a, a, 0, 1, 4, 5, 2, 3, 6, 7);
+        const FourInts low = __builtin_shufflevector(halves, halves, 0, 1, 2, 3);
+        const FourInts high = __builtin_shufflevector(halves, halves, 4, 5, 6, 7);
+        __builtin_memcpy(first, &low, sizeof low);
+        __builtin_memcpy(second, &high, sizeof high);
+    }
+    static void store_in_turn(float* to, Floats a, Floats b) {
+        store(to, __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11));
+        store(to + 8, __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15));
     }
     template <int I, int J, int K, int L>
     static Floats shuffle(Floats a, Floats b) {

@@ -1,6 +1,6 @@
 #include "step/occupied.hpp"
 
-#include "math/lanes.hpp"
+#include "step/extent_lanes.hpp"
 
 namespace weir {
 
@@ -56,23 +56,31 @@ Extent<SmallFixed> extent(const Particles<SmallFixed>& particles) {
 }
 
 #if WEIR_HAS_LANES
-/// Two particles a load.
 template <>
 Extent<float> extent(const Particles<float>& particles) {
     const Vec2<float>* position = particles.position;
-    const float x = position[0].x;
-    const float y = position[0].y;
-    Lanes low{x, y, x, y};
-    Lanes high = low;
-    std::int32_t k = 0;
-    for (; k + 2 <= particles.count; k += 2) {
-        const Lanes both = load_lanes(&position[k].x);
-        low = minimum(low, both);
-        high = maximum(high, both);
+    Extent<float> found = Extent<float>::of_first(particles);
+    float low[8];
+    float high[8];
+    std::int32_t done = 0;
+    const auto add = [&](std::int32_t places) {
+        for (std::int32_t k = 0; k < 2 * places; k += 2) {
+            found.add({{low[k], low[k + 1]}, {high[k], high[k + 1]}});
+        }
+    };
+#if WEIR_HAS_WIDE_LANES
+    if (particles.count >= 8 && has_wide_lanes()) {
+        done = particles.count & ~7;
+        find_extremes_wide(&position->x, done, low, high);
+        add(4);
     }
-    const Extent<float> even{{minimum(low[0], low[2]), minimum(low[1], low[3])},
-                            {maximum(high[0], high[2]), maximum(high[1], high[3])}};
-    return extent_from(even, position, k, particles.count);
+#endif
+    const std::int32_t fours = (particles.count - done) & ~3;
+    if (fours > 0) {
+        find_extremes<FourLanes>(&position[done].x, fours, low, high);
+        add(2);
+    }
+    return extent_from(found, position, done + fours, particles.count);
 }
 #else
 /// Places are not negative: they compare as whole numbers do. Of two the lower one can only be the

@@ -68,13 +68,8 @@ inline void find_stencils(std::int32_t stride, const float* position, std::int32
         const auto bases = L::sums_of_products(node_u, node_v, factors);
         const auto even = L::template shuffle<0, 1, 4, 5>(f_u, f_v);
         const auto odd = L::template shuffle<2, 3, 6, 7>(f_u, f_v);
-        L::each_group([&](auto group) {
-            const std::int32_t n = k + 2 * group;
-            L::template store_pair<group, 0>(run.u + n, bases);
-            L::template store_pair<group, 2>(run.v + n, bases);
-            L::template store_group<group>(run.weight[n], even);
-            L::template store_group<group>(run.weight[n + 1], odd);
-        });
+        L::store_halves(run.u + k, run.v + k, bases);
+        L::store_in_turn(run.weight[k], even, odd);
     }
 }
 

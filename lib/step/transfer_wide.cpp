@@ -1,5 +1,7 @@
 #include "step/transfer_wide.hpp"
 
+#include "step/extent_lanes.hpp"
+
 #if WEIR_HAS_WIDE_LANES
 
 namespace weir {
@@ -11,6 +13,10 @@ float gather_wide(const GatherTask& task) {
 void scatter_wide(const float* position, const float* velocity, std::int32_t count,
                   const Pairs<float>& pairs) {
     scatter_all<EightLanes>(position, velocity, count, pairs);
+}
+
+void find_extremes_wide(const float* position, std::int32_t particles, float* low, float* high) {
+    find_extremes<EightLanes>(position, particles, low, high);
 }
 
 }  // namespace weir
