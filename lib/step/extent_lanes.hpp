@@ -10,8 +10,8 @@ namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// Of places in each group of lanes: x, y, x, y. `particles` is a multiple of 4 · kGroups and not 0.
-/// Two of each kind: one waits for itself.
+/// Of places in each group of lanes: x, y, x, y. `particles` is a multiple of 4 · kGroups, and not
+/// 0. Two of each kind: one waits for itself.
 template <class L>
 inline void find_extremes(const float* position, std::int32_t particles, float* low,
                           float* high) {

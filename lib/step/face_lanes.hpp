@@ -31,21 +31,6 @@ inline std::int32_t velocity_faces(const float* momentum, float* mass, float gai
     return face;
 }
 
-/// Calls visit(face) for each face that lies between two air cells of which neither is empty, as
-/// long as four are left before `end`; returns the next one to ask.
-template <class Visit>
-inline std::int32_t each_in_spray(const float* level, std::int32_t back, std::int32_t face,
-                                  std::int32_t end, const Visit& visit) {
-    for (; face + 4 <= end; face += 4) {
-        const Lanes here = load_lanes(level + face);
-        const Lanes before = load_lanes(level + face - back);
-        const LaneMask spray = (maximum(here, before) <= all_lanes(0.0F)) &
-                               (minimum(here, before) > all_lanes(kEmptyLevel<float>));
-        for_each_true(spray, [&](std::int32_t k) { visit(face + k); });
-    }
-    return face;
-}
-
 /// Lowest level of the cells of some faces and of the faces around each.
 template <class L>
 inline auto least_around(const float* level, std::int32_t back, std::int32_t stride,

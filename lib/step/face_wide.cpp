@@ -1,5 +1,6 @@
 // Loops over faces with eight lanes.
 #include "step/bend_lanes.hpp"
+#include "step/extrapolate_lanes.hpp"
 #include "step/face_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
@@ -24,6 +25,10 @@ std::int32_t blend_wide(const float* now, const float* sharp, float share, std::
 
 std::int32_t bend_wide(const BendTask& task, std::int32_t face, std::int32_t end) {
     return bend_faces<EightLanes>(task, face, end);
+}
+
+bool extrapolate_wide(const ExtrapolateTask& task) {
+    return extrapolate_faces<EightLanes>(task);
 }
 
 }  // namespace weir

@@ -2,6 +2,7 @@
 
 #include "math/packed_arithmetic.hpp"
 #include "pressure/projection.hpp"
+#include "step/extrapolate_lanes.hpp"
 #include "step/extrapolate_packed.hpp"
 #include "step/face_lanes.hpp"
 
@@ -151,8 +152,12 @@ void extrapolate_component(const Component<Real>& component, const PressureField
         const std::int32_t row = s.index(0, j);
         std::int32_t face = row + component.first_i;
         if constexpr (kHasLanes<Real>) {
-            face = each_in_spray(level, back, face, row + s.nx,
-                                 [&](std::int32_t at) { extend(at - row, j, at); });
+            if (component.light == nullptr && component.thin == nullptr &&
+                extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
+                                   back, s.stride, velocity_itself, j > component.first_j,
+                                   j + 1 < s.ny, face, row + s.nx})) {
+                continue;
+            }
         }
         for (; face < row + s.nx; ++face) {
             if (!wet(face) && !empty(face)) {

@@ -1,0 +1,135 @@
+// Velocity carried on into the air, four or eight faces at a time: the plain loop's sums, and so
+// its bits. One liquid, no thin walls.
+#pragma once
+
+#include "math/four_lanes.hpp"
+#include "math/wide_lanes.hpp"
+#include "pressure/pressure_fields.hpp"
+
+namespace weir {
+
+#if WEIR_HAS_LANES
+
+/// A row of one component's faces.
+struct ExtrapolateTask {
+    const float* level;
+    const float* pressure;
+    const float* open;  ///< null: no solids
+    float* velocity;
+    std::int32_t back;
+    std::int32_t stride;
+    bool velocity_itself;
+    bool has_lower;      ///< whether the rows beside it are the tank's
+    bool has_upper;
+    std::int32_t first;  ///< face of the row
+    std::int32_t end;
+};
+
+/// 1 from the ninth on. Not inline: a file compiled for AVX2 gives others nothing.
+constexpr float kFromNinth[] = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F,
+                                       1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+
+/// Lanes from the `k`-th of eight on.
+template <class L>
+inline auto lanes_from(std::int32_t k) {
+    return L::load(kFromNinth + 8 - k) > L::all(0.0F);
+}
+
+/// Sum and count of what goes on from the faces beside some faces.
+template <class L>
+struct Beside {
+    typename L::Floats sum = L::all(0.0F);
+    typename L::Floats count = L::all(0.0F);
+
+    void look(const ExtrapolateTask& task, std::int32_t at, typename L::Ints exists) {
+        const auto zero = L::all(0.0F);
+        const auto level = L::load(task.level + at);
+        const auto before = L::load(task.level + at - task.back);
+        const auto liquid = L::maximum(level, before);
+        const auto air = L::minimum(level, before);
+        auto goes_on = exists & (liquid > zero);
+        auto least = L::all(0.05F);
+        if (task.open != nullptr) {
+            const auto open = L::load(task.open + at);
+            goes_on = goes_on & (open > zero);
+            least = L::maximum(least, L::all(1.0F) - L::all(4.0F) * open);
+        }
+        if (!L::any_true(goes_on)) {
+            return;
+        }
+        count += goes_on ? L::all(1.0F) : zero;
+        if (task.velocity_itself) {
+            sum += goes_on ? L::load(task.velocity + at) : zero;
+            return;
+        }
+        const auto rise = L::load(task.pressure + at) - L::load(task.pressure + at - task.back);
+        const auto fraction = L::maximum(least, liquid / (liquid - air));
+        sum -= goes_on ? (air > zero ? rise : rise / fraction) : zero;
+    }
+};
+
+/// Of L::kLanes faces those that `chosen` names, as far as they lie between two air cells of which
+/// neither is empty.
+template <class L>
+inline void extend_faces(const ExtrapolateTask& task, std::int32_t face,
+                         typename L::Ints chosen) {
+    const auto here = L::load(task.level + face);
+    const auto before = L::load(task.level + face - task.back);
+    const auto spray = chosen & (L::maximum(here, before) <= L::all(0.0F)) &
+                       (L::minimum(here, before) > L::all(kEmptyLevel<float>));
+    if (!L::any_true(spray)) {
+        return;
+    }
+    Beside<L> beside;
+    beside.look(task, face - 1, face == task.first ? spray & lanes_from<L>(1) : spray);
+    const std::int32_t last = task.end - 1 - face;
+    beside.look(task, face + 1, last < L::kLanes ? spray & ~lanes_from<L>(last) : spray);
+    if (task.has_lower) {
+        beside.look(task, face - task.stride, spray);
+    }
+    if (task.has_upper) {
+        beside.look(task, face + task.stride, spray);
+    }
+    const auto some = beside.count > L::all(0.0F);
+    if (!L::any_true(some)) {
+        return;
+    }
+    const auto mean = beside.sum / (some ? beside.count : L::all(1.0F));
+    const auto now = L::load(task.velocity + face);
+    L::store(task.velocity + face,
+             some ? (task.velocity_itself ? mean : now + mean) : now);
+}
+
+/// All faces of a row. False: there are not enough of them, nothing was done.
+template <class L>
+inline bool extrapolate_faces(const ExtrapolateTask& task) {
+    std::int32_t face = task.first;
+    if (task.end - face < L::kLanes) {
+        return false;
+    }
+    for (; face + L::kLanes <= task.end; face += L::kLanes) {
+        extend_faces<L>(task, face, lanes_from<L>(0));
+    }
+    if (face < task.end) {  // those that are left, beside some that are done
+        const std::int32_t at = task.end - L::kLanes;
+        extend_faces<L>(task, at, lanes_from<L>(face - at));
+    }
+    return true;
+}
+
+#if WEIR_HAS_WIDE_LANES
+bool extrapolate_wide(const ExtrapolateTask& task);
+#endif
+
+inline bool extrapolate_lanes(const ExtrapolateTask& task) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes() && extrapolate_wide(task)) {
+        return true;
+    }
+#endif
+    return extrapolate_faces<FourLanes>(task);
+}
+
+#endif
+
+}  // namespace weir
