@@ -173,10 +173,11 @@ void relax(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
     const std::int32_t depth = maximum(0, coarse.last_row - coarse.first_row + 1);
     const Real omega = over_relaxation<Real>(depth);
     const Part part = work.take(2 * kCoarseSweeps * depth, (s.nx + 1) / 2);
+    std::int32_t colour = part.empty() ? 0 : part.first / depth;
+    std::int32_t j = coarse.first_row + part.first - colour * depth;
     for (std::int32_t at = part.first; at < part.end; ++at) {
-        const std::int32_t j = coarse.first_row + at % depth;
         const std::int32_t end = s.index(s.nx, j);
-        std::int32_t q = s.index((j + at / depth) & 1, j);
+        std::int32_t q = s.index((j + colour) & 1, j);
         if constexpr (kHasLanes<Real>) {
             q = relax_coarse_row(coarse, omega, q, end);
         }
@@ -190,8 +191,10 @@ void relax(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
                              (coarse.weight_v[q] * p[q - s.stride] + coarse.weight_v[up] * p[up]);
             p[q] += omega * ((sum + coarse.residual[q]) * inverse - p[q]);
         }
-        if (j == coarse.last_row) {
+        if (j++ == coarse.last_row) {
             extend_cells(borders, s, p);
+            j = coarse.first_row;
+            ++colour;
         }
     }
 }

@@ -13,10 +13,6 @@ namespace weir {
 template <class Real>
 constexpr Real kPartly = Real(0.5);
 
-/// Centre of a full patch.
-template <class Real>
-constexpr Real kMiddle = Real(0.5 * (kCoarseEdge - 1));
-
 inline bool is_square(const Patch& patch) {
     return patch.width == kCoarseEdge && patch.height == kCoarseEdge;
 }
@@ -25,29 +21,22 @@ inline bool is_square(const Patch& patch) {
 template <class Real>
 void find_centre(const GridShape& s, const PressureFields<Real>& fields, const Patch& patch,
                  CoarseGrid<Real>& coarse) {
-    if constexpr (kHasLanes<Real>) {
-        if (is_square(patch) && all_liquid(fields.inverse_diagonal, s.stride,
-                                           s.index(patch.i, patch.j), kCoarseEdge)) {
-            coarse.residual[patch.q] = Real(1);
-            coarse.centre_x[patch.q] = kMiddle<Real>;
-            coarse.centre_y[patch.q] = kMiddle<Real>;
-            return;
-        }
-    }
     std::int32_t count = 0;
     std::int32_t columns = 0;
     std::int32_t rows = 0;
-    for (std::int32_t y = 0; y < patch.height; ++y) {
-        const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
-        if constexpr (kHasLanes<Real>) {
-            if (patch.width == kCoarseEdge) {
-                const auto cells = count_liquid(inverse);
-                count += cells.count;
-                columns += cells.columns;
-                rows += y * cells.count;
-                continue;
-            }
+    bool counted = false;
+    if constexpr (kHasLanes<Real>) {
+        if (patch.width == kCoarseEdge) {
+            const LiquidCells cells = count_liquid(fields.inverse_diagonal, s.stride,
+                                                   s.index(patch.i, patch.j), patch.height);
+            count = cells.count;
+            columns = cells.columns;
+            rows = cells.rows;
+            counted = true;
         }
+    }
+    for (std::int32_t y = 0; !counted && y < patch.height; ++y) {
+        const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
         for (std::int32_t x = 0; x < patch.width; ++x) {
             if (inverse[x] != Real(0)) {
                 count += 1;
@@ -157,6 +146,14 @@ bool among_full(const Patch& patch, const CoarseGrid<Real>& coarse) {
            patch.j > 0;
 }
 
+/// Whether there is no liquid in a patch and the two before it: no face of it matters.
+template <class Real>
+bool among_empty(const Patch& patch, const CoarseGrid<Real>& coarse) {
+    const Real* full = coarse.residual;
+    return !(full[patch.q] > Real(0) || full[patch.q - 1] > Real(0) ||
+             full[patch.q - coarse.shape.stride] > Real(0));
+}
+
 /// Faces before the cells of a patch. In one that is full or empty only those to the patches before
 /// it matter.
 template <bool Solids, bool Mixed, class Real>
@@ -164,6 +161,9 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
                const Patch& patch, const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
     const std::int32_t up = coarse.shape.stride;
+    if (among_empty(patch, coarse)) {
+        return;
+    }
     const bool mixed = coarse.residual[patch.q] == kPartly<Real>;
     const CoarseAxis<Real> along_x{fields,          coarse,         1,      1, coarse.centre_x,
                                    coarse.weight_u, coarse.reach_u, targets};

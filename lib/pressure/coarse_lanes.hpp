@@ -11,26 +11,31 @@ namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// Whether all cells of a patch of so many rows from cell c are liquid.
-inline bool all_liquid(const float* inverse, std::int32_t stride, std::int32_t c,
-                       std::int32_t rows) {
-    LaneMask dry{};
-    for (std::int32_t y = 0; y < rows; ++y) {
-        dry |= load_lanes(inverse + c + y * stride) == all_lanes(0.0F);
-    }
-    return !any_true(dry);
-}
-
-/// How many of four cells are liquid, and the sum of their columns.
-struct CellsOfRow {
+/// How many cells of a patch are liquid, and the sums of their columns and rows.
+struct LiquidCells {
     std::int32_t count;
     std::int32_t columns;
+    std::int32_t rows;
 };
-inline CellsOfRow count_liquid(const float* inverse) {
-    const LaneMask liquid = load_lanes(inverse) != all_lanes(0.0F);  // 0 or −1
-    const LaneMask columns = liquid & LaneMask{0, 1, 2, 3};
-    return {-((liquid[0] + liquid[1]) + (liquid[2] + liquid[3])),
-            columns[1] + columns[2] + columns[3]};
+inline LiquidCells count_liquid(const float* inverse, std::int32_t stride, std::int32_t c,
+                                std::int32_t rows) {
+    LaneMask liquid{};  // by column
+    LaneMask of_rows{};
+    for (std::int32_t y = 0; y < rows; ++y) {
+        const LaneMask wet = load_lanes(inverse + c + y * stride) != all_lanes(0.0F);
+        liquid -= wet;  // 0 or −1
+        of_rows += wet & (LaneMask{} + y);
+    }
+    if (all_true(liquid == 0)) {
+        return {0, 0, 0};
+    }
+    if (all_true(liquid == kCoarseEdge)) {
+        constexpr std::int32_t kSum = kCoarseEdge * (kCoarseEdge - 1) / 2 * kCoarseEdge;
+        return {kCoarseEdge * kCoarseEdge, kSum, kSum};
+    }
+    return {(liquid[0] + liquid[1]) + (liquid[2] + liquid[3]),
+            (liquid[1] + 2 * liquid[2]) + 3 * liquid[3],
+            (of_rows[0] + of_rows[1]) + (of_rows[2] + of_rows[3])};
 }
 
 /// Of a patch: whether it is neither full nor empty, and whether it has others before it.
