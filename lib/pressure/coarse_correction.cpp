@@ -47,10 +47,6 @@ private:
     static void along(Real centre, Real before, Real after, std::int32_t q, std::int32_t step,
                       std::int32_t* neighbour, Real* share) {
         constexpr Real kPerEdge = Real(1.0 / kCoarseEdge);
-        if constexpr (kHasLanes<Real>) {
-            shares_of_four(centre, before, after, kPerEdge, q, step, neighbour, share);
-            return;
-        }
         for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
             const Real way = static_cast<Real>(k) - centre;
             neighbour[k] = way > Real(0) ? q + step : q - step;
@@ -62,32 +58,36 @@ private:
 #if WEIR_HAS_LANES
 /// `gather_residual` of a patch of full width. `walls` null: no solids.
 void gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* walls,
-                     const GridShape& s, const Patch& patch, const Shares<float>& to,
-                     const Targets& targets, CoarseGrid<float>& coarse) {
+                     const GridShape& s, const Patch& patch, const Targets& targets,
+                     CoarseGrid<float>& coarse) {
     static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
     float* const own = coarse.residual + patch.q;
     const float* open_u = walls != nullptr ? walls->open_u : nullptr;
     const float* open_v = walls != nullptr ? walls->open_v : nullptr;
-    const Lanes of_beside = load_lanes(to.of_beside);
-    LaneMask on_right;
-    std::memcpy(&on_right, to.beside, sizeof on_right);
-    on_right = on_right > patch.q;
+    const FourShares beside = shares_of_columns(coarse, patch.q);
+    const FourShares above = shares_of_rows(coarse, patch.q);
+    float of_above[kCoarseEdge];
+    store_lanes(of_above, above.share);
+    const std::int32_t turn = minimum(
+        patch.height, __builtin_ctz(bits_of(above.forward) | 1U << kCoarseEdge));
     const bool own_row = targets.has(patch.q);
     ResidualSums sums{{0.0F, own_row ? own[-1] : 0.0F, own_row ? own[1] : 0.0F, 0.0F}};
     for (std::int32_t y = 0; y < patch.height;) {
-        const std::int32_t vertical = to.above[y];
+        const bool below = y < turn;
+        const std::int32_t end = below ? turn : patch.height;
+        const std::int32_t up = coarse.shape.stride;
+        const std::int32_t vertical = below ? patch.q - up : patch.q + up;
         const bool counted = targets.has(vertical);
         sums.sums[3] = counted ? coarse.residual[vertical] : 0.0F;
-        for (; y < patch.height && to.above[y] == vertical; ++y) {
-            if (own_row || counted) {
-                const std::int32_t c = s.index(patch.i, patch.j + y);
-                sums.add(residual_of_four(fields, open_u, open_v, s.stride, c), of_beside,
-                         on_right, all_lanes(to.of_above[y]));
-            }
+        std::int32_t c = s.index(patch.i, patch.j + y);
+        for (; (own_row || counted) && y < end; ++y, c += s.stride) {
+            sums.add(residual_of_four(fields, open_u, open_v, s.stride, c), beside.share,
+                     beside.forward, all_lanes(of_above[y]));
         }
         if (counted) {
             coarse.residual[vertical] = sums.sums[3];
         }
+        y = end;
     }
     if (own_row) {
         *own += sums.sums[0];
@@ -102,15 +102,14 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
                      const PressureFields<Real>& fields, const Patch& patch,
                      const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
-    const Shares<Real> to(coarse, patch.q);
-    const bool own_row = targets.has(patch.q);
     if constexpr (kHasLanes<Real> && !Mixed) {
         if (patch.width == kCoarseEdge) {
-            gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, patch, to, targets,
-                            coarse);
+            gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, patch, targets, coarse);
             return;
         }
     }
+    const Shares<Real> to(coarse, patch.q);
+    const bool own_row = targets.has(patch.q);
     Real own = Real(0);
     for (std::int32_t y = 0; y < patch.height; ++y) {
         for (std::int32_t x = 0; x < patch.width; ++x) {
@@ -141,6 +140,12 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
 
 template <class Real>
 void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>& fields) {
+    if constexpr (kHasLanes<Real>) {
+        if (patch.width == kCoarseEdge) {
+            correct_patch(fields, s.stride, patch.q, s.index(patch.i, patch.j), patch.height);
+            return;
+        }
+    }
     const Shares<Real> from(fields.coarse, patch.q);
     const Real* e = fields.coarse.correction;
     const Real own = e[patch.q];
@@ -151,14 +156,7 @@ void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const Real row = own + from.of_above[y] * (e[from.above[y]] - own);
         const std::int32_t c = s.index(patch.i, patch.j + y);
-        std::int32_t x = 0;
-        if constexpr (kHasLanes<Real>) {
-            if (patch.width == kCoarseEdge) {
-                correct_four(fields, all_lanes(row) + load_lanes(column), c);
-                x = kCoarseEdge;
-            }
-        }
-        for (; x < patch.width; ++x) {
+        for (std::int32_t x = 0; x < patch.width; ++x) {
             if (fields.inverse_diagonal[c + x] != Real(0)) {
                 fields.pressure[c + x] += row + column[x];
             }

@@ -107,19 +107,25 @@ inline Lanes residual_of_four(const PressureFields<float>& fields, const float* 
     return wet ? residual : zero;  // whose sum does not change
 }
 
-/// Along one axis of a patch: the neighbour in which each of its four rows or columns shares, and
-/// the share, linear in the way from the centre.
-inline void shares_of_four(float centre, float before, float after, float per_edge,
-                           std::int32_t q, std::int32_t step, std::int32_t* neighbour,
-                           float* share) {
+/// Along one axis of a patch: how much each of its four rows or columns shares in the patch beside
+/// it, linear in the way from the centre, and whether that is the next one or the last.
+struct FourShares {
+    Lanes share;
+    LaneMask forward;
+};
+inline FourShares shares_of_four(float centre, float before, float after) {
     const Lanes way = Lanes{0.0F, 1.0F, 2.0F, 3.0F} - all_lanes(centre);
     const LaneMask forward = way > all_lanes(0.0F);
-    const LaneMask next = LaneMask{} + (q + step);
-    const LaneMask last = LaneMask{} + (q - step);
-    const LaneMask chosen = forward ? next : last;
-    __builtin_memcpy(neighbour, &chosen, sizeof chosen);
-    store_lanes(share, all_lanes(per_edge) *
-                           (forward ? way * all_lanes(after) : -way * all_lanes(before)));
+    return {all_lanes(1.0F / kCoarseEdge) *
+                (forward ? way * all_lanes(after) : -way * all_lanes(before)),
+            forward};
+}
+inline FourShares shares_of_columns(const CoarseGrid<float>& coarse, std::int32_t q) {
+    return shares_of_four(coarse.centre_x[q], coarse.reach_u[q], coarse.reach_u[q + 1]);
+}
+inline FourShares shares_of_rows(const CoarseGrid<float>& coarse, std::int32_t q) {
+    return shares_of_four(coarse.centre_y[q], coarse.reach_v[q],
+                          coarse.reach_v[q + coarse.shape.stride]);
 }
 
 /// Sums that a patch's residuals are added to: its own, those of the patches left, right, and
@@ -148,11 +154,26 @@ struct ResidualSums {
     }
 };
 
-/// Adds `what` to the pressure of those of cells c … c + 3 that are liquid.
-inline void correct_four(const PressureFields<float>& fields, Lanes what, std::int32_t c) {
-    const Lanes now = load_lanes(fields.pressure + c);
-    const LaneMask wet = load_lanes(fields.inverse_diagonal + c) != all_lanes(0.0F);
-    store_lanes(fields.pressure + c, wet ? now + what : now);
+/// Adds the correction of coarse cell q to the pressure of its liquid cells, from cell c on.
+inline void correct_patch(const PressureFields<float>& fields, std::int32_t stride,
+                          std::int32_t q, std::int32_t c, std::int32_t height) {
+    const CoarseGrid<float>& coarse = fields.coarse;
+    const std::int32_t up = coarse.shape.stride;
+    const float* e = coarse.correction + q;
+    const Lanes own = all_lanes(*e);
+    const FourShares beside = shares_of_columns(coarse, q);
+    const FourShares above = shares_of_rows(coarse, q);
+    const Lanes column =
+        beside.share * ((beside.forward ? all_lanes(e[1]) : all_lanes(e[-1])) - own);
+    const Lanes row =
+        own + above.share * ((above.forward ? all_lanes(e[up]) : all_lanes(e[-up])) - own);
+    float of_row[kCoarseEdge];
+    store_lanes(of_row, row);
+    for (std::int32_t y = 0; y < height; ++y, c += stride) {
+        const Lanes now = load_lanes(fields.pressure + c);
+        const LaneMask wet = load_lanes(fields.inverse_diagonal + c) != all_lanes(0.0F);
+        store_lanes(fields.pressure + c, wet ? now + (all_lanes(of_row[y]) + column) : now);
+    }
 }
 
 /// Relaxes cells c, c + 2 … of a row of coarse cells as long as enough are left before `end`;
