@@ -11,6 +11,7 @@ namespace weir {
 
 struct FourLanes {
     using Floats = Lanes;
+    using Four = Lanes;
     using Ints = LaneMask;
     using Shorts = std::int16_t __attribute__((vector_size(16)));
     static constexpr std::int32_t kGroups = 1;
@@ -21,6 +22,10 @@ struct FourLanes {
     template <class Body>
     static void each_group(const Body& body) {
         body(kFirstGroup);
+    }
+    template <int G>
+    static Floats group(Floats a) {
+        return a;
     }
     static Floats all(float value) { return all_lanes(value); }
     /// The same in each group.

@@ -71,24 +71,23 @@ inline Real wanted_convergence(const StaggeredGrid<Real>& grid, std::int32_t c,
 
 #if WEIR_HAS_LANES
 
-/// The same for four cells.
-inline Lanes wanted_convergence_lanes(const StaggeredGrid<float>& grid, std::int32_t c,
-                                      const Leap<float>& leap) {
+/// The same for some cells.
+template <class L>
+inline auto wanted_convergence_lanes(const StaggeredGrid<float>& grid, std::int32_t c,
+                                     const Leap<float>& leap) {
     const float* u = grid.mass_u;
     const float* v = grid.mass_v;
     const std::int32_t up = c + grid.shape.stride;
     const std::int32_t down = c - grid.shape.stride;
-    const Lanes strain = all_lanes(0.5F) * ((load_lanes(u + c + 1) - load_lanes(u + c)) -
-                                            (load_lanes(v + up) - load_lanes(v + c)));
-    const Lanes u_over_y =
-        all_lanes(0.25F) * ((load_lanes(u + up) + load_lanes(u + up + 1)) -
-                            (load_lanes(u + down) + load_lanes(u + down + 1)));
-    const Lanes v_over_x =
-        all_lanes(0.25F) * ((load_lanes(v + c + 1) + load_lanes(v + up + 1)) -
-                            (load_lanes(v + c - 1) + load_lanes(v + up - 1)));
-    const Lanes dt = all_lanes(leap.dt_s);
-    const Lanes det = -((dt * strain) * strain + (dt * u_over_y) * v_over_x);
-    return clamp(det, all_lanes(-leap.most), all_lanes(leap.most));
+    const auto strain = L::all(0.5F) * ((L::load(u + c + 1) - L::load(u + c)) -
+                                        (L::load(v + up) - L::load(v + c)));
+    const auto u_over_y = L::all(0.25F) * ((L::load(u + up) + L::load(u + up + 1)) -
+                                           (L::load(u + down) + L::load(u + down + 1)));
+    const auto v_over_x = L::all(0.25F) * ((L::load(v + c + 1) + L::load(v + up + 1)) -
+                                           (L::load(v + c - 1) + L::load(v + up - 1)));
+    const auto dt = L::all(leap.dt_s);
+    const auto det = -((dt * strain) * strain + (dt * u_over_y) * v_over_x);
+    return L::clamp(det, L::all(-leap.most), L::all(leap.most));
 }
 
 #endif

@@ -1,6 +1,7 @@
 // Loops over cells with eight lanes.
 #include "math/wide_lanes.hpp"
 #include "pressure/coarse_lanes.hpp"
+#include "pressure/plain_lanes.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/surface_lanes.hpp"
 #include "pressure/volume_lanes.hpp"
@@ -20,6 +21,10 @@ std::int32_t relax_wide(const PressureFields<float>& fields, const float* open_u
 std::int32_t relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t c,
                                std::int32_t end) {
     return relax_coarse_cells<EightLanes>(coarse, omega, c, end);
+}
+
+std::int32_t build_plain_wide(PlainTask& task, std::int32_t c, std::int32_t end, bool inside) {
+    return build_plain_cells<EightLanes>(task, c, end, inside);
 }
 
 std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_density,

@@ -178,40 +178,52 @@ bool build_any_four(const FaceWeights<Solids, false, float>& weights, std::int32
 
 #endif
 
-/// Cells i … i + 3 in one. False: to be done one by one.
-template <bool Solids, bool Mixed, class Real>
-bool build_in_lanes([[maybe_unused]] const FaceWeights<Solids, Mixed, Real>& weights,
-                    [[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j,
-                    [[maybe_unused]] const Leap<Real>& leap,
-                    [[maybe_unused]] PressureFields<Real>& fields,
-                    [[maybe_unused]] Solve<Real>& system) {
 #if WEIR_HAS_LANES
-    if constexpr (kHasLanes<Real> && !Mixed) {
-        const Walls<Real>& walls = weights.walls;
-        const GridShape& s = weights.grid.shape;
+
+template <class Real>
+void note_liquid(bool any, std::int32_t j, Solve<Real>& system) {
+    if (any) {
+        system.first_row = minimum(system.first_row, j);
+        system.last_row = j;
+    }
+}
+
+/// Cells from i on, eight at a time as long as they are alike; returns the next one to do.
+template <bool Solids>
+std::int32_t build_eights([[maybe_unused]] const FaceWeights<Solids, false, float>& weights,
+                          std::int32_t i, [[maybe_unused]] std::int32_t j,
+                          [[maybe_unused]] PlainTask& task) {
+#if WEIR_HAS_WIDE_LANES
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t end = i > 0 ? s.nx - 1 : minimum(s.nx, 8);
+    if (i + 8 <= end && has_wide_lanes()) {
         const std::int32_t c = s.index(i, j);
-        const Around around = around_four(fields.level, s.stride, c);
-        if (around == Around::air && !fields.on_surface) {
-            store_lanes(fields.inverse_diagonal + c, all_lanes(0.0F));
-            store_lanes(fields.pressure + c, all_lanes(0.0F));
-            return true;
-        }
-        const bool inner = inside_tank(weights.borders, s, i, i + 3, j);
-        const bool moving_thin = walls.moving && walls.thin != nullptr;
-        if (around == Around::liquid && inner &&
-            (!Solids || (four_untouched(walls, s.stride, c, !walls.moving) && !moving_thin))) {
-            if (!build_four(weights.grid, leap, system.rescale, c, fields, system)) {
-                return false;
-            }
-            system.first_row = minimum(system.first_row, j);
-            system.last_row = j;
-            return true;
-        }
-        return !fields.on_surface && build_any_four(weights, i, j, leap, fields, system);
+        task.any = false;
+        const bool inside = inside_tank(weights.borders, s, i, end - 1, j);
+        i += build_plain_wide(task, c, c + end - i, inside) - c;
+        note_liquid(task.any, j, task.system);
     }
 #endif
-    return false;
+    return i;
 }
+
+/// Cells i … i + 3 in one. False: to be done one by one.
+template <bool Solids>
+bool build_four(const FaceWeights<Solids, false, float>& weights, std::int32_t i, std::int32_t j,
+                PlainTask& task) {
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t c = s.index(i, j);
+    const bool inside = inside_tank(weights.borders, s, i, i + 3, j);
+    task.any = false;
+    if (build_plain_cells<FourLanes>(task, c, c + 4, inside) > c) {
+        note_liquid(task.any, j, task.system);
+        return true;
+    }
+    return !task.fields.on_surface &&
+           build_any_four(weights, i, j, task.leap, task.fields, task.system);
+}
+
+#endif
 
 /// Whether sums over a row can be kept in a number of the grid until all rows are done.
 template <class Real>
@@ -260,12 +272,7 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     const Leap<Real> leap(fields.last_dt);
     Solve<Real> system;
     system.rescale = fields.solve.rescale;
-    for (std::int32_t i = 0; i < s.nx;) {
-        const std::int32_t end = kHasLanes<Real> ? minimum(i + 4, s.nx) : s.nx;
-        if (kHasLanes<Real> && i + 4 == end &&
-            build_in_lanes(weights, i, j, leap, fields, system)) {
-            i = end;
-        }
+    const auto one_by_one = [&](std::int32_t i, std::int32_t end) {
         for (; i < end; ++i) {
             const std::int32_t c = s.index(i, j);
             if (fields.level[c] > Real(0)) {
@@ -277,7 +284,23 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
                 fields.pressure[c] = Real(0);
             }
         }
+    };
+    std::int32_t i = 0;
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real> && !Mixed) {
+        PlainTask task{weights.grid, Solids ? &weights.walls : nullptr, fields, leap, system,
+                       false};
+        while (i + 4 <= s.nx) {
+            i = build_eights(weights, i, j, task);
+            for (const std::int32_t end = i + 8; i < end && i + 4 <= s.nx; i += 4) {
+                if (!build_four(weights, i, j, task)) {
+                    one_by_one(i, i + 4);
+                }
+            }
+        }
     }
+#endif
+    one_by_one(i, s.nx);
     return system;
 }
 

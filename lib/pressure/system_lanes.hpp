@@ -1,38 +1,11 @@
 // The projection's equations four cells at a time: the plain loops' sums, and so their bits.
 #pragma once
 
-#include "math/lanes.hpp"
-#include "pressure/leap.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/plain_lanes.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
-
-/// What four cells are and have around them: liquid both, air themselves, or anything else.
-enum class Around : std::uint8_t { liquid, air, both };
-
-/// Of cells c … c + 3 and all their neighbours.
-inline Around around_four(const float* level, std::int32_t stride, std::int32_t c) {
-    const Lanes zero = all_lanes(0.0F);
-    const Lanes here = load_lanes(level + c);
-    const Lanes least = lowest_around<FourLanes>(level, stride, c);
-    return all_true(least > zero) ? Around::liquid
-                                  : (any_true(here > zero) ? Around::both : Around::air);
-}
-
-/// Whether all faces of four cells are wide open and no contour is in them. `nothing_moves`: then
-/// contours do not matter.
-inline bool four_untouched(const Walls<float>& walls, std::int32_t stride, std::int32_t c,
-                           bool nothing_moves) {
-    const Lanes least = minimum(
-        minimum(load_lanes(walls.open_u + c), load_lanes(walls.open_u + c + 1)),
-        minimum(load_lanes(walls.open_v + c), load_lanes(walls.open_v + c + stride)));
-    std::uint32_t cases = 0;
-    __builtin_memcpy(&cases, walls.cell_case + c, sizeof cases);
-    return all_true(least == all_lanes(1.0F)) && (nothing_moves || cases == 0);
-}
 
 /// Sum of the four neighbours of each of four cells.
 inline Lanes neighbours_of_four(const float* p, std::int32_t stride, std::int32_t c) {
@@ -46,26 +19,6 @@ inline float add_in_order(float sum, Lanes what) {
 }
 inline float subtract_in_order(float sum, Lanes what) {
     return (((sum - what[0]) - what[1]) - what[2]) - what[3];
-}
-
-/// The equations of four cells with liquid all around, and where their solve starts. False: the
-/// start is no number.
-inline bool build_four(const StaggeredGrid<float>& grid, const Leap<float>& leap, float rescale,
-                       std::int32_t c, PressureFields<float>& fields, Solve<float>& system) {
-    const std::int32_t up = c + grid.shape.stride;
-    const Lanes divergence = ((load_lanes(grid.u + c + 1) - load_lanes(grid.u + c)) +
-                              (load_lanes(grid.v + up) - load_lanes(grid.v + c))) +
-                             wanted_convergence_lanes(grid, c, leap);
-    const Lanes start = load_lanes(fields.pressure + c) * all_lanes(rescale);
-    if (!all_true(absolute(start) < all_lanes(__builtin_inff()))) {
-        return false;
-    }
-    store_lanes(fields.divergence + c, divergence);
-    store_lanes(fields.inverse_diagonal + c, all_lanes(0.25F));
-    store_lanes(fields.pressure + c, start);
-    system.wanted = subtract_in_order(system.wanted, start * divergence);
-    system.there = add_in_order(system.there, (start * all_lanes(4.0F)) * start);
-    return true;
 }
 
 /// The open share of each face of four cells; 0 on the tank's walls.
@@ -119,7 +72,7 @@ inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& fa
         (faces.right * load_lanes(grid.u + c + 1) - faces.left * load_lanes(grid.u + c)) +
         (faces.upper * load_lanes(grid.v + up) - faces.lower * load_lanes(grid.v + c));
     if (any_true(kinds.straight)) {
-        const Lanes wanted = divergence + wanted_convergence_lanes(grid, c, leap);
+        const Lanes wanted = divergence + wanted_convergence_lanes<FourLanes>(grid, c, leap);
         divergence = kinds.straight ? wanted : divergence;
     }
     add_flow(c, divergence, wet);

@@ -1,0 +1,105 @@
+// The projection's equations four or eight cells at a time where all are alike, amid liquid or air:
+// the plain loops' sums, and so their bits.
+#pragma once
+
+#include "math/wide_lanes.hpp"
+#include "pressure/leap.hpp"
+#include "pressure/pressure_fields.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+#if WEIR_HAS_LANES
+
+/// What the equations of a row are told, and their sums.
+struct PlainTask {
+    const StaggeredGrid<float>& grid;
+    const Walls<float>* walls;  ///< null: no solids
+    PressureFields<float>& fields;
+    Leap<float> leap;
+    Solve<float>& system;
+    bool any;                   ///< whether there was liquid
+};
+
+/// Whether all faces of some cells are wide open and no contour that moves is in them.
+template <class L>
+inline bool are_untouched(const Walls<float>& walls, std::int32_t stride, std::int32_t c) {
+    const auto least =
+        L::minimum(L::minimum(L::load(walls.open_u + c), L::load(walls.open_u + c + 1)),
+                   L::minimum(L::load(walls.open_v + c), L::load(walls.open_v + c + stride)));
+    if (!L::all_true(least == L::all(1.0F)) || (walls.moving && walls.thin != nullptr)) {
+        return false;
+    }
+    std::uint32_t cases = 0;
+    for (std::int32_t k = 0; walls.moving && k < L::kLanes; k += 4) {
+        std::uint32_t four = 0;
+        __builtin_memcpy(&four, walls.cell_case + c + k, sizeof four);
+        cases |= four;
+    }
+    return cases == 0;
+}
+
+/// Takes one number of each cell from `wanted` and adds one to `there`, in the cells' order.
+template <class L>
+inline void add_to_sums(typename L::Floats taken, typename L::Floats given,
+                        Solve<float>& system) {
+    const auto minus = -taken;
+    const auto low = L::template shuffle<0, 4, 1, 5>(minus, given);
+    const auto high = L::template shuffle<2, 6, 3, 7>(minus, given);
+    typename L::Four sums{system.wanted, system.there, 0.0F, 0.0F};
+    L::each_group([&](auto group) {
+        const auto a = L::template group<group>(low);
+        const auto b = L::template group<group>(high);
+        sums += a;
+        sums += __builtin_shufflevector(a, a, 2, 3, 2, 3);
+        sums += b;
+        sums += __builtin_shufflevector(b, b, 2, 3, 2, 3);
+    });
+    system.wanted = sums[0];
+    system.there = sums[1];
+}
+
+/// Cells c, c + 1 … as long as enough are left before `end` and alike. `inside`: none of them
+/// touches the tank's walls. Returns the next one to do.
+template <class L>
+inline std::int32_t build_plain_cells(PlainTask& task, std::int32_t c, std::int32_t end,
+                                      bool inside) {
+    const StaggeredGrid<float>& grid = task.grid;
+    PressureFields<float>& fields = task.fields;
+    const std::int32_t stride = grid.shape.stride;
+    const auto zero = L::all(0.0F);
+    for (; c + L::kLanes <= end; c += L::kLanes) {
+        const auto here = L::load(fields.level + c) > zero;
+        if (!L::any_true(here) && !fields.on_surface) {
+            L::store(fields.inverse_diagonal + c, zero);
+            L::store(fields.pressure + c, zero);
+            continue;
+        }
+        if (!inside || !L::all_true(lowest_around<L>(fields.level, stride, c) > zero) ||
+            (task.walls != nullptr && !are_untouched<L>(*task.walls, stride, c))) {
+            break;
+        }
+        const auto start = L::load(fields.pressure + c) * L::all(task.system.rescale);
+        if (!L::all_true(L::absolute(start) < L::all(__builtin_inff()))) {
+            break;
+        }
+        const std::int32_t up = c + stride;
+        const auto divergence = ((L::load(grid.u + c + 1) - L::load(grid.u + c)) +
+                                 (L::load(grid.v + up) - L::load(grid.v + c))) +
+                                wanted_convergence_lanes<L>(grid, c, task.leap);
+        L::store(fields.divergence + c, divergence);
+        L::store(fields.inverse_diagonal + c, L::all(0.25F));
+        L::store(fields.pressure + c, start);
+        add_to_sums<L>(start * divergence, (start * L::all(4.0F)) * start, task.system);
+        task.any = true;
+    }
+    return c;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t build_plain_wide(PlainTask& task, std::int32_t c, std::int32_t end, bool inside);
+#endif
+
+#endif
+
+}  // namespace weir
