@@ -38,6 +38,13 @@ struct Particles {
             kind[index] = kind[count];
         }
     }
+    void swap(std::int32_t a, std::int32_t b) {
+        swap_in(position, a, b);
+        swap_in(velocity, a, b);
+        if (kind != nullptr) {
+            swap_in(kind, a, b);
+        }
+    }
     /// Marks a particle as one to be removed: no tank has such a place. Not for packed places.
     void mark(std::int32_t index) { position[index].x = PositionOf<Real>(Real(-1)); }
     /// Removes the marked ones, so many, as if it had been done one by one from the pool's end.
@@ -48,6 +55,14 @@ struct Particles {
                 --marked;
             }
         }
+    }
+
+private:
+    template <class Field>
+    static void swap_in(Field* field, std::int32_t a, std::int32_t b) {
+        const Field kept = field[a];
+        field[a] = field[b];
+        field[b] = kept;
     }
 };
 

@@ -34,20 +34,6 @@ std::int64_t spanned(const Particles<Real>& particles) {
     return rows;
 }
 
-template <class Real>
-void swap_particles(Particles<Real>& particles, std::int32_t a, std::int32_t b) {
-    const auto swap = [&](auto* field) {
-        const auto kept = field[a];
-        field[a] = field[b];
-        field[b] = kept;
-    };
-    swap(particles.position);
-    swap(particles.velocity);
-    if (particles.kind != nullptr) {
-        swap(particles.kind);
-    }
-}
-
 /// Whoever stands in another row's part is swapped there (American flag sort: McIlroy, Bostic &
 /// McIlroy 1993).
 template <class Real>
@@ -71,7 +57,7 @@ void sort_by_row(const Part& rows, std::int32_t* next, std::int32_t* end,
             const std::int32_t k = next[row];
             const std::int32_t home = row_of(particles, k) - rows.first;
             if (home != row) {
-                swap_particles(particles, k, next[home]);
+                particles.swap(k, next[home]);
             }
             ++next[home];
         }

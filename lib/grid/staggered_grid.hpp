@@ -31,6 +31,20 @@ struct GridShape {
     }
 };
 
+/// A shape in few bytes, whose rows are as long as it is wide.
+struct SmallShape {
+    std::int16_t nx = 0;
+    std::int16_t ny = 0;
+    std::int16_t i0 = 0;
+    std::int16_t j0 = 0;
+
+    SmallShape() = default;
+    SmallShape(const GridShape& s)  // NOLINT
+        : nx(static_cast<std::int16_t>(s.nx)), ny(static_cast<std::int16_t>(s.ny)),
+          i0(static_cast<std::int16_t>(s.i0)), j0(static_cast<std::int16_t>(s.j0)) {}
+    operator GridShape() const { return {nx, ny, nx + 2, i0, j0}; }  // NOLINT
+};
+
 /// Where in the tank the lower left corner of a cell is.
 template <class Real>
 inline Vec2<Real> corner_of(const GridShape& s, std::int32_t i, std::int32_t j) {
@@ -87,6 +101,11 @@ struct StaggeredGrid {
     /// volume over mass. A particle of the first liquid has mass and volume 1. Null: one liquid.
     VelocityOf<Real>* inverse_density_u = nullptr;
     VelocityOf<Real>* inverse_density_v = nullptr;
+    /// Of the whole tank's numbering, the entry that arrays begin with: 0, or that of the window
+    /// which is stored. Pointers stand so far before their arrays.
+    std::int32_t origin = 0;
+    /// A field as room for one and the one behind it, side by side.
+    Real* as_pairs(VelocityOf<Real>* field) const { return field - origin; }
     /// Room for two fields, free during both transfers, and a promise that mass_u stands behind u
     /// and mass_v behind v: loops in lanes keep two numbers a face side by side. Null: plain loops.
     Real* pairs = nullptr;

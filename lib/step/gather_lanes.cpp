@@ -33,26 +33,41 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
                                       Particles<float>& particles) {
     const GridShape& s = grid.shape;
     const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
-    OneByOne rest{transfer, size, particles};
-    const GatherTask task{{grid.pairs, grid.u, s.stride},
-                          &particles.position->x,
-                          &particles.velocity->x,
-                          particles.count,
-                          {size.x, size.y},
-                          kWallGap<float>,
-                          minimum(transfer.near, transfer.limit),
-                          transfer.limit,
-                          transfer.flip_ratio,
-                          transfer.dt_s,
-                          OneByOne::move,
-                          &rest};
+    TransferResult<float> result;
+    const auto gather = [&](Particles<float> some, [[maybe_unused]] bool wide) {
+        OneByOne rest{transfer, size, some};
+        const GatherTask task{{grid.pairs, grid.as_pairs(grid.u), s.stride},
+                              &some.position->x,
+                              &some.velocity->x,
+                              some.count,
+                              {size.x, size.y},
+                              kWallGap<float>,
+                              minimum(transfer.near, transfer.limit),
+                              transfer.limit,
+                              transfer.flip_ratio,
+                              transfer.dt_s,
+                              OneByOne::move,
+                              &rest};
 #if WEIR_HAS_WIDE_LANES
-    const float fastest = has_wide_lanes() ? gather_wide(task) : gather_all<FourLanes>(task);
+        const float fastest = wide ? gather_wide(task) : gather_all<FourLanes>(task);
 #else
-    const float fastest = gather_all<FourLanes>(task);
+        const float fastest = gather_all<FourLanes>(task);
 #endif
-    rest.result.max_speed = maximum(rest.result.max_speed, fastest);
-    return rest.result;
+        result.add(rest.result);
+        result.max_speed = maximum(result.max_speed, fastest);
+    };
+#if WEIR_HAS_WIDE_LANES
+    // Of the last two one may be missing, and is looked up where the tank begins: that must exist.
+    const std::int32_t paired =
+        grid.origin != 0 && has_wide_lanes() ? particles.count & ~1 : particles.count;
+    gather(particles.part(0, paired), has_wide_lanes());
+#else
+    const std::int32_t paired = 0;
+#endif
+    if (paired < particles.count) {
+        gather(particles.part(paired, particles.count - paired), false);
+    }
+    return result;
 }
 
 #endif

@@ -6,16 +6,6 @@ namespace weir {
 
 namespace {
 
-/// Rows above the row of the highest particle and below that of the lowest one: one that its mass
-/// reaches, one that velocity is extrapolated to, and what stencils of smoothing and mirroring look
-/// at beyond.
-constexpr std::int32_t kMargin = 4;
-
-/// Parts begin at multiples of this: words of Walls::near, and pairs of cells of the coarse grid,
-/// which is relaxed by colours as the fine one is.
-constexpr std::int32_t kColumnsAtOnce = 32;
-constexpr std::int32_t kRowsAtOnce = 2 * kCoarseEdge;
-
 template <class Real>
 Extent<Real> extent_from(Extent<Real> so_far, const Vec2<PositionOf<Real>>* position,
                          std::int32_t first, std::int32_t count) {
@@ -148,13 +138,13 @@ GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
     GridShape part = tank;
     if (!borders.wrap_x) {
         const Part columns = span_of(tank.nx, from_corner ? 0 : cell(extent.low.x),
-                                     cell(extent.high.x), kColumnsAtOnce);
+                                     cell(extent.high.x), kWindowColumns);
         part.i0 = columns.first;
         part.nx = columns.end - columns.first;
     }
     if (!borders.wrap_y) {
         const Part rows = span_of(tank.ny, from_corner ? 0 : cell(extent.low.y),
-                                  cell(extent.high.y), kRowsAtOnce);
+                                  cell(extent.high.y), kWindowRows);
         part.j0 = rows.first;
         part.ny = rows.end - rows.first;
     }

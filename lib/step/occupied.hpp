@@ -10,6 +10,11 @@
 
 namespace weir {
 
+/// Rows above the row of the highest particle and below that of the lowest one: one that its mass
+/// reaches, one that velocity is extrapolated to, and what stencils of smoothing and mirroring look
+/// at beyond. Columns on either side likewise.
+inline constexpr std::int32_t kMargin = 4;
+
 /// Cost: 4 comparisons a particle, of which there is at least one.
 template <class Real>
 Extent<Real> extent_of(const Particles<Real>& particles);

@@ -21,7 +21,10 @@ struct Simulation {
     Settings<Real> settings;
     Particles<Real> particles;
     StaggeredGrid<Real> grid;  ///< between substeps of the whole tank
-    GridShape occupied;        ///< what the last substep worked on
+    SmallShape occupied;       ///< what the last substep worked on
+    SmallShape window;         ///< what is stored: all of the tank, or a part of it
+    std::int32_t window_cells = 0;  ///< then: how many entries it has room for; else 0
+    std::int32_t beyond = 0;   ///< particles that a substep leaves out: they stand before the pool
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;

@@ -19,6 +19,7 @@
 #include "step/thin_transfer.hpp"
 #include "step/two_way.hpp"
 #include "step/viscosity.hpp"
+#include "step/window.hpp"
 
 namespace weir {
 
@@ -109,6 +110,20 @@ void fill_borders(Simulation<Real>& simulation, Work work) {
     }
 }
 
+/// How often `hide_beyond` looks at each particle.
+constexpr std::int32_t kLooksBeyond = 3;
+
+/// Moves the window to the grid's part, whose cells get other numbers by that. Returns the cost.
+template <class Real>
+std::int32_t follow(Simulation<Real>& simulation) {
+    GridShape& part = simulation.grid.shape;
+    GridShape& coarse = simulation.pressure.coarse.shape;
+    const std::int32_t cost = move_window(part, simulation);
+    part.stride = simulation.layers.shape.stride;
+    coarse = {coarse_cells(part.nx), coarse_cells(part.ny), coarse.stride};
+    return cost;
+}
+
 /// The grid's stages see the part of the tank that the liquid is in.
 template <class Real>
 void skip_empty(Simulation<Real>& simulation, Work work) {
@@ -128,11 +143,18 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
     for (const Extent<Real>& one : pieces) {
         simulation.extent.add(one);
     }
+    const bool windowed = kHasWindow<Real> && simulation.window_cells > 0;
     if (work.once(1)) {
         GridShape& now = simulation.grid.shape;
         // What thin walls and whoever counts forces know of cells is told from the corner on.
         const bool from_corner = walls.thin != nullptr || simulation.bodies.load != nullptr;
         now = occupied_part(tank, simulation.settings.borders, simulation.extent, from_corner);
+        if constexpr (kHasWindow<Real>) {
+            if (windowed && !fits_window(simulation, now)) {
+                work.spend(kLooksBeyond * particles.count);
+                now = hide_beyond(simulation);
+            }
+        }
         GridShape& coarse = simulation.pressure.coarse.shape;
         coarse = {coarse_cells(now.nx), coarse_cells(now.ny), coarse.stride};
         walls.active = walls_reach(now, simulation.bodies, walls);
@@ -140,7 +162,16 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
     }
     empty_beyond(tank, simulation.occupied, simulation.grid.shape, simulation.pressure, work);
     if (work.once(1)) {
+        if constexpr (kHasWindow<Real>) {
+            if (windowed) {
+                work.spend(follow(simulation));
+            }
+        }
         simulation.occupied = simulation.grid.shape;
+    }
+    if (windowed && work.foreseeing()) {
+        work.expect(1, kLooksBeyond * particles.count);
+        work.expect(1, simulation.window_cells);
     }
 }
 
@@ -152,13 +183,31 @@ void order_particles(Simulation<Real>& simulation, Work work) {
     if (simulation.settings.keep_sorted && work.once(2 * simulation.particles.count)) {
         // The coarse grid is not in use before the pressure.
         const CoarseGrid<Real>& coarse = simulation.pressure.coarse;
-        const std::int32_t rows = coarse_cells(simulation.layers.shape.ny) + 2;
+        const std::int32_t rows = coarse_cells(simulation.window.ny) + 2;
         const auto row_of = [](PositionOf<Real> y) { return static_cast<std::int32_t>(Real(y)); };
         const Extent<Real>& extent = simulation.extent;
         keep_row_order({row_of(extent.low.y), row_of(extent.high.y) + 1},
                        {reinterpret_cast<std::int32_t*>(coarse.correction),
                         kFields * coarse.shape.stride * rows},
                        simulation.particles);
+    }
+}
+
+/// Bodies move, and the contour with them.
+template <class Real>
+void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                 StepReport& report) {
+    if (work.once(simulation.bodies.vertices_used + 1)) {
+        move_bodies(simulation.bodies, simulation.layers.walls, plan.viscosity > Real(0),
+                    plan.dt_s);
+    }
+    if (work.once(simulation.bodies.capacity)) {
+        const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);
+        report.nodes_rasterized += nodes;
+        work.spend(nodes);
+    }
+    if (work.foreseeing()) {
+        work.expect(1, most_nodes(simulation.layers, simulation.bodies));
     }
 }
 
@@ -173,17 +222,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     StageClock clock(simulation.ticks, work, report);
 
     if (Solids && simulation.bodies.used > 0) {
-        if (work.once(simulation.bodies.vertices_used + 1)) {
-            move_bodies(simulation.bodies, walls, plan.viscosity > Real(0), dt_s);
-        }
-        if (work.once(simulation.bodies.capacity)) {
-            const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);
-            report.nodes_rasterized += nodes;
-            work.spend(nodes);
-        }
-        if (work.foreseeing()) {
-            work.expect(1, most_nodes(simulation.layers, simulation.bodies));
-        }
+        draw_bodies(simulation, plan, work, report);
         clock.charge(Stage::contour);
     }
     skip_empty(simulation, work);
@@ -239,6 +278,12 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         clock.charge(Stage::contour);
     }
     gather<Solids>(simulation, plan, work, clock, report);
+    if constexpr (kHasWindow<Real> && !Solids) {
+        if (simulation.window_cells > 0) {
+            fly_beyond(simulation, plan, work, report);
+            clock.charge(Stage::grid_to_particle);
+        }
+    }
     if (kHasLedger<Real> && two_way) {
         close_ledger(simulation, dt_s, work);
         clock.charge(Stage::collide);

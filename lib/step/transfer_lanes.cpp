@@ -201,7 +201,7 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
 
 void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const Pairs<float> pairs{grid.v, grid.pairs, s.stride};
+    const Pairs<float> pairs{grid.as_pairs(grid.v), grid.pairs, s.stride};
     each_row(work, s, [&](const Part& entries) {
         const std::size_t bytes =
             2 * static_cast<std::size_t>(entries.end - entries.first) * sizeof(float);
@@ -231,7 +231,7 @@ void pair_fields(StaggeredGrid<float>& grid, Work work) {
         pack(grid.u, grid.mass_u, entries, grid.pairs);
     });
     each_row(work, grid.shape, [&](const Part& entries) {
-        pack(grid.v, grid.mass_v, entries, grid.u);
+        pack(grid.v, grid.mass_v, entries, grid.as_pairs(grid.u));
     });
 }
 

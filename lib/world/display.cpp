@@ -46,9 +46,14 @@ Between between(std::int32_t k, std::int32_t pixels, std::int32_t cells, std::in
 
 template <class Field, class Value>
 std::int32_t sample(const Field& field, const Between& x, const Between& y, Value value) {
+    const auto at = [&](std::int32_t i, std::int32_t j) {
+        i -= field.first_column;  // what is not stored is empty
+        j -= field.first_row;
+        return 0 <= i && i < field.columns && 0 <= j && j < field.rows ? value(field.at(i, j)) : 0;
+    };
     const auto row = [&](std::int32_t j) {
-        const std::int32_t left = value(field.at(x.low, j));
-        return left * kOne + x.part * (value(field.at(x.high, j)) - left);
+        const std::int32_t left = at(x.low, j);
+        return left * kOne + x.part * (at(x.high, j) - left);
     };
     const std::int32_t low = row(y.low);
     return (low + y.part * ((row(y.high) - low) >> 8)) >> 8;
@@ -77,7 +82,8 @@ ChangedRows draw(const World<Real>& world, const Display& display) {
     }
     for (std::int32_t row = 0; row < display.height; ++row) {
         const std::int32_t up = display.height - 1 - row;
-        const Between cell_y = between(up, display.height, world.cells_y(), kOne / 2, density.rows);
+        const Between cell_y = between(up, display.height, world.cells_y(), kOne / 2,
+                                       world.cells_y());
         const Between node_y = between(up, display.height, world.cells_y(), 0, distance.rows);
         for (std::int32_t column = 0; column < display.width; ++column) {
             std::uint8_t& pair = display.pixels[(row * display.width + column) / 2];
@@ -89,7 +95,7 @@ ChangedRows draw(const World<Real>& world, const Display& display) {
             const auto near = [](auto value) { return limited_distance(value); };
             if (distance.data == nullptr || sample(distance, node_x, node_y, near) > 0) {
                 const Between cell_x = between(column, display.width, world.cells_x(), kOne / 2,
-                                               density.columns);
+                                               world.cells_x());
                 const auto full = [](auto value) { return filled(value); };
                 shade = shade_of(display, sample(density, cell_x, cell_y, full), before);
             }

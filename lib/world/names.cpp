@@ -64,6 +64,14 @@ const char* init_text(Status status) {
             return "thin walls: choose World<Fixed>, or float, or set capacity.wall_edges = 0";
         case Status::small_fixed_has_no_tension:
             return "surface tension: choose World<Fixed>, or float";
+        case Status::small_fixed_has_no_window:
+            return "SmallFixed: its tanks are small, leave capacity.window_cells at 0";
+        case Status::window_out_of_range:
+            return "capacity.window_cells: choose 0 … the cells of the largest tank";
+        case Status::window_too_small:
+            return "capacity.window_cells: at least 66 × 18, along a seam the whole tank's";
+        case Status::window_without_bodies:
+            return "with capacity.window_cells a world holds no bodies and counts no forces";
         case Status::memory_missing:
             return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";

@@ -6,6 +6,7 @@
 #include "geometry/convex_decomposition.hpp"
 #include "solid/layers.hpp"
 #include "step/substep.hpp"
+#include "step/window.hpp"
 #include "weir/world.hpp"
 #include "world/snapshot_frame.hpp"
 #include "world/snapshot_members.hpp"
@@ -211,6 +212,15 @@ void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldSta
         }
     };
     const Extents extents = world_members(stream, state);
+    if constexpr (kHasWindow<Real>) {
+        if (state.simulation.window_cells > 0) {
+            if (apply) {
+                number_cells(extents.window, state.simulation);
+            } else if (reader.sound() && !is_window(state.simulation, extents.window)) {
+                reader.refuse();
+            }
+        }
+    }
     std::int32_t places = 0;
     for (std::int32_t slot = 0; slot < table.capacity && reader.sound(); ++slot) {
         Body<Real> body;
@@ -260,7 +270,7 @@ void redraw(Simulation<Real>& simulation) {
     simulation.layers.walls.active = table.used > 0;
     simulation.stages = table.used > 0 ? &solid_stages<Real>() : &open_stages<Real>();
     simulation.grid.shape = simulation.layers.shape;
-    simulation.occupied = simulation.grid.shape;  // what is not kept may stand anywhere
+    simulation.occupied = simulation.window;  // what is not kept may stand anywhere
     clear(simulation.contacts);
     if (table.capacity > 0) {
         redraw_all(simulation.layers, table);
@@ -315,6 +325,9 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
     go_through<MemberCheck>(look, false, plan, *state_);
     if (!look.sound() || !look.at_end()) {
         return Status::snapshot_damaged;
+    }
+    if constexpr (kHasWindow<Real>) {
+        show_beyond(state_->simulation);
     }
     SnapshotReader take(contents, length);
     go_through<MemberRead>(take, true, plan, *state_);

@@ -71,7 +71,7 @@ inline constexpr std::size_t kHeadBytes = 2 * kWordBytes + sizeof(Head);
 
 inline std::uint64_t capacity_code(const Capacity& of) {
     const auto& [particles, cells_x, cells_y, bodies, moving, vertices, wall_edges, contacts,
-                 two_way, second_liquid] = of;
+                 two_way, second_liquid, window_cells] = of;
     Hash hash;
     const std::int32_t numbers[] = {particles, cells_x, cells_y,
                                     bodies,    vertices, wall_edges, contacts};
@@ -81,6 +81,9 @@ inline std::uint64_t capacity_code(const Capacity& of) {
     hash.add(static_cast<std::uint32_t>(two_way));
     hash.add(static_cast<std::uint32_t>(second_liquid));
     hash.add(static_cast<std::uint32_t>(moving));
+    if (is_windowed(of)) {
+        hash.add(window_cells);
+    }
     return hash.value();
 }
 

@@ -6,11 +6,15 @@ namespace weir {
 
 namespace {
 
+/// Of all cells of the tank: those that are not stored are empty.
 template <class Real>
-void hash_field(Hash& hash, const Real* field, const GridShape& s) {
-    for (std::int32_t j = 0; j < s.ny; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            hash.add(field[s.index(i, j)]);
+void hash_field(Hash& hash, const Real* field, const GridShape& tank, const GridShape& window) {
+    const std::int32_t first = window.i0 - 1;
+    const std::int32_t last = window.i0 + window.nx;
+    for (std::int32_t j = 0; j < tank.ny; ++j) {
+        const bool stored = window.j0 - 1 <= j && j <= window.j0 + window.ny;
+        for (std::int32_t i = 0; i < tank.nx; ++i) {
+            hash.add(stored && first <= i && i <= last ? field[tank.index(i, j)] : Real(0));
         }
     }
 }
@@ -73,7 +77,7 @@ std::uint64_t World<Real>::state_hash() const {
             hash.add(static_cast<std::uint32_t>(particles.kind[k]));
         }
     }
-    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape);
+    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape, simulation.window);
     hash.add(simulation.pressure.last_dt);
     const Real numbers[] = {simulation.pressure.change, simulation.max_speed,
                             simulation.settings.gravity.x, simulation.settings.gravity.y};

@@ -2,7 +2,7 @@
 
 #include "geometry/polygon.hpp"
 #include "math/vec2.hpp"
-#include "weir/memory.hpp"
+#include "step/window.hpp"
 
 namespace weir {
 
@@ -88,6 +88,27 @@ Status check_borders(const WorldDef& def) {
     const bool odd = (def.periodic_x && def.capacity.cells_x % 2 != 0) ||
                      (def.periodic_y && def.capacity.cells_y % 2 != 0);
     return odd ? Status::periodic_needs_even_cells : Status::ok;
+}
+
+Status check_window(const WorldDef& def, const Reach& reach) {
+    const Capacity& capacity = def.capacity;
+    if (!within(capacity.window_cells, 0, entries_of(kMaxCells, kMaxCells))) {
+        return Status::window_out_of_range;
+    }
+    if (!is_windowed(capacity)) {
+        return Status::ok;
+    }
+    if (!reach.everything) {
+        return Status::small_fixed_has_no_window;
+    }
+    if (capacity.bodies > 0 || capacity.two_way) {
+        return Status::window_without_bodies;
+    }
+    // In narrow tanks, too: counts of particles along the sides stand in it.
+    const std::int32_t least =
+        maximum(entries_of(2 * kWindowColumns, 2 * kWindowRows),
+                least_window(capacity, def.periodic_x, def.periodic_y).size());
+    return capacity.window_cells < least ? Status::window_too_small : Status::ok;
 }
 
 Status check_sleep(const WorldDef& def) {
@@ -198,6 +219,10 @@ Status check_world(const WorldDef& def, const Reach& reach) {
     const Status borders = check_borders(def);
     if (borders != Status::ok) {
         return borders;
+    }
+    const Status window = check_window(def, reach);
+    if (window != Status::ok) {
+        return window;
     }
     const Status sleep = check_sleep(def);
     if (sleep != Status::ok) {

@@ -11,21 +11,21 @@ namespace weir {
 
 namespace {
 
-/// Whatever a state decides about how much there is to be done, at its most.
+/// Whatever a state decides about how much there is to be done, at its most, if the cells that are
+/// stored have that shape.
 template <class Real>
-void fill_up(Simulation<Real>& simulation) {
-    const GridShape& tank = simulation.layers.shape;
+void fill_up(const GridShape& stored, Simulation<Real>& simulation) {
     simulation.particles.count = simulation.particles.capacity;
     simulation.gathered = simulation.particles.capacity;
-    simulation.grid.shape = tank;
-    simulation.occupied = tank;
+    simulation.grid.shape = stored;
+    simulation.occupied = stored;
     PressureFields<Real>& fields = simulation.pressure;
     CoarseGrid<Real>& coarse = fields.coarse;
-    coarse.shape = {coarse_cells(tank.nx), coarse_cells(tank.ny), coarse.shape.stride};
+    coarse.shape = {coarse_cells(stored.nx), coarse_cells(stored.ny), coarse.shape.stride};
     coarse.first_row = 0;
     coarse.last_row = coarse.shape.ny - 1;
     fields.solve.first_row = 0;
-    fields.solve.last_row = tank.ny - 1;
+    fields.solve.last_row = stored.ny - 1;
     fields.solve.share = Real(0);  // of the last pressure: scaled
     fields.on_surface = false;
     Walls<Real>& walls = simulation.layers.walls;
@@ -44,11 +44,11 @@ std::int64_t foresee(Simulation<Real>& simulation, const SubstepPlan<Real>& plan
     simulation.stages->substep(simulation, plan, Work(progress), report);
     // A part of the tank that was left is emptied, whatever the next one is.
     report.work[static_cast<std::int32_t>(Stage::particle_to_grid)] +=
-        static_cast<std::uint32_t>(simulation.layers.shape.size());
+        static_cast<std::uint32_t>(simulation.grid.shape.size());
     std::int64_t sum = 0;
     for (std::int32_t k = 0; k < kStageCount; ++k) {
-        stage[k] = report.work[k];
-        sum += stage[k];
+        stage[k] = maximum<std::int64_t>(stage[k], report.work[k]);
+        sum += report.work[k];
     }
     largest_item = maximum(largest_item, progress.largest_item());
     return sum;
@@ -79,11 +79,27 @@ Status World<Real>::work_bound(float dt_s, WorkBound* bound, std::int32_t rung) 
     plan.viscosity = simulation.settings.viscosity;
     plan.surface_tension = simulation.settings.surface_tension;
     const bool cold = !(simulation.pressure.last_dt > Seconds<Real>{});
-    fill_up(simulation);
     std::int32_t& item = bound->largest_item;
-    const std::int64_t one = foresee(simulation, plan, 1, bound->substep, item);
-    const std::int64_t first = foresee(simulation, plan, kColdStart, bound->first_substep, item);
-    bound->step = bound->substeps * one + (cold && bound->substeps > 0 ? first - one : 0);
+    const auto foresee_in = [&](const GridShape& stored) {
+        fill_up(stored, simulation);
+        const std::int64_t one = foresee(simulation, plan, 1, bound->substep, item);
+        const std::int64_t first =
+            foresee(simulation, plan, kColdStart, bound->first_substep, item);
+        bound->step = maximum(bound->step,
+                              bound->substeps * one +
+                                  (cold && bound->substeps > 0 ? first - one : 0));
+    };
+    if (simulation.window_cells == 0) {
+        foresee_in(simulation.layers.shape);
+        return Status::ok;
+    }
+    for_each_window(state_->def.capacity, [&](std::int32_t columns, std::int32_t rows) {
+        const Borders<Real>& borders = simulation.settings.borders;
+        const GridShape& tank = simulation.layers.shape;
+        if ((!borders.wrap_x || columns == tank.nx) && (!borders.wrap_y || rows == tank.ny)) {
+            foresee_in({columns, rows, columns + 2});
+        }
+    });
     return Status::ok;
 }
 

@@ -7,6 +7,7 @@
 
 #include "math/lanes.hpp"
 #include "step/substep.hpp"
+#include "step/window.hpp"
 #include "world/validate.hpp"
 #include "world/world_state.hpp"
 
@@ -79,8 +80,7 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
 
 template <class Real>
 void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Real>& coarse) {
-    const std::int32_t nx = coarse_cells(capacity.cells_x);
-    coarse.shape = {nx, coarse_cells(capacity.cells_y), nx + 2};
+    const std::int32_t entries = coarse_entries(capacity);
     Real* next = nullptr;
     carver.take(Block::coarse_cells, next);
     Real** const fields[] = {&coarse.correction, &coarse.residual, &coarse.inverse_diagonal,
@@ -88,14 +88,14 @@ void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Rea
                              &coarse.centre_y,   &coarse.reach_u,  &coarse.reach_v};
     if constexpr (Stored<Real>::shares_momentum) {
         coarse.correction = next;
-        coarse.residual = next + coarse.shape.size();
+        coarse.residual = next + entries;
         return;
     }
     const std::int32_t count =
         capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields;
     for (std::int32_t k = 0; k < count; ++k) {
         *fields[k] = next;
-        next += coarse.shape.size();
+        next += entries;
     }
     if (!capacity.second_liquid) {
         coarse.reach_u = coarse.weight_u;
@@ -104,11 +104,10 @@ void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Rea
 }
 
 template <class Real>
-void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& simulation) {
-    const GridShape shape{capacity.cells_x, capacity.cells_y, capacity.cells_x + 2};
-    simulation.grid.shape = shape;
-    simulation.occupied = shape;
-    simulation.layers.shape = shape;
+void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& borders,
+           Simulation<Real>& simulation) {
+    simulation.layers.shape = {capacity.cells_x, capacity.cells_y};
+    simulation.window_cells = is_windowed(capacity) ? capacity.window_cells : 0;
     carver.take(Block::particle_position, simulation.particles.position);
     carver.take(Block::particle_velocity, simulation.particles.velocity);
     simulation.particles.capacity = capacity.particles;
@@ -130,8 +129,8 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
     carver.take(Block::divergence, simulation.pressure.divergence);
     carver.take(Block::inverse_diagonal, simulation.pressure.inverse_diagonal);
     if constexpr (Stored<Real>::shares_momentum) {
-        simulation.pressure.divergence = simulation.grid.u + shape.size();
-        simulation.pressure.inverse_diagonal = simulation.grid.v + shape.size();
+        simulation.pressure.divergence = simulation.grid.u + cell_entries(capacity);
+        simulation.pressure.inverse_diagonal = simulation.grid.v + cell_entries(capacity);
     } else {
         simulation.grid.pairs = simulation.pressure.divergence;  // and the inverse diagonal behind
     }
@@ -141,12 +140,18 @@ void carve(const Carver& carver, const Capacity& capacity, Simulation<Real>& sim
 #if WEIR_PARALLEL
     if constexpr (kHasLanes<Real>) {
         simulation.grid.spans = {simulation.pressure.coarse.correction,
-                                 kCoarseFields * simulation.pressure.coarse.shape.size()};
+                                 kCoarseFields * coarse_entries(capacity)};
     }
 #endif
     carve_solids(carver, capacity, simulation);
     carver.take(Block::contact, simulation.contacts.entry);
     simulation.contacts.capacity = capacity.contacts;
+    const GridShape tank{capacity.cells_x, capacity.cells_y, capacity.cells_x + 2};
+    number_cells(is_windowed(capacity) ? least_window(capacity, borders.wrap_x, borders.wrap_y)
+                                       : tank,
+                 simulation);
+    simulation.grid.shape = simulation.layers.shape;
+    simulation.occupied = simulation.window;
 }
 
 template <class Real>
@@ -209,6 +214,11 @@ void name_units(WorldState<Real>& state) {
     contacts.world = state.tag;
 }
 
+template <class Number>
+FieldView<Number> view_of(const Number* field, const GridShape& window) {
+    return {field + window.index(0, 0), window.nx, window.ny, window.stride, window.i0, window.j0};
+}
+
 /// Different for two worlds that live at the same time. Part of names only, never of the state.
 std::uint16_t tag_of(const void* memory) {
     const auto address = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(memory));
@@ -235,8 +245,8 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     state_->still_gravity_mps2 = def.gravity_mps2;
     state_->cells_per_m = Face<Real>(1) / static_cast<Face<Real>>(def.cell_m);
     Simulation<Real>& simulation = state_->simulation;
-    carve(Carver(memory, plan), def.capacity, simulation);
     simulation.settings = settings_of<Real>(def, state_->cells_per_m);
+    carve(Carver(memory, plan), def.capacity, simulation.settings.borders, simulation);
     simulation.pressure.leaps =
         def.pressure == Pressure::projection &&
         (simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F);
@@ -273,8 +283,7 @@ FieldView<Real> World<Real>::pressure() const {
     if (state_ == nullptr) {
         return {};
     }
-    const GridShape& s = state_->simulation.layers.shape;
-    return {state_->simulation.pressure.pressure + s.index(0, 0), s.nx, s.ny, s.stride};
+    return view_of(state_->simulation.pressure.pressure, state_->simulation.window);
 }
 
 template <class Real>
@@ -282,8 +291,7 @@ FieldView<DensityOf<Real>> World<Real>::density() const {
     if (state_ == nullptr) {
         return {};
     }
-    const GridShape& s = state_->simulation.grid.shape;
-    return {state_->simulation.pressure.density + s.index(0, 0), s.nx, s.ny, s.stride};
+    return view_of(state_->simulation.pressure.density, state_->simulation.window);
 }
 
 template <class Real>

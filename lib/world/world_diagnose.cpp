@@ -3,6 +3,7 @@
 #include "pressure/surface_level.hpp"
 #include "step/grid_update.hpp"
 #include "step/particle_to_grid.hpp"
+#include "step/window.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
@@ -80,12 +81,18 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     const double cell_m = static_cast<double>(state_->def.cell_m);
     *diagnostics = {};
     sum_particles(simulation, cell_m, *diagnostics);
+    if constexpr (kHasWindow<Real>) {
+        if (simulation.window_cells > 0 && !look_around(simulation)) {
+            return Status::ok;
+        }
+    }
     particle_to_grid<Real>(simulation.particles, borders, simulation.settings.second_density,
                            simulation.grid, simulation.layers.walls.thin);
     surface_level(simulation.grid, borders, simulation.layers.walls,
                   simulation.settings.rest_count, simulation.pressure);
     grid_update(borders, Vec2<Real>{}, Seconds<Real>{}, simulation.pressure.level, simulation.grid);
     sum_cells(simulation, cell_m, *diagnostics);
+    simulation.grid.shape = simulation.layers.shape;
     return Status::ok;
 }
 

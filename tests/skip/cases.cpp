@@ -78,6 +78,7 @@ Scene scene_of(const char* name, Way way) {
         scene.def.capacity.second_liquid = true;
     } else if (is("domain")) {
         scene = way == Way::absent ? tank(160, 64) : tank(4096, 4096);
+        scene.def.capacity.window_cells = way == Way::skipped ? 162 * 66 : 0;
         if (way == Way::used) {  // in the upper right corner of a tank that is not that large
             scene = tank(512, 512);
             scene.water = {{464 * kCell, 496 * kCell}, {512 * kCell, 512 * kCell}};

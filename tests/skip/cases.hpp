@@ -26,7 +26,7 @@ inline constexpr Case kCases[] = {
     {"viscosity", "0", {false, true, true}},
     {"tension", "0", {false, true, true}},
     {"second_liquid", "no room for it", {false, true, true}},
-    {"domain", "4096 x 4096 cells around the same water", {true, true, true}},
+    {"domain", "4096 x 4096 cells, of which those around the same water are stored", {true, true, true}},
     {"sleep", "a world at rest, asleep", {true, true, false}},
     {"looking", "views of particles and pressure", {true, true, true}},
 };

@@ -148,6 +148,14 @@ const std::vector<Row>& init_rows() {
         {"periodic odd", CHANGED_INIT(periodic_y = true; def.capacity.bodies = 0;
                                       def.capacity.cells_y, 15),
          Status::periodic_needs_even_cells},
+        {"window below", CHANGED_INIT(capacity.window_cells, -1), Status::window_out_of_range},
+        {"window beyond", CHANGED_INIT(capacity.window_cells, 8194 * 8194 + 1),
+         Status::window_out_of_range},
+        {"window with bodies", CHANGED_INIT(capacity.window_cells, 200),
+         Status::window_without_bodies},
+        {"window too small", CHANGED_INIT(capacity.window_cells = 66 * 18 - 1;
+                                          def.capacity.bodies = 0; def.capacity.cells_x, 500),
+         Status::window_too_small},
         {"wall restitution below", CHANGED_INIT(walls.left.restitution, -0.01F),
          Status::restitution_out_of_range},
         {"wall restitution beyond", CHANGED_INIT(walls.right.restitution, 1.01F),

@@ -49,6 +49,14 @@ struct Capacity {
     /// Room and time for what liquid does to bodies and tank: `World::force`, `add_free_body`.
     bool two_way = false;
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
+    /// Of a huge tank store only the cells around the liquid, so many; 0, or as many as the tank
+    /// has: all of it. They hold the rectangle around all particles and 4 cells more on each side,
+    /// out to multiples of 32 columns and 8 rows, and a ring around that; at least 66 × 18, along
+    /// a seam the whole tank. As long as that suffices no bit is different. If it does not, the
+    /// sides that hold the fewest particles are left off: those fall by themselves, meet the
+    /// tank's walls and no other particle, and change places in the views, until they come back
+    /// into reach; `StepReport::particles_beyond` counts them. Not with bodies, nor in SmallFixed.
+    std::int32_t window_cells = 0;
 };
 
 /// How the liquid keeps its volume within a substep.

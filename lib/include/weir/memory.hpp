@@ -94,8 +94,8 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? 856 : 1144) + (std::is_same_v<Real, Fixed> ? 16 : 0)
-        : 1360;
+        ? (sizeof(void*) == 4 ? 864 : 1152) + (std::is_same_v<Real, Fixed> ? 16 : 0)
+        : 1368;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
@@ -113,6 +113,61 @@ inline constexpr std::int32_t kCoarseFieldsPacked = 2;  ///< SmallFixed: for the
 /// Coarse cells along an axis of so many cells.
 constexpr std::int32_t coarse_cells(std::int32_t cells) {
     return (cells + kCoarseEdge - 1) / kCoarseEdge;
+}
+
+/// Parts of the tank begin at multiples of these: words of the bits of cells beside walls, and
+/// pairs of cells of the coarse grid, which is relaxed by colours as the fine one is. Windows also
+/// end there, or with the tank.
+inline constexpr std::int32_t kWindowColumns = 32;
+inline constexpr std::int32_t kWindowRows = 2 * kCoarseEdge;
+
+/// No part is lower: a particle's row, and a margin on one side at least.
+inline constexpr std::int32_t kLeastPart = 5;
+
+/// Entries of an array of so many cells and a ring of ghost cells around them.
+constexpr std::int32_t entries_of(std::int32_t columns, std::int32_t rows) {
+    return (columns + 2) * (rows + 2);
+}
+
+/// Whether only the cells around the liquid are stored.
+constexpr bool is_windowed(const Capacity& capacity) {
+    return capacity.window_cells > 0 &&
+           capacity.window_cells < entries_of(capacity.cells_x, capacity.cells_y);
+}
+
+/// Calls visit(columns, rows) for every width that a window can have, and the most rows then.
+template <class Visit>
+constexpr void for_each_window(const Capacity& capacity, Visit visit) {
+    const std::int32_t rest = capacity.cells_x % kWindowColumns;
+    for (std::int32_t whole = 0; whole <= capacity.cells_x; whole += kWindowColumns) {
+        const std::int32_t widths[] = {whole, whole + rest};
+        for (const std::int32_t columns : widths) {
+            const std::int32_t rows = capacity.window_cells / (columns + 2) - 2;
+            if (columns > 0 && columns <= capacity.cells_x &&
+                (rows >= kLeastPart || rows >= capacity.cells_y)) {
+                visit(columns, rows < capacity.cells_y ? rows : capacity.cells_y);
+            }
+        }
+    }
+}
+
+/// Entries of the arrays of cells, faces and nodes.
+constexpr std::int32_t cell_entries(const Capacity& capacity) {
+    return is_windowed(capacity) ? capacity.window_cells
+                                 : entries_of(capacity.cells_x, capacity.cells_y);
+}
+
+/// Entries of an array of the coarse grid.
+constexpr std::int32_t coarse_entries(const Capacity& capacity) {
+    if (!is_windowed(capacity)) {
+        return entries_of(coarse_cells(capacity.cells_x), coarse_cells(capacity.cells_y));
+    }
+    std::int32_t most = 0;
+    for_each_window(capacity, [&](std::int32_t columns, std::int32_t rows) {
+        const std::int32_t entries = entries_of(coarse_cells(columns), coarse_cells(rows));
+        most = most < entries ? entries : most;
+    });
+    return most;
 }
 
 /// Largest index of a piece list: a triangle per vertex, each a count and three vertex numbers.
@@ -156,9 +211,8 @@ constexpr Layout layout(const Capacity& capacity) {
     const auto count = [](std::int32_t value) { return static_cast<std::size_t>(value); };
     const std::size_t particles = count(capacity.particles), vertices = count(capacity.vertices);
     // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
-    const std::size_t cells = (count(capacity.cells_x) + 2) * (count(capacity.cells_y) + 2);
-    const std::size_t coarse = (count(coarse_cells(capacity.cells_x)) + 2) *
-                               (count(coarse_cells(capacity.cells_y)) + 2);
+    const std::size_t cells = count(cell_entries(capacity));
+    const std::size_t coarse = count(coarse_entries(capacity));
     const std::size_t coarse_fields = count(coarse_fields_of<Real>(capacity));
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
     const std::size_t moving_cells = capacity.moving_bodies ? solid_cells : 0;

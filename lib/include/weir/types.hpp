@@ -51,13 +51,16 @@ struct View {
     constexpr const T& operator[](std::int32_t index) const { return data[index]; }
 };
 
-/// Rows of a cell or node field: value(i, j) = data[j * stride + i].
+/// Rows of a cell or node field: value(i, j) = data[j * stride + i]. With `Capacity::window_cells`
+/// only of a part of the tank, whose lower left corner is told.
 template <class T>
 struct FieldView {
     const T* data = nullptr;
     std::int32_t columns = 0;
     std::int32_t rows = 0;
     std::int32_t stride = 0;
+    std::int32_t first_column = 0;
+    std::int32_t first_row = 0;
 
     constexpr const T& at(std::int32_t i, std::int32_t j) const { return data[j * stride + i]; }
 };

@@ -1,0 +1,340 @@
+#include "step/window.hpp"
+
+#include <cstring>
+
+#include "step/gather.hpp"
+#include "step/tank_walls.hpp"
+
+namespace weir {
+
+namespace {
+
+/// By integers: the address itself may lie in front of all arrays.
+template <class T>
+void move_back(T*& pointer, std::int32_t entries) {
+    const auto bytes = static_cast<std::intptr_t>(entries) *
+                       static_cast<std::intptr_t>(sizeof(T));
+    pointer = reinterpret_cast<T*>(reinterpret_cast<std::uintptr_t>(pointer) -
+                                   static_cast<std::uintptr_t>(bytes));
+}
+
+/// Of the tank's numbering, the first entry of the arrays: a ghost cell's.
+std::int32_t first_entry(const GridShape& window) { return window.index(-1, -1); }
+
+std::int32_t rounded_up(std::int32_t cells, std::int32_t at_once) {
+    return (cells + at_once - 1) / at_once * at_once;
+}
+
+/// The least window around a part.
+GridShape window_around(const GridShape& tank, const GridShape& part) {
+    GridShape window = part;
+    window.nx = minimum(tank.nx - part.i0, rounded_up(part.nx, kWindowColumns));
+    window.ny = minimum(tank.ny - part.j0, rounded_up(part.ny, kWindowRows));
+    window.stride = window.nx + 2;
+    return window;
+}
+
+/// The least part that holds both.
+GridShape united(const GridShape& a, const GridShape& b) {
+    GridShape both = a;
+    both.i0 = minimum(a.i0, b.i0);
+    both.j0 = minimum(a.j0, b.j0);
+    both.nx = maximum(a.i0 + a.nx, b.i0 + b.nx) - both.i0;
+    both.ny = maximum(a.j0 + a.ny, b.j0 + b.ny) - both.j0;
+    return both;
+}
+
+/// Moves the entries that two windows share, and empties all others. Rows keep their order: those
+/// that go up are moved from the highest on, the others from the lowest.
+template <class Field>
+void carry(const GridShape& from, const GridShape& to, std::int32_t entries, Field* first) {
+    const Part columns{maximum(from.i0, to.i0) - 1,
+                       minimum(from.i0 + from.nx, to.i0 + to.nx) + 1};
+    const Part rows{maximum(from.j0, to.j0) - 1, minimum(from.j0 + from.ny, to.j0 + to.ny) + 1};
+    const std::int32_t width = columns.end - columns.first;
+    const auto at = [&](const GridShape& window, std::int32_t i, std::int32_t j) {
+        return first + (window.index(i - window.i0, j - window.j0) - first_entry(window));
+    };
+    const auto move = [&](std::int32_t j, bool upwards) {
+        const Field* source = at(from, columns.first, j);
+        Field* target = at(to, columns.first, j);
+        if ((target > source) == upwards) {
+            std::memmove(static_cast<void*>(target), source,
+                         static_cast<std::size_t>(width) * sizeof(Field));
+        }
+    };
+    for (std::int32_t j = rows.end - 1; width > 0 && j >= rows.first; --j) {
+        move(j, true);
+    }
+    for (std::int32_t j = rows.first; width > 0 && j < rows.end; ++j) {
+        move(j, false);
+    }
+    const auto clear = [&](Field* begin, const Field* end) {
+        std::memset(static_cast<void*>(begin), 0,
+                    static_cast<std::size_t>(end - begin) * sizeof(Field));
+    };
+    for (std::int32_t j = to.j0 - 1; j <= to.j0 + to.ny; ++j) {
+        const bool kept = width > 0 && j >= rows.first && j < rows.end;
+        Field* begin = at(to, to.i0 - 1, j);
+        const Field* end = begin + to.stride;
+        clear(begin, kept ? at(to, columns.first, j) : end);
+        if (kept) {
+            clear(at(to, columns.end, j), end);
+        }
+    }
+    clear(at(to, to.i0 - 1, to.j0 + to.ny + 1), first + entries);
+}
+
+/// Particles counted along an axis, in groups of as many cells as a window's sides move by.
+struct Groups {
+    std::int32_t* count;
+    std::int32_t at_once;
+    std::int32_t cells;  ///< of the tank
+    Part kept = {};
+
+    std::int32_t of(std::int32_t cell) const { return maximum(0, cell - kMargin) / at_once; }
+    bool keeps(std::int32_t cell) const {
+        return kept.first <= of(cell) && of(cell) < kept.end;
+    }
+    void begin() {
+        kept = {0, of(cells - 1) + 1};
+        for (std::int32_t k = 0; k < kept.end; ++k) {
+            count[k] = 0;
+        }
+    }
+    /// Cells of a window that holds what is kept.
+    std::int32_t width() const {
+        return minimum(cells - kept.first * at_once, (kept.end - kept.first + 1) * at_once);
+    }
+};
+
+/// Takes the side with the fewest particles away, and of equal ones that with more cells.
+void cut(Groups& columns, Groups& rows) {
+    struct Side {
+        Groups* of;
+        std::int32_t group;
+        std::int32_t cells;
+    };
+    const std::int32_t column = columns.at_once * rows.width();
+    const std::int32_t row = rows.at_once * columns.width();
+    const Side sides[] = {{&columns, columns.kept.first, column},
+                          {&columns, columns.kept.end - 1, column},
+                          {&rows, rows.kept.first, row},
+                          {&rows, rows.kept.end - 1, row}};
+    const Side* best = nullptr;
+    for (const Side& side : sides) {
+        if (side.of->kept.end - side.of->kept.first == 1) {
+            continue;
+        }
+        const std::int32_t count = side.of->count[side.group];
+        const std::int32_t least = best != nullptr ? best->of->count[best->group] : 0;
+        if (best == nullptr || count < least || (count == least && side.cells > best->cells)) {
+            best = &side;
+        }
+    }
+    if (best != nullptr) {
+        Part& kept = best->of->kept;
+        kept = best->group == kept.first ? Part{kept.first + 1, kept.end}
+                                         : Part{kept.first, kept.end - 1};
+    }
+}
+
+template <class Real>
+Vec2<std::int32_t> cell_of(const Particles<Real>& particles, std::int32_t k) {
+    return {static_cast<std::int32_t>(Real(particles.position[k].x)),
+            static_cast<std::int32_t>(Real(particles.position[k].y))};
+}
+
+/// Puts those that are not kept before the others. Returns how many they are.
+template <class Real>
+std::int32_t part_pool(const Groups& columns, const Groups& rows, Particles<Real>& particles) {
+    std::int32_t beyond = 0;
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<std::int32_t> cell = cell_of(particles, k);
+        if (!columns.keeps(cell.x) || !rows.keeps(cell.y)) {
+            particles.swap(k, beyond++);
+        }
+    }
+    return beyond;
+}
+
+/// Lets the pool begin so many particles later.
+template <class Real>
+void begin_pool(std::int32_t later, Simulation<Real>& simulation) {
+    Particles<Real>& particles = simulation.particles;
+    particles.position += later;
+    particles.velocity += later;
+    particles.kind = particles.kind != nullptr ? particles.kind + later : nullptr;
+    particles.count -= later;
+    simulation.beyond += later;
+}
+
+}  // namespace
+
+template <class Real>
+void number_cells(const GridShape& window, Simulation<Real>& simulation) {
+    StaggeredGrid<Real>& grid = simulation.grid;
+    PressureFields<Real>& fields = simulation.pressure;
+    const std::int32_t origin = first_entry(window);
+    const std::int32_t on = origin - grid.origin;
+    if (kHasWindow<Real> && on != 0) {
+        VelocityOf<Real>** const faces[] = {&grid.u, &grid.v, &grid.mass_u, &grid.mass_v,
+                                            &fields.divergence, &fields.inverse_diagonal};
+        for (VelocityOf<Real>** field : faces) {
+            move_back(*field, on);
+        }
+        if (grid.inverse_density_u != nullptr) {
+            move_back(grid.inverse_density_u, on);
+            move_back(grid.inverse_density_v, on);
+        }
+        move_back(grid.pairs, 2 * on);
+        move_back(fields.pressure, on);
+        move_back(fields.density, on);
+        move_back(fields.level, on);
+    }
+    grid.origin = origin;
+    simulation.window = window;
+    simulation.layers.shape.stride = window.stride;
+    const std::int32_t coarse = coarse_cells(window.nx);
+    fields.coarse.shape = {coarse, coarse_cells(window.ny), coarse + 2};
+}
+
+template <class Real>
+bool fits_window(const Simulation<Real>& simulation, const GridShape& part) {
+    const GridShape window = window_around(simulation.layers.shape, part);
+    return window.size() <= simulation.window_cells;
+}
+
+template <class Real>
+bool is_window(const Simulation<Real>& simulation, const GridShape& part) {
+    const GridShape& tank = simulation.layers.shape;
+    const Borders<Real>& borders = simulation.settings.borders;
+    const GridShape window = window_around(tank, part);
+    return part.i0 % kWindowColumns == 0 && part.j0 % kWindowRows == 0 &&
+           part.i0 < tank.nx && part.j0 < tank.ny && window.nx == part.nx &&
+           window.ny == part.ny && (!borders.wrap_x || part.nx == tank.nx) &&
+           (!borders.wrap_y || part.ny == tank.ny) && fits_window(simulation, part);
+}
+
+template <class Real>
+GridShape hide_beyond(Simulation<Real>& simulation) {
+    const GridShape& tank = simulation.layers.shape;
+    const Borders<Real>& borders = simulation.settings.borders;
+    Particles<Real>& particles = simulation.particles;
+    // Velocity and mass are not yet in use.
+    auto* room = reinterpret_cast<std::int32_t*>(simulation.grid.u + simulation.grid.origin);
+    Groups columns{room, borders.wrap_x ? tank.nx : kWindowColumns, tank.nx};
+    columns.begin();
+    Groups rows{room + columns.kept.end, borders.wrap_y ? tank.ny : kWindowRows, tank.ny};
+    rows.begin();
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<std::int32_t> cell = cell_of(particles, k);
+        ++columns.count[columns.of(cell.x)];
+        ++rows.count[rows.of(cell.y)];
+    }
+    while (entries_of(columns.width(), rows.width()) > simulation.window_cells) {
+        cut(columns, rows);
+    }
+    std::int32_t beyond = part_pool(columns, rows, particles);
+    if (beyond == particles.count) {  // sides were cut that had been all that there is
+        const Vec2<std::int32_t> cell = cell_of(particles, 0);
+        columns.kept = {columns.of(cell.x), columns.of(cell.x) + 1};
+        rows.kept = {rows.of(cell.y), rows.of(cell.y) + 1};
+        beyond = part_pool(columns, rows, particles);
+    }
+    begin_pool(beyond, simulation);
+    simulation.extent = extent_of(particles);
+    return occupied_part(tank, borders, simulation.extent, false);
+}
+
+template <class Real>
+void show_beyond(Simulation<Real>& simulation) {
+    begin_pool(-simulation.beyond, simulation);
+}
+
+template <class Real>
+std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
+    const GridShape& tank = simulation.layers.shape;
+    const GridShape before = simulation.window;
+    const GridShape both = united(before, part);
+    if (both.nx == before.nx && both.ny == before.ny) {
+        return 0;
+    }
+    // It stays where it can: liquid that comes and goes does not move it each time.
+    const GridShape now = window_around(tank, fits_window(simulation, both) ? both : part);
+    PressureFields<Real>& fields = simulation.pressure;
+    const std::int32_t entries = simulation.window_cells;
+    carry(before, now, entries, fields.pressure + simulation.grid.origin);
+    auto* density = fields.density + simulation.grid.origin;
+    auto* level = fields.level + simulation.grid.origin;
+    for (std::int32_t c = 0; c < entries; ++c) {
+        density[c] = Real(0);
+        level[c] = kEmptyLevel<Real>;
+    }
+    number_cells(now, simulation);
+    return entries;
+}
+
+template <class Real>
+bool look_around(Simulation<Real>& simulation) {
+    const GridShape& tank = simulation.layers.shape;
+    const Particles<Real>& particles = simulation.particles;
+    const Extent<Real> extent = particles.count > 0 ? extent_of(particles) : Extent<Real>{};
+    GridShape part = occupied_part(tank, simulation.settings.borders, extent, false);
+    GridShape both = united(part, simulation.occupied);
+    if (!fits_window(simulation, both)) {
+        return false;
+    }
+    move_window(both, simulation);
+    part.stride = both.stride = tank.stride;
+    simulation.occupied = both;
+    simulation.grid.shape = part;
+    return true;
+}
+
+template <class Real>
+void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                StepReport& report) {
+    const Settings<Real>& settings = simulation.settings;
+    const GridShape& tank = simulation.layers.shape;
+    const Part part = work.take(simulation.beyond, 1);
+    Particles<Real> some =
+        simulation.particles.part(part.first - simulation.beyond, part.end - part.first);
+    const Transfer<Real> transfer{plan.dt_s, settings.flip_ratio,
+                                  minimum(kLongestWay<Real> / plan.dt_s, kFastest<Real>),
+                                  settings.borders};
+    const Vec2<Real> size{static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)};
+    TransferResult<Real> moved;
+    for (std::int32_t k = 0; k < some.count; ++k) {
+        Vec2<Real> x = some.position[k];
+        Vec2<Real> v = some.velocity[k];
+        v = v + plan.dt_s * settings.gravity;
+        advect<Real>(size, {transfer, some.kind_at(k)}, v, x, v, moved);
+        some.position[k] = x;
+        some.velocity[k] = v;
+    }
+    note(moved, simulation, report);
+    if (work.once(1)) {
+        report.particles_beyond = simulation.beyond;
+        show_beyond(simulation);
+    }
+}
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template bool fits_window(const Simulation<Real>&, const GridShape&);                   \
+    template bool is_window(const Simulation<Real>&, const GridShape&);                     \
+    template GridShape hide_beyond(Simulation<Real>&);                                      \
+    template void show_beyond(Simulation<Real>&);                                           \
+    template std::int32_t move_window(const GridShape&, Simulation<Real>&);                 \
+    template bool look_around(Simulation<Real>&);                                           \
+    template void fly_beyond(Simulation<Real>&, const SubstepPlan<Real>&, Work, StepReport&);
+WEIR_INSTANTIATE(float)
+WEIR_INSTANTIATE(double)
+WEIR_INSTANTIATE(Fixed)
+#undef WEIR_INSTANTIATE
+
+#define WEIR_INSTANTIATE(Real) template void number_cells(const GridShape&, Simulation<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir
