@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid/staggered_grid.hpp"
+#include "math/lanes.hpp"
 #include "solid/body_load.hpp"
 #include "solid/thin_walls.hpp"
 
@@ -76,8 +77,13 @@ inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, cons
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const std::uint32_t* row = walls.near + (shape.j0 + j) * words + shape.i0 / 32;
         for (std::int32_t k = 0; 32 * k < shape.nx; ++k) {
-            std::int32_t i = 32 * k;
-            for (std::uint32_t left = row[k]; left != 0; left >>= 1U, ++i) {
+            std::uint32_t left = row[k];
+            if constexpr (kHasLanes<Real>) {  // those count zeros in one instruction
+                for (; left != 0; left &= left - 1U) {
+                    visit(32 * k + __builtin_ctz(left), j);
+                }
+            }
+            for (std::int32_t i = 32 * k; left != 0; left >>= 1U, ++i) {
                 if ((left & 1U) != 0) {
                     visit(i, j);
                 }

@@ -1,152 +1,11 @@
 #include "step/boundary_condition.hpp"
 
-#include "fluid/particles.hpp"
-#include "math/lanes.hpp"
-#include "solid/face_axis.hpp"
+#include "step/mirror.hpp"
+#include "step/mirror_lanes.hpp"
 
 namespace weir {
 
 namespace {
-
-/// The mirror point lies at least this far out, where the stencil holds liquid.
-template <class Real>
-constexpr Real kLeastReach = Real(1);
-
-/// A velocity that is only read.
-template <class Real>
-struct Velocity {
-    const GridShape& shape;
-    const VelocityOf<Real>* u;
-    const VelocityOf<Real>* v;
-};
-
-template <class Real>
-struct Mirror {
-    std::int32_t face;
-    bool is_u;             ///< the face
-    Vec2<Real> normal;
-    Vec2<Real> point;      ///< in the liquid
-    Stencil<Real> at_u;    ///< around it
-    Stencil<Real> at_v;
-    Vec2<Real> wall;       ///< velocity of the wall there
-    Real ratio = Real(0);  ///< depth of the face over distance of the mirror point
-    bool sticks = false;   ///< the wall's own velocity on the wall, not slip
-    bool open = false;     ///< the face: what it has along the normal is the liquid's
-};
-
-/// A face between two nodes.
-template <class Real>
-struct Edge {
-    Vec2<Real> centre;
-    std::int32_t a;
-    std::int32_t b;
-};
-
-template <class Real>
-Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& edge,
-                       Real distance, Vec2<Real> normal) {
-    Mirror<Real> mirror{};
-    const Vec2<Real> face = edge.centre;
-    mirror.face = edge.a;
-    mirror.is_u = edge.b - edge.a != 1;
-    mirror.normal = normal;
-    mirror.wall = wall_velocity(walls, edge.a, edge.b, face);
-    const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
-    if (slot != kNoBody) {
-        mirror.sticks = true;
-        const Body<Real>& body = walls.body[slot];
-        const Vec2<Real> on_wall = face - distance * mirror.normal;
-        mirror.wall = surface_velocity(body.surface, velocity_at(body, on_wall), mirror.normal);
-    }
-    const Real depth = mirror.sticks ? -distance : -minimum(distance, Real(0));
-    const Real reach = maximum(depth, kLeastReach<Real>);
-    mirror.point = within_tank(s, face + (depth + reach) * mirror.normal);
-    mirror.ratio = depth / reach;
-    return mirror;
-}
-
-/// Whether the point's cell or one around it holds liquid.
-template <class Real>
-bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> point) {
-    const std::int32_t i = static_cast<std::int32_t>(point.x) - s.i0;
-    const std::int32_t j = static_cast<std::int32_t>(point.y) - s.j0;
-    if (level[s.index(minimum(i, s.nx - 1), minimum(j, s.ny - 1))] > Real(0)) {
-        return true;  // nearly always
-    }
-    for (std::int32_t row = maximum(j - 1, 0); row <= minimum(j + 1, s.ny - 1); ++row) {
-        for (std::int32_t column = maximum(i - 1, 0); column <= minimum(i + 1, s.nx - 1);
-             ++column) {
-            if (level[s.index(column, row)] > Real(0)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-template <class Real>
-Vec2<Real> at_mirror(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    return {interpolate(grid.u, grid.shape.stride, mirror.at_u),
-            interpolate(grid.v, grid.shape.stride, mirror.at_v)};
-}
-
-/// The face's own component, and the mean of the other's four faces around it.
-template <class Real>
-Vec2<Real> at_face(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const std::int32_t stride = grid.shape.stride;
-    const std::int32_t face = mirror.face;
-    constexpr Real kHalf = Real(0.5);
-    if (mirror.is_u) {
-        return {grid.u[face], interpolate(grid.v, stride, Stencil<Real>{face - 1, kHalf, kHalf})};
-    }
-    return {interpolate(grid.u, stride, Stencil<Real>{face - stride, kHalf, kHalf}), grid.v[face]};
-}
-
-/// What is at the face itself, along the wall's normal and in its frame.
-template <class Real>
-Real own_towards(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const Vec2<Real> own = at_face(grid, mirror) - mirror.wall;
-    return dot(own, mirror.normal);
-}
-
-/// Where the liquid sticks: along the wall linear from the wall to the liquid at the mirror point.
-template <class Real>
-Vec2<Real> stuck(const Mirror<Real>& mirror, Vec2<Real> liquid, Real towards) {
-    const Vec2<Real> relative = liquid - mirror.wall;
-    const Real across = dot(relative, mirror.normal);
-    const Vec2<Real> along = relative - across * mirror.normal;
-    return (mirror.wall - mirror.ratio * along) + towards * mirror.normal;
-}
-
-/// Velocity that a face in a solid takes: mirrored about the wall, in the wall's frame.
-template <class Real>
-Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const Vec2<Real> liquid = at_mirror(grid, mirror);
-    const Real normal_part = dot(liquid - mirror.wall, mirror.normal);
-    if (mirror.sticks) {
-        return stuck(mirror, liquid, mirror.open ? own_towards(grid, mirror)
-                                                       : -mirror.ratio * normal_part);
-    }
-    return liquid - (normal_part * (Real(1) + mirror.ratio)) * mirror.normal;
-}
-
-/// Velocity before the step that goes with it. Towards the wall: what was there, so that the change
-/// stops it. Along the wall: the liquid's, so that the change is the liquid's, or what was there if
-/// that was faster, so that the change brakes; mirrored, too, where the liquid sticks.
-template <class Real>
-Vec2<Real> before(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    const Vec2<Real> liquid = at_mirror(grid, mirror) - mirror.wall;
-    if (mirror.sticks) {
-        return stuck(mirror, liquid + mirror.wall, own_towards(grid, mirror));
-    }
-    const Vec2<Real> own = at_face(grid, mirror) - mirror.wall;
-    const Real towards = dot(own, mirror.normal);
-    const Real liquid_towards = dot(liquid, mirror.normal);
-    const Vec2<Real> along = own - towards * mirror.normal;
-    const Vec2<Real> liquid_along = liquid - liquid_towards * mirror.normal;
-    const bool brakes = dot(liquid_along, liquid_along) < dot(along, along);
-    return mirror.wall + (brakes ? along : liquid_along) + towards * mirror.normal;
-}
 
 /// The field that is mirrored, and what is done to it: `mirrored` or `before`.
 template <class Real>
@@ -155,65 +14,6 @@ struct Field {
     const LevelOf<Real>* level;
     Vec2<Real> (*value)(const Velocity<Real>&, const Mirror<Real>&);
 };
-
-/// Whether a face takes what is mirrored: it is closed, or bound to the wall. Between two nodes.
-template <class Real>
-bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_t a,
-                 std::int32_t b) {
-    if (open > Real(0)) {
-        return walls.sticking && distance < kBoundLayer<Real> &&
-               sticking_body(walls, a, b) != kNoBody;
-    }
-    return !(distance < kDeepestMirror<Real>);
-}
-
-/// The same to the other side of a solid that is thin here. False: it is thick, or ends at the
-/// tank's wall.
-template <class Real>
-bool from_other_side(const FaceAxis<Real>& axis, const Edge<Real>& edge, Vec2<Real> normal,
-                     Mirror<Real>& mirror) {
-    const GridShape& s = axis.s;
-    const Vec2<Real> across = edge.centre - normal;
-    const Vec2<Real> inside = within_tank(s, across);
-    if (inside.x != across.x || inside.y != across.y) {
-        return false;
-    }
-    const auto i = static_cast<std::int32_t>(across.x);
-    const auto j = static_cast<std::int32_t>(across.y);
-    const Stencil<Real> at{s.index(i - s.i0, j - s.j0), across.x - static_cast<Real>(i),
-                           across.y - static_cast<Real>(j)};
-    const Real distance = interpolate(axis.walls.distance, s.stride, at) - Real(1);
-    if (distance > Real(0) || !(distance > Real(-1))) {
-        return false;
-    }
-    mirror = mirror_of(s, axis.walls, edge, distance, Real(-1) * normal);
-    return true;
-}
-
-/// Where a face takes its velocity from. False: it keeps its own.
-template <class Real>
-bool is_image(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32_t i,
-              std::int32_t j, Mirror<Real>& mirror) {
-    const std::int32_t face = axis.s.index(i, j);
-    const std::int32_t other = face + axis.other_node();
-    const Real distance = axis.distance(face);
-    const Real open = axis.open()[face];
-    if (!is_mirrored<Real>(axis.walls, open, distance, face, other)) {
-        return false;
-    }
-    const Edge<Real> edge{axis.centre(i, j), face, other};
-    const Vec2<Real> normal = axis.normal(face);
-    mirror = mirror_of(axis.s, axis.walls, edge, distance, normal);
-    if (!near_liquid(axis.s, level, mirror.point) &&
-        !(from_other_side(axis, edge, normal, mirror) &&
-          near_liquid(axis.s, level, mirror.point))) {
-        return false;
-    }
-    mirror.open = open > Real(0);
-    mirror.at_u = stencil_u(axis.s, mirror.point);
-    mirror.at_v = stencil_v(axis.s, mirror.point);
-    return true;
-}
 
 template <class Real>
 Real mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
@@ -249,9 +49,10 @@ void mirror_field(const Walls<Real>& walls, const Field<Real>& field, const Part
 /// Rows further apart than this do not read each other: the mirror point of the deepest face is
 /// twice kDeepestMirror away, and its stencil begins a cell further on.
 constexpr std::int32_t kRowsHeld = 5;
-/// Rows that are computed and not yet written find room in as many rows of scratch, by turns: two
-/// numbers a face, twice.
-constexpr std::int32_t kTurns = 8;
+/// Faces of rows that are computed and not yet written find room in scratch, by turns: three
+/// numbers each, in as many rows.
+constexpr std::int32_t kTurns = kRowsHeld + 1;
+constexpr std::int32_t kRowsOfTurns = 3 * kTurns;
 
 /// One component of both fields, on the same faces.
 template <class Real>
@@ -260,49 +61,171 @@ struct BothFields {
     VelocityOf<Real>* now;
     VelocityOf<Real>* was;
     VelocityOf<Real>* scratch;
+    std::int32_t held[kTurns] = {};  ///< how many faces of a row
 
-    VelocityOf<Real>& held(std::int32_t i, std::int32_t j, std::int32_t which) const {
-        return scratch[axis.s.index(i, 2 * (j % kTurns) + which)];
+    VelocityOf<Real>& number(std::int32_t j, std::int32_t which, std::int32_t k) const {
+        return scratch[axis.s.index(k, 3 * (j % kTurns) + which)];
     }
-    void write(std::int32_t i, std::int32_t j) const {
-        const std::int32_t face = axis.s.index(i, j);
-        now[face] = held(i, j, 0);
-        was[face] = held(i, j, 1);
+    void hold(std::int32_t i, std::int32_t j, Real now_there, Real was_there) {
+        const std::int32_t k = held[j % kTurns]++;
+        number(j, 0, k) = static_cast<Real>(i);
+        number(j, 1, k) = now_there;
+        number(j, 2, k) = was_there;
+    }
+    void write(std::int32_t j) {
+        for (std::int32_t k = 0; k < held[j % kTurns]; ++k) {
+            const std::int32_t face =
+                axis.s.index(static_cast<std::int32_t>(Real(number(j, 0, k))), j);
+            now[face] = number(j, 1, k);
+            was[face] = number(j, 2, k);
+        }
+        held[j % kTurns] = 0;
     }
 };
 
-/// Both fields in one look at each face: what is computed is written as soon as no other row reads
-/// what stood there.
+/// Both fields in one look at each face.
+template <class Real>
+struct BothMirrors {
+    const Walls<Real>& walls;
+    const LevelOf<Real>* level;
+    Velocity<Real> now;
+    Velocity<Real> was;
+    BothFields<Real> u;
+    BothFields<Real> v;
+
+    void face(BothFields<Real>& of, std::int32_t i, std::int32_t j) {
+        Mirror<Real> mirror;
+        if (is_image(of.axis, level, i, j, mirror)) {
+            of.hold(i, j, of.axis.of(mirrored(now, mirror)), of.axis.of(before(was, mirror)));
+        }
+    }
+
+#if WEIR_HAS_LANES
+    /// Faces of a row that are to be mirrored together.
+    template <bool OnU>
+    struct Four {
+        std::int32_t count = 0;
+        std::int32_t face[4];
+        std::int32_t column[4];
+    };
+
+    template <bool OnU>
+    void in_lanes(Four<OnU>& four, std::int32_t j) {
+        BothFields<float>& of = OnU ? u : v;
+        for (std::int32_t k = four.count; k < 4; ++k) {
+            four.face[k] = four.face[0];
+            four.column[k] = four.column[0];
+        }
+        const MirrorTask task{now.shape, walls, level, now.u, now.v, was.u, was.v};
+        const FourMirrors mirrors = mirrors_of<OnU>(task, four.face, four.column, j);
+        std::uint32_t found = mirrors.wet;
+        for (std::int32_t k = 0; k < four.count; ++k) {
+            if ((found >> static_cast<std::uint32_t>(k) & 1U) == 0) {
+                found |= look_again(of.axis, four.face[k], four.column[k], j, mirrors, k)
+                             ? 1U << static_cast<std::uint32_t>(k)
+                             : 0U;
+            }
+        }
+        if (found == 0) {
+            return;
+        }
+        const FourChanges of_four = mirror_four<OnU>(task, four.face, mirrors);
+        for (std::int32_t k = 0; k < four.count; ++k) {
+            if ((found >> static_cast<std::uint32_t>(k) & 1U) != 0) {
+                of.hold(four.column[k], j, of_four.now[k], of_four.was[k]);
+            }
+        }
+    }
+
+    /// A face whose mirror point lies in no liquid cell: whether one is near it. Else it may mirror
+    /// the other side.
+    bool look_again(const FaceAxis<float>& axis, std::int32_t there, std::int32_t i, std::int32_t j,
+                    const FourMirrors& mirrors, std::int32_t k) {
+        if (near_liquid(axis.s, level, of_lane(mirrors.point, k))) {
+            return true;
+        }
+        const Edge<float> edge{axis.centre(i, j), there, there + axis.other_node()};
+        Mirror<float> mirror;
+        if (from_other_side(axis, edge, of_lane(mirrors.normal, k), mirror)) {
+            face(axis.is_u ? u : v, i, j);
+        }
+        return false;
+    }
+
+    template <bool OnU>
+    void add(Four<OnU>& four, std::int32_t i, std::int32_t j) {
+        const FaceAxis<float>& axis = OnU ? u.axis : v.axis;
+        const std::int32_t face = axis.s.index(i, j);
+        if (axis.open()[face] > 0.0F || axis.distance(face) < kDeepestMirror<float>) {
+            return;  // `is_mirrored`, where nothing sticks
+        }
+        four.face[four.count] = face;
+        four.column[four.count] = i;
+        if (++four.count == 4) {
+            in_lanes(four, j);
+            four.count = 0;
+        }
+    }
+
+    void row_in_lanes(std::int32_t j) {
+        Four<true> on_u;
+        Four<false> on_v;
+        for_each_near(now.shape, walls, {j, j + 1}, [&](std::int32_t i, std::int32_t) {
+            if (i > 0) {
+                add(on_u, i, j);
+            }
+            if (j > 0) {
+                add(on_v, i, j);
+            }
+        });
+        if (on_u.count > 0) {
+            in_lanes(on_u, j);
+        }
+        if (on_v.count > 0) {
+            in_lanes(on_v, j);
+        }
+    }
+#endif
+
+    void row(std::int32_t j) {
+#if WEIR_HAS_LANES
+        if constexpr (kHasLanes<Real>) {
+            if (!walls.sticking) {
+                row_in_lanes(j);
+                return;
+            }
+        }
+#endif
+        for_each_near(now.shape, walls, {j, j + 1}, [&](std::int32_t i, std::int32_t) {
+            if (i > 0) {
+                face(u, i, j);
+            }
+            if (j > 0) {
+                face(v, i, j);
+            }
+        });
+    }
+};
+
+/// What is computed is written as soon as no other row reads what stood there.
 template <class Real>
 void mirror_together(const Walls<Real>& walls, PressureFields<Real>& fields,
                      StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
-    const Velocity<Real> now{s, grid.u, grid.v};
-    const Velocity<Real> was{s, grid.mass_u, grid.mass_v};
-    const BothFields<Real> components[] = {
+    BothMirrors<Real> mirrors{
+        walls,
+        fields.level,
+        {s, grid.u, grid.v},
+        {s, grid.mass_u, grid.mass_v},
         {{s, walls, true}, grid.u, grid.mass_u, fields.divergence},
         {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal}};
-    const auto compute = [&](const BothFields<Real>& of, std::int32_t i, std::int32_t j) {
-        const std::int32_t face = s.index(i, j);
-        Mirror<Real> mirror;
-        const bool inner = of.axis.is_u ? i > 0 : j > 0;
-        const bool image = inner && is_image(of.axis, fields.level, i, j, mirror);
-        of.held(i, j, 0) = image ? of.axis.of(mirrored(now, mirror)) : Real(of.now[face]);
-        of.held(i, j, 1) = image ? of.axis.of(before(was, mirror)) : Real(of.was[face]);
-    };
     for (std::int32_t front = 0; front < s.ny + kRowsHeld; ++front) {
         if (front < s.ny) {
-            for_each_near(s, walls, {front, front + 1}, [&](std::int32_t i, std::int32_t j) {
-                compute(components[0], i, j);
-                compute(components[1], i, j);
-            });
+            mirrors.row(front);
         }
         if (front >= kRowsHeld) {
-            const std::int32_t done = front - kRowsHeld;
-            for_each_near(s, walls, {done, done + 1}, [&](std::int32_t i, std::int32_t j) {
-                components[0].write(i, j);
-                components[1].write(i, j);
-            });
+            mirrors.u.write(front - kRowsHeld);
+            mirrors.v.write(front - kRowsHeld);
         }
     }
 }
@@ -319,7 +242,7 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     Part rows = work.take(s.ny, s.nx);
     if constexpr (!Stored<Real>::coarse) {  // those have little room for code
         const bool whole = enough && rows.first == 0 && rows.end == s.ny;
-        if (whole && s.ny >= 2 * kTurns && work.pieces(s.ny, s.nx, 1) <= 1) {
+        if (whole && s.ny >= kRowsOfTurns && work.pieces(s.ny, s.nx, 1) <= 1) {
             mirror_together(walls, fields, grid);
             for (std::int32_t loop = 1; loop < 4; ++loop) {
                 work.take(s.ny, s.nx);

@@ -1,0 +1,209 @@
+// Where a face in a solid takes its velocity from, and which.
+#pragma once
+
+#include "fluid/particles.hpp"
+#include "pressure/pressure_fields.hpp"
+#include "solid/face_axis.hpp"
+
+namespace weir {
+
+/// The mirror point lies at least this far out, where the stencil holds liquid.
+template <class Real>
+inline constexpr Real kLeastReach = Real(1);
+
+/// A velocity that is only read.
+template <class Real>
+struct Velocity {
+    const GridShape& shape;
+    const VelocityOf<Real>* u;
+    const VelocityOf<Real>* v;
+};
+
+template <class Real>
+struct Mirror {
+    std::int32_t face;
+    bool is_u;             ///< the face
+    Vec2<Real> normal;
+    Vec2<Real> point;      ///< in the liquid
+    Stencil<Real> at_u;    ///< around it
+    Stencil<Real> at_v;
+    Vec2<Real> wall;       ///< velocity of the wall there
+    Real ratio = Real(0);  ///< depth of the face over distance of the mirror point
+    bool sticks = false;   ///< the wall's own velocity on the wall, not slip
+    bool open = false;     ///< the face: what it has along the normal is the liquid's
+};
+
+/// A face between two nodes.
+template <class Real>
+struct Edge {
+    Vec2<Real> centre;
+    std::int32_t a;
+    std::int32_t b;
+};
+
+template <class Real>
+Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& edge,
+                       Real distance, Vec2<Real> normal) {
+    Mirror<Real> mirror{};
+    const Vec2<Real> face = edge.centre;
+    mirror.face = edge.a;
+    mirror.is_u = edge.b - edge.a != 1;
+    mirror.normal = normal;
+    mirror.wall = walls.moving ? wall_velocity(walls, edge.a, edge.b, face) : Vec2<Real>{};
+    const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
+    if (slot != kNoBody) {
+        mirror.sticks = true;
+        const Body<Real>& body = walls.body[slot];
+        const Vec2<Real> on_wall = face - distance * mirror.normal;
+        mirror.wall = surface_velocity(body.surface, velocity_at(body, on_wall), mirror.normal);
+    }
+    const Real depth = mirror.sticks ? -distance : -minimum(distance, Real(0));
+    const Real reach = maximum(depth, kLeastReach<Real>);
+    mirror.point = within_tank(s, face + (depth + reach) * mirror.normal);
+    mirror.ratio = depth / reach;
+    return mirror;
+}
+
+/// Whether the point's cell or one around it holds liquid.
+template <class Real>
+bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> point) {
+    const std::int32_t i = static_cast<std::int32_t>(point.x) - s.i0;
+    const std::int32_t j = static_cast<std::int32_t>(point.y) - s.j0;
+    if (level[s.index(minimum(i, s.nx - 1), minimum(j, s.ny - 1))] > Real(0)) {
+        return true;  // nearly always
+    }
+    for (std::int32_t row = maximum(j - 1, 0); row <= minimum(j + 1, s.ny - 1); ++row) {
+        for (std::int32_t column = maximum(i - 1, 0); column <= minimum(i + 1, s.nx - 1);
+             ++column) {
+            if (level[s.index(column, row)] > Real(0)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+template <class Real>
+Vec2<Real> at_mirror(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    return {interpolate(grid.u, grid.shape.stride, mirror.at_u),
+            interpolate(grid.v, grid.shape.stride, mirror.at_v)};
+}
+
+/// The face's own component, and the mean of the other's four faces around it.
+template <class Real>
+Vec2<Real> at_face(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    const std::int32_t stride = grid.shape.stride;
+    const std::int32_t face = mirror.face;
+    constexpr Real kHalf = Real(0.5);
+    if (mirror.is_u) {
+        return {grid.u[face], interpolate(grid.v, stride, Stencil<Real>{face - 1, kHalf, kHalf})};
+    }
+    return {interpolate(grid.u, stride, Stencil<Real>{face - stride, kHalf, kHalf}), grid.v[face]};
+}
+
+/// What is at the face itself, along the wall's normal and in its frame.
+template <class Real>
+Real own_towards(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    const Vec2<Real> own = at_face(grid, mirror) - mirror.wall;
+    return dot(own, mirror.normal);
+}
+
+/// Where the liquid sticks: along the wall linear from the wall to the liquid at the mirror point.
+template <class Real>
+Vec2<Real> stuck(const Mirror<Real>& mirror, Vec2<Real> liquid, Real towards) {
+    const Vec2<Real> relative = liquid - mirror.wall;
+    const Real across = dot(relative, mirror.normal);
+    const Vec2<Real> along = relative - across * mirror.normal;
+    return (mirror.wall - mirror.ratio * along) + towards * mirror.normal;
+}
+
+/// Velocity that a face in a solid takes: mirrored about the wall, in the wall's frame.
+template <class Real>
+Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    const Vec2<Real> liquid = at_mirror(grid, mirror);
+    const Real normal_part = dot(liquid - mirror.wall, mirror.normal);
+    if (mirror.sticks) {
+        return stuck(mirror, liquid, mirror.open ? own_towards(grid, mirror)
+                                                       : -mirror.ratio * normal_part);
+    }
+    return liquid - (normal_part * (Real(1) + mirror.ratio)) * mirror.normal;
+}
+
+/// Velocity before the step that goes with it. Towards the wall: what was there, so that the change
+/// stops it. Along the wall: the liquid's, so that the change is the liquid's, or what was there if
+/// that was faster, so that the change brakes; mirrored, too, where the liquid sticks.
+template <class Real>
+Vec2<Real> before(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
+    const Vec2<Real> liquid = at_mirror(grid, mirror) - mirror.wall;
+    if (mirror.sticks) {
+        return stuck(mirror, liquid + mirror.wall, own_towards(grid, mirror));
+    }
+    const Vec2<Real> own = at_face(grid, mirror) - mirror.wall;
+    const Real towards = dot(own, mirror.normal);
+    const Real liquid_towards = dot(liquid, mirror.normal);
+    const Vec2<Real> along = own - towards * mirror.normal;
+    const Vec2<Real> liquid_along = liquid - liquid_towards * mirror.normal;
+    const bool brakes = dot(liquid_along, liquid_along) < dot(along, along);
+    return mirror.wall + (brakes ? along : liquid_along) + towards * mirror.normal;
+}
+
+/// Whether a face takes what is mirrored: it is closed, or bound to the wall. Between two nodes.
+template <class Real>
+bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_t a,
+                 std::int32_t b) {
+    if (open > Real(0)) {
+        return walls.sticking && distance < kBoundLayer<Real> &&
+               sticking_body(walls, a, b) != kNoBody;
+    }
+    return !(distance < kDeepestMirror<Real>);
+}
+
+/// The same to the other side of a solid that is thin here. False: it is thick, or ends at the
+/// tank's wall.
+template <class Real>
+bool from_other_side(const FaceAxis<Real>& axis, const Edge<Real>& edge, Vec2<Real> normal,
+                     Mirror<Real>& mirror) {
+    const GridShape& s = axis.s;
+    const Vec2<Real> across = edge.centre - normal;
+    const Vec2<Real> inside = within_tank(s, across);
+    if (inside.x != across.x || inside.y != across.y) {
+        return false;
+    }
+    const auto i = static_cast<std::int32_t>(across.x);
+    const auto j = static_cast<std::int32_t>(across.y);
+    const Stencil<Real> at{s.index(i - s.i0, j - s.j0), across.x - static_cast<Real>(i),
+                           across.y - static_cast<Real>(j)};
+    const Real distance = interpolate(axis.walls.distance, s.stride, at) - Real(1);
+    if (distance > Real(0) || !(distance > Real(-1))) {
+        return false;
+    }
+    mirror = mirror_of(s, axis.walls, edge, distance, Real(-1) * normal);
+    return true;
+}
+
+/// Where a face takes its velocity from. False: it keeps its own.
+template <class Real>
+bool is_image(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32_t i,
+              std::int32_t j, Mirror<Real>& mirror) {
+    const std::int32_t face = axis.s.index(i, j);
+    const std::int32_t other = face + axis.other_node();
+    const Real distance = axis.distance(face);
+    const Real open = axis.open()[face];
+    if (!is_mirrored<Real>(axis.walls, open, distance, face, other)) {
+        return false;
+    }
+    const Edge<Real> edge{axis.centre(i, j), face, other};
+    const Vec2<Real> normal = axis.normal(face);
+    mirror = mirror_of(axis.s, axis.walls, edge, distance, normal);
+    if (!near_liquid(axis.s, level, mirror.point) &&
+        !(from_other_side(axis, edge, normal, mirror) &&
+          near_liquid(axis.s, level, mirror.point))) {
+        return false;
+    }
+    mirror.open = open > Real(0);
+    mirror.at_u = stencil_u(axis.s, mirror.point);
+    mirror.at_v = stencil_v(axis.s, mirror.point);
+    return true;
+}
+
+}  // namespace weir
