@@ -3,6 +3,7 @@
 #include "pressure/coarse_correction.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/relax_packed.hpp"
+#include "pressure/start.hpp"
 #include "pressure/system.hpp"
 
 namespace weir {
@@ -18,86 +19,6 @@ struct Rows {
     std::int32_t low = 0;
     std::int32_t high = -1;
 };
-
-/// How much of the old pressure p to start from: eighths, or all. `wanted`: pᵀb, `there`: pᵀAp.
-template <class Real>
-Real share_of_start(Product<Real> wanted, Product<Real> there) {
-    const Product<Real> twice = wanted + wanted;
-    if (twice >= there) {
-        return Real(1);
-    }
-    const Product<Real> eight_times = (twice + twice) + (twice + twice);
-    const Real share = eight_times >= (there + there) + there
-                           ? Real(0.375)
-                           : (eight_times >= there + there ? Real(0.25) : Real(0.125));
-    return eight_times >= there ? share : Real(0);
-}
-
-/// One row's part of pᵀAp, but for the diagonal.
-template <bool Solids, bool Mixed, class Real>
-Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j,
-                      const PressureFields<Real>& fields) {
-    const GridShape& s = weights.grid.shape;
-    const Real* p = fields.pressure;
-    Solve<Real> row;
-    const std::int32_t end = s.index(s.nx, j);
-    std::int32_t c = s.index(0, j);
-    if constexpr (kHasLanes<Real> && !Mixed) {
-        const Walls<Real>& walls = weights.walls;
-        c = weigh_lanes(fields, Solids ? walls.open_u : nullptr, walls.open_v, s.stride, c, end,
-                        row.there);
-    }
-    for (; c < end; ++c) {
-        const Real inverse = fields.inverse_diagonal[c];
-        if (inverse != Real(0)) {
-            row.there = row.there - product(p[c], weights.weighted(p, c, inverse));
-        }
-    }
-    return row;
-}
-
-/// The old pressure is where the solve starts, but not if it is further from the solution than no
-/// pressure at all, as after an impact: few sweeps would leave most of it, and it would push. The
-/// distance is that in kinetic energy, √(eᵀAe), which is shortest at pᵀb/pᵀAp times the old
-/// pressure; eighths are near enough. From such a start sweeps leave the velocity with no more
-/// energy than it came with.
-template <bool Solids, bool Mixed, class Real>
-void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
-                 PressureFields<Real>& fields) {
-    const GridShape& s = weights.grid.shape;
-    Solve<Real>& solve = fields.solve;
-    Real* p = fields.pressure;
-    const std::int32_t depth = maximum(0, solve.last_row - solve.first_row + 1);
-    const Part weighed = work.take(depth, s.nx);
-    if constexpr (Stored<Real>::coarse) {
-        for (std::int32_t at = weighed.first; at < weighed.end; ++at) {
-            const std::int32_t j = solve.first_row + at;
-            weigh_packed<Solids>(fields, weights.walls, s.stride, s.index(0, j), s.index(s.nx, j),
-                                 solve);
-        }
-    } else {
-        const Part rows{solve.first_row + weighed.first, solve.first_row + weighed.end};
-        add_rows(work, rows, s, fields,
-                 [&](std::int32_t j) { return weigh_row(weights, j, fields); });
-    }
-    if (work.once(1)) {
-        solve.share = share_of_start<Real>(solve.wanted, solve.there);
-        if (Stored<Real>::coarse && solve.off < 2 * kExactRaw && solve.share == Real(1)) {
-            solve.cycles = 0;  // sweeps would go on for ever about their last digits
-        }
-    }
-    const bool nearer = solve.share == Real(1);  // than no pressure at all
-    const Part scaled = work.take(nearer ? 0 : depth, s.nx);
-    for (std::int32_t at = scaled.first; at < scaled.end; ++at) {
-        const std::int32_t j = solve.first_row + at;
-        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
-            p[c] = solve.share * p[c];
-        }
-    }
-    if (work.once(s.border()) && !nearer) {
-        extend_cells(weights.borders, s, p);
-    }
-}
 
 template <bool Solids, bool Mixed, class Real>
 void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
@@ -138,7 +59,12 @@ inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32
     const Real through = open != nullptr ? Real(open[face]) : Real(1);
     const bool liquid = fields.level[before] > Real(0) || fields.level[face] > Real(0);
     if (liquid && through > Real(0)) {
-        velocity[face] -= light * pressure_rise(fields, before, face, through);
+        const Real rise = light * pressure_rise(fields, before, face, through);
+        const Real was = velocity[face];
+        // Particles around a narrow gap have more mass than goes through: it brakes them, but what
+        // it would give them in energy nothing has lost.
+        const bool pushes = (was > Real(0)) == (rise < Real(0));
+        velocity[face] = was - (pushes ? width_of(through) * rise : rise);
     }
 }
 

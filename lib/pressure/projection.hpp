@@ -30,6 +30,12 @@ void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
                         Seconds<Real> dt_s, std::int32_t sweeps, StaggeredGrid<Real>& grid,
                         PressureFields<Real>& fields, Work work);
 
+/// 1 for a face, less for one that is open by less than a quarter: a narrow gap.
+template <class Real>
+inline Real width_of(Real open) {
+    return minimum(Real(1), Real(4) * open);
+}
+
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face
 /// between them answers to the pressure by its inverse.
 template <class Real>
@@ -37,7 +43,7 @@ inline Real liquid_fraction(Real level_liquid, Real level_air, Real open) {
     // Below 1/20 the equation would be stiffer than the surface is known. A narrow gap hardly moves
     // the liquid that drives it: with a lever like that it would shoot particles through, each of
     // them with its whole mass.
-    const Real least = maximum(Real(0.05), Real(1) - Real(4) * open);
+    const Real least = maximum(Real(0.05), Real(1) - width_of(open));
     return maximum(least, level_liquid / (level_liquid - level_air));
 }
 

@@ -130,7 +130,9 @@ inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const 
         const LaneMask both = minimum(here, before) > zero;
         const LaneMask moves = (maximum(here, before) > zero) & (open > zero);
         const Lanes answer = both ? rise : rise / fraction_between(here, before, open);
-        store_lanes(velocity + c, moves ? now - answer : now);
+        const LaneMask pushes = (now > zero) == (answer < zero);
+        const Lanes share = pushes ? minimum(one, all_lanes(4.0F) * open) : one;
+        store_lanes(velocity + c, moves ? now - share * answer : now);
     };
     for (; c + 4 <= end; c += 4) {
         const Lanes here = load_lanes(fields.level + c);
@@ -144,8 +146,8 @@ inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const 
         const Lanes p = load_lanes(fields.pressure + c);
         const Lanes rise_x = p - load_lanes(fields.pressure + c - 1);
         const Lanes rise_y = p - load_lanes(fields.pressure + c - s.stride);
-        const Lanes narrow = minimum(wide_u, wide_v);
-        if (has_lower && all_true(minimum(narrow, minimum(here, minimum(left, lower))) > zero)) {
+        const LaneMask liquid = minimum(here, minimum(left, lower)) > zero;
+        if (has_lower && all_true(liquid & (minimum(wide_u, wide_v) >= all_lanes(0.25F)))) {
             store_lanes(grid.u + c, load_lanes(grid.u + c) - rise_x);
             store_lanes(grid.v + c, load_lanes(grid.v + c) - rise_y);
             continue;

@@ -35,9 +35,21 @@ inline auto lanes_from(std::int32_t k) {
     return L::load(kFromNinth + 8 - k) > L::all(0.0F);
 }
 
+/// As `push_on_spray`.
+template <class L>
+inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
+                                typename L::Floats spray) {
+    const auto zero = L::all(0.0F);
+    const auto ahead = spray - L::all(1.25F) * liquid;
+    const auto leaves = push > zero ? L::minimum(spray, ahead) > zero
+                                    : L::maximum(spray, ahead) < zero;
+    return leaves ? zero : push;
+}
+
 /// Sum and count of what goes on from the faces beside some faces.
 template <class L>
 struct Beside {
+    typename L::Floats own;  ///< velocity of those faces
     typename L::Floats sum = L::all(0.0F);
     typename L::Floats count = L::all(0.0F);
 
@@ -58,13 +70,15 @@ struct Beside {
             return;
         }
         count += goes_on ? L::all(1.0F) : zero;
+        const auto velocity = L::load(task.velocity + at);
         if (task.velocity_itself) {
-            sum += goes_on ? L::load(task.velocity + at) : zero;
+            sum += goes_on ? velocity : zero;
             return;
         }
         const auto rise = L::load(task.pressure + at) - L::load(task.pressure + at - task.back);
         const auto fraction = L::maximum(least, liquid / (liquid - air));
-        sum -= goes_on ? (air > zero ? rise : rise / fraction) : zero;
+        const auto push = zero - (air > zero ? rise : rise / fraction);
+        sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own) : zero;
     }
 };
 
@@ -80,7 +94,8 @@ inline void extend_faces(const ExtrapolateTask& task, std::int32_t face,
     if (!L::any_true(spray)) {
         return;
     }
-    Beside<L> beside;
+    const auto now = L::load(task.velocity + face);
+    Beside<L> beside{now};
     beside.look(task, face - 1, face == task.first ? spray & lanes_from<L>(1) : spray);
     const std::int32_t last = task.end - 1 - face;
     beside.look(task, face + 1, last < L::kLanes ? spray & ~lanes_from<L>(last) : spray);
@@ -95,7 +110,6 @@ inline void extend_faces(const ExtrapolateTask& task, std::int32_t face,
         return;
     }
     const auto mean = beside.sum / (some ? beside.count : L::all(1.0F));
-    const auto now = L::load(task.velocity + face);
     L::store(task.velocity + face,
              some ? (task.velocity_itself ? mean : now + mean) : now);
 }

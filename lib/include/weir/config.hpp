@@ -136,7 +136,8 @@ struct WorldDef {
     std::int32_t max_substeps = 16;
 
     /// Share of the particle's own velocity kept, against the grid's; 0 (PIC: viscous, smooth)
-    /// … 1 (FLIP: lively, noisy). 0.97 loses about 1 % of a wave per period.
+    /// … 1 (FLIP: lively, noisy). 0.97 loses about 1 % of a wave per period,
+    /// and is the most that an equation of state takes: beyond it noise would gain energy.
     float flip_ratio = 0.97F;
 
     /// Strength of the drift towards uniform particle density; 0 (off) … 1.
