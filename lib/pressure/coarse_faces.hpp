@@ -27,8 +27,8 @@ void find_centre(const GridShape& s, const PressureFields<Real>& fields, const P
     bool counted = false;
     if constexpr (kHasLanes<Real>) {
         if (patch.width == kCoarseEdge) {
-            const LiquidCells cells = count_liquid(fields.inverse_diagonal, s.stride,
-                                                   s.index(patch.i, patch.j), patch.height);
+            const auto cells = count_liquid(fields.inverse_diagonal, s.stride,
+                                            s.index(patch.i, patch.j), patch.height);
             count = cells.count;
             columns = cells.columns;
             rows = cells.rows;

@@ -16,15 +16,30 @@ namespace weir {
 template <class Real>
 struct Stages;
 
+/// Packed worlds are so small that they store all of the tank.
+template <class Real>
+inline constexpr bool kHasWindow = !Stored<Real>::shares_momentum;
+
+/// What is stored of the tank.
+template <class Real, bool Has = kHasWindow<Real>>
+struct Window {
+    SmallShape at;            ///< all of it, or a part
+    std::int32_t cells = 0;   ///< then: how many entries there is room for; else 0
+    std::int32_t beyond = 0;  ///< particles that a substep leaves out: they stand before the pool
+};
+template <class Real>
+struct Window<Real, false> {
+    static constexpr std::int32_t cells = 0;
+    static constexpr std::int32_t beyond = 0;
+};
+
 template <class Real>
 struct Simulation {
     Settings<Real> settings;
     Particles<Real> particles;
     StaggeredGrid<Real> grid;  ///< between substeps of the whole tank
     SmallShape occupied;       ///< what the last substep worked on
-    SmallShape window;         ///< what is stored: all of the tank, or a part of it
-    std::int32_t window_cells = 0;  ///< then: how many entries it has room for; else 0
-    std::int32_t beyond = 0;   ///< particles that a substep leaves out: they stand before the pool
+    Window<Real> window;
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;
@@ -37,5 +52,14 @@ struct Simulation {
     TickFunction ticks = nullptr;
     const Stages<Real>* stages = nullptr;
 };
+
+template <class Real>
+GridShape stored_part(const Simulation<Real>& simulation) {
+    if constexpr (kHasWindow<Real>) {
+        return simulation.window.at;
+    } else {
+        return simulation.layers.shape;
+    }
+}
 
 }  // namespace weir

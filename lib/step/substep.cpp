@@ -143,7 +143,7 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
     for (const Extent<Real>& one : pieces) {
         simulation.extent.add(one);
     }
-    const bool windowed = kHasWindow<Real> && simulation.window_cells > 0;
+    const bool windowed = kHasWindow<Real> && simulation.window.cells > 0;
     if (work.once(1)) {
         GridShape& now = simulation.grid.shape;
         // What thin walls and whoever counts forces know of cells is told from the corner on.
@@ -171,7 +171,7 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
     }
     if (windowed && work.foreseeing()) {
         work.expect(1, kLooksBeyond * particles.count);
-        work.expect(1, simulation.window_cells);
+        work.expect(1, simulation.window.cells);
     }
 }
 
@@ -183,7 +183,7 @@ void order_particles(Simulation<Real>& simulation, Work work) {
     if (simulation.settings.keep_sorted && work.once(2 * simulation.particles.count)) {
         // The coarse grid is not in use before the pressure.
         const CoarseGrid<Real>& coarse = simulation.pressure.coarse;
-        const std::int32_t rows = coarse_cells(simulation.window.ny) + 2;
+        const std::int32_t rows = coarse_cells(stored_part(simulation).ny) + 2;
         const auto row_of = [](PositionOf<Real> y) { return static_cast<std::int32_t>(Real(y)); };
         const Extent<Real>& extent = simulation.extent;
         keep_row_order({row_of(extent.low.y), row_of(extent.high.y) + 1},
@@ -279,7 +279,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     }
     gather<Solids>(simulation, plan, work, clock, report);
     if constexpr (kHasWindow<Real> && !Solids) {
-        if (simulation.window_cells > 0) {
+        if (simulation.window.cells > 0) {
             fly_beyond(simulation, plan, work, report);
             clock.charge(Stage::grid_to_particle);
         }

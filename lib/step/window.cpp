@@ -166,7 +166,7 @@ void begin_pool(std::int32_t later, Simulation<Real>& simulation) {
     particles.velocity += later;
     particles.kind = particles.kind != nullptr ? particles.kind + later : nullptr;
     particles.count -= later;
-    simulation.beyond += later;
+    simulation.window.beyond += later;
 }
 
 }  // namespace
@@ -193,7 +193,9 @@ void number_cells(const GridShape& window, Simulation<Real>& simulation) {
         move_back(fields.level, on);
     }
     grid.origin = origin;
-    simulation.window = window;
+    if constexpr (kHasWindow<Real>) {
+        simulation.window.at = window;
+    }
     simulation.layers.shape.stride = window.stride;
     const std::int32_t coarse = coarse_cells(window.nx);
     fields.coarse.shape = {coarse, coarse_cells(window.ny), coarse + 2};
@@ -202,7 +204,7 @@ void number_cells(const GridShape& window, Simulation<Real>& simulation) {
 template <class Real>
 bool fits_window(const Simulation<Real>& simulation, const GridShape& part) {
     const GridShape window = window_around(simulation.layers.shape, part);
-    return window.size() <= simulation.window_cells;
+    return window.size() <= simulation.window.cells;
 }
 
 template <class Real>
@@ -232,7 +234,7 @@ GridShape hide_beyond(Simulation<Real>& simulation) {
         ++columns.count[columns.of(cell.x)];
         ++rows.count[rows.of(cell.y)];
     }
-    while (entries_of(columns.width(), rows.width()) > simulation.window_cells) {
+    while (entries_of(columns.width(), rows.width()) > simulation.window.cells) {
         cut(columns, rows);
     }
     std::int32_t beyond = part_pool(columns, rows, particles);
@@ -249,13 +251,13 @@ GridShape hide_beyond(Simulation<Real>& simulation) {
 
 template <class Real>
 void show_beyond(Simulation<Real>& simulation) {
-    begin_pool(-simulation.beyond, simulation);
+    begin_pool(-simulation.window.beyond, simulation);
 }
 
 template <class Real>
 std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
     const GridShape& tank = simulation.layers.shape;
-    const GridShape before = simulation.window;
+    const GridShape before = simulation.window.at;
     const GridShape both = united(before, part);
     if (both.nx == before.nx && both.ny == before.ny) {
         return 0;
@@ -263,7 +265,7 @@ std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
     // It stays where it can: liquid that comes and goes does not move it each time.
     const GridShape now = window_around(tank, fits_window(simulation, both) ? both : part);
     PressureFields<Real>& fields = simulation.pressure;
-    const std::int32_t entries = simulation.window_cells;
+    const std::int32_t entries = simulation.window.cells;
     carry(before, now, entries, fields.pressure + simulation.grid.origin);
     auto* density = fields.density + simulation.grid.origin;
     auto* level = fields.level + simulation.grid.origin;
@@ -297,9 +299,9 @@ void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
                 StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
     const GridShape& tank = simulation.layers.shape;
-    const Part part = work.take(simulation.beyond, 1);
+    const Part part = work.take(simulation.window.beyond, 1);
     Particles<Real> some =
-        simulation.particles.part(part.first - simulation.beyond, part.end - part.first);
+        simulation.particles.part(part.first - simulation.window.beyond, part.end - part.first);
     const Transfer<Real> transfer{plan.dt_s, settings.flip_ratio,
                                   minimum(kLongestWay<Real> / plan.dt_s, kFastest<Real>),
                                   settings.borders};
@@ -315,7 +317,7 @@ void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
     }
     note(moved, simulation, report);
     if (work.once(1)) {
-        report.particles_beyond = simulation.beyond;
+        report.particles_beyond = simulation.window.beyond;
         show_beyond(simulation);
     }
 }

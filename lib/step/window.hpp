@@ -9,10 +9,6 @@
 
 namespace weir {
 
-/// Packed worlds are so small that they store all of the tank.
-template <class Real>
-inline constexpr bool kHasWindow = !Stored<Real>::shares_momentum;
-
 /// The window that a particle anywhere wants, in the tank's corner.
 inline GridShape least_window(const Capacity& capacity, bool seam_x, bool seam_y) {
     const auto least = [](std::int32_t cells, std::int32_t at_once, bool seam) {

@@ -213,7 +213,7 @@ void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldSta
     };
     const Extents extents = world_members(stream, state);
     if constexpr (kHasWindow<Real>) {
-        if (state.simulation.window_cells > 0) {
+        if (state.simulation.window.cells > 0) {
             if (apply) {
                 number_cells(extents.window, state.simulation);
             } else if (reader.sound() && !is_window(state.simulation, extents.window)) {
@@ -270,7 +270,7 @@ void redraw(Simulation<Real>& simulation) {
     simulation.layers.walls.active = table.used > 0;
     simulation.stages = table.used > 0 ? &solid_stages<Real>() : &open_stages<Real>();
     simulation.grid.shape = simulation.layers.shape;
-    simulation.occupied = simulation.window;  // what is not kept may stand anywhere
+    simulation.occupied = stored_part(simulation);  // what is not kept may stand anywhere
     clear(simulation.contacts);
     if (table.capacity > 0) {
         redraw_all(simulation.layers, table);

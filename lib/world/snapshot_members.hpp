@@ -54,8 +54,8 @@ template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, still_s, still_gravity, pending,
            substeps_left, plan, progress, report] = state;
-    [[maybe_unused]] auto& [settings, particles, grid, occupied, window, window_cells, beyond,
-                            pressure_fields, bodies, layers, free_bodies, body_diagonal,
+    [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
+                            bodies, layers, free_bodies, body_diagonal,
                             contacts, gathered, extent, max_speed, ticks, stages] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
                             on_surface, leaps, last_dt, change, solve] = pressure_fields;
@@ -77,13 +77,15 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     Extents extents;
     extents.particles = stream.member(count, 0, capacity);
     extents.vertices = stream.member(vertices_used, 0, vertex_capacity);
-    if (window_cells > 0) {
-        GridShape& at = extents.window = window;
-        at.i0 = stream.member(at.i0, 0, shape.nx);
-        at.j0 = stream.member(at.j0, 0, shape.ny);
-        at.nx = stream.member(at.nx, 1, shape.nx);
-        at.ny = stream.member(at.ny, 1, shape.ny);
-        at.stride = at.nx + 2;
+    if constexpr (kHasWindow<Real>) {
+        if (window.cells > 0) {
+            GridShape& at = extents.window = window.at;
+            at.i0 = stream.member(at.i0, 0, shape.nx);
+            at.j0 = stream.member(at.j0, 0, shape.ny);
+            at.nx = stream.member(at.nx, 1, shape.nx);
+            at.ny = stream.member(at.ny, 1, shape.ny);
+            at.stride = at.nx + 2;
+        }
     }
     return extents;
 }

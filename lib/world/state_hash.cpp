@@ -77,7 +77,8 @@ std::uint64_t World<Real>::state_hash() const {
             hash.add(static_cast<std::uint32_t>(particles.kind[k]));
         }
     }
-    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape, simulation.window);
+    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape,
+               stored_part(simulation));
     hash.add(simulation.pressure.last_dt);
     const Real numbers[] = {simulation.pressure.change, simulation.max_speed,
                             simulation.settings.gravity.x, simulation.settings.gravity.y};

@@ -89,7 +89,7 @@ Status World<Real>::work_bound(float dt_s, WorkBound* bound, std::int32_t rung) 
                               bound->substeps * one +
                                   (cold && bound->substeps > 0 ? first - one : 0));
     };
-    if (simulation.window_cells == 0) {
+    if (simulation.window.cells == 0) {
         foresee_in(simulation.layers.shape);
         return Status::ok;
     }

@@ -107,7 +107,9 @@ template <class Real>
 void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& borders,
            Simulation<Real>& simulation) {
     simulation.layers.shape = {capacity.cells_x, capacity.cells_y};
-    simulation.window_cells = is_windowed(capacity) ? capacity.window_cells : 0;
+    if constexpr (kHasWindow<Real>) {
+        simulation.window.cells = is_windowed(capacity) ? capacity.window_cells : 0;
+    }
     carver.take(Block::particle_position, simulation.particles.position);
     carver.take(Block::particle_velocity, simulation.particles.velocity);
     simulation.particles.capacity = capacity.particles;
@@ -151,7 +153,7 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
                                        : tank,
                  simulation);
     simulation.grid.shape = simulation.layers.shape;
-    simulation.occupied = simulation.window;
+    simulation.occupied = stored_part(simulation);
 }
 
 template <class Real>
@@ -289,7 +291,7 @@ FieldView<Real> World<Real>::pressure() const {
     if (state_ == nullptr) {
         return {};
     }
-    return view_of(state_->simulation.pressure.pressure, state_->simulation.window);
+    return view_of(state_->simulation.pressure.pressure, stored_part(state_->simulation));
 }
 
 template <class Real>
@@ -297,7 +299,7 @@ FieldView<DensityOf<Real>> World<Real>::density() const {
     if (state_ == nullptr) {
         return {};
     }
-    return view_of(state_->simulation.pressure.density, state_->simulation.window);
+    return view_of(state_->simulation.pressure.density, stored_part(state_->simulation));
 }
 
 template <class Real>

@@ -82,7 +82,7 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     *diagnostics = {};
     sum_particles(simulation, cell_m, *diagnostics);
     if constexpr (kHasWindow<Real>) {
-        if (simulation.window_cells > 0 && !look_around(simulation)) {
+        if (simulation.window.cells > 0 && !look_around(simulation)) {
             return Status::ok;
         }
     }
