@@ -63,6 +63,27 @@ inline EvenOdd load_eight(const float* from) {
     return {shuffle<0, 2, 4, 6>(a, b), shuffle<1, 3, 5, 7>(a, b)};
 }
 
+/// Two times two numbers at each of four places.
+struct Squares {
+    Lanes low_left;
+    Lanes low_right;
+    Lanes high_left;
+    Lanes high_right;
+};
+/// From two rows, of which either may lie anywhere.
+template <class Place>
+inline Squares squares_at(const float* low, const float* high, const Place* at) {
+    const auto both = [&](std::int32_t k) {
+        return shuffle<0, 1, 4, 5>(load_pair(low + at[k]), load_pair(high + at[k]));
+    };
+    const Lanes a = shuffle<0, 4, 1, 5>(both(0), both(1));
+    const Lanes b = shuffle<2, 6, 3, 7>(both(0), both(1));
+    const Lanes c = shuffle<0, 4, 1, 5>(both(2), both(3));
+    const Lanes d = shuffle<2, 6, 3, 7>(both(2), both(3));
+    return {shuffle<0, 1, 4, 5>(a, c), shuffle<2, 3, 6, 7>(a, c), shuffle<0, 1, 4, 5>(b, d),
+            shuffle<2, 3, 6, 7>(b, d)};
+}
+
 inline bool all_true(LaneMask mask) {
 #if defined(__SSE2__)
     Lanes signs;

@@ -230,27 +230,6 @@ bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool fa
     return !at.inside || lead_out(scene, k, at.slot, before);
 }
 
-/// The last of `count` particles whose cell has solid in it, or −1. Most are answered here.
-template <class Real>
-std::int32_t last_near_wall(const GridShape& shape, const std::uint8_t* cell_case,
-                            const Vec2<Real>* position, std::int32_t count) {
-    const std::int32_t stride = shape.stride;
-    const std::uint8_t* origin = cell_case + shape.index(0, 0);
-    if constexpr (kHasLanes<Real>) {
-        if (maximum(stride, shape.ny) < 0x8000) {
-            count = last_four_near_wall(origin, stride, position, count);
-        }
-    }
-    while (--count >= 0) {
-        const Vec2<Real> x = position[count];
-        if (origin[static_cast<std::int32_t>(x.y) * stride + static_cast<std::int32_t>(x.x)] !=
-            kCellOutside) {
-            break;
-        }
-    }
-    return count;
-}
-
 template <class Real>
 void answer_all(Scene<Real>& scene, std::int32_t k, const ThinStop<Real>& stop) {
     for (std::int32_t hit = 0; hit < stop.count; ++hit) {
@@ -321,6 +300,44 @@ bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bo
             kNear) != 0;
 }
 
+/// A particle that has no way out.
+template <class Real>
+void remove(Scene<Real>& scene, std::int32_t k, bool mark) {
+    ++scene.result.removed;
+    mark ? scene.particles.mark(k) : scene.particles.remove(k);
+}
+
+#if WEIR_HAS_LANES
+
+/// A block of which nobody went far, and without thin walls. Most particles are clearly outside.
+void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
+                      std::int32_t count) {
+    const GridShape& s = scene.shape;
+    const std::int32_t origin = s.index(0, 0);
+    const std::uint8_t* cases = scene.walls.cell_case + origin;
+    const Vec2<float>* position = scene.particles.position + first;
+    NearWall<kBlock<float>> near;
+    find_near_wall(cases, s.stride, position, count, near);
+    near.fill_up();
+    for (std::int32_t next = 0; next < near.count; next += 4) {
+        const std::uint32_t clear =
+            four_clearly_outside(near, next, cases, scene.walls.distance + origin, s.stride,
+                                 position, kClear<float>);
+        for (std::int32_t k = 0; k < 4 && next + k < near.count; ++k) {
+            if ((clear >> static_cast<std::uint32_t>(k) & 1U) != 0) {
+                ++scene.result.tested;
+                continue;
+            }
+            const std::int32_t n = near.n[next + k];
+            if (!meet_contour(scene, first + n, Vec2<float>(flight.before[n]), false)) {
+                remove(scene, first + n, flight.mark_removed);
+            }
+        }
+    }
+}
+
+#endif
+
 }  // namespace
 
 template <class Real>
@@ -328,10 +345,17 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
              std::int32_t first, std::int32_t count, Particles<Real>& particles,
              Contacts<Real>& contacts, CollideResult<Real>& result) {
     Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s};
+    const bool all = flight.far || walls.thin != nullptr;
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real>) {
+        if (!all && maximum(shape.stride, shape.ny) < 0x8000) {
+            collide_in_lanes(scene, flight, first, count);
+            return;
+        }
+    }
+#endif
     for (std::int32_t n = count; n > 0;) {
-        n = flight.far || walls.thin != nullptr
-                ? n - 1
-                : last_near_wall(shape, walls.cell_case, particles.position + first, n);
+        n = all ? n - 1 : last_near_wall(shape, walls.cell_case, particles.position + first, n);
         if (n < 0) {
             return;
         }
@@ -340,12 +364,9 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
         const Vec2<Real> before = flight.before[n];
         const bool far = flight.far && is_far(before, x);
         const bool thin = walls.thin != nullptr && near_thin(shape, *walls.thin, x, far);
-        if (case_at(shape, walls, x) == kCellOutside && !far && !thin) {
-            continue;
-        }
-        if (!meet(scene, k, before, far, thin)) {
-            ++result.removed;
-            flight.mark_removed ? particles.mark(k) : particles.remove(k);
+        if ((case_at(shape, walls, x) != kCellOutside || far || thin) &&
+            !meet(scene, k, before, far, thin)) {
+            remove(scene, k, flight.mark_removed);
         }
     }
 }

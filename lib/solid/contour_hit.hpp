@@ -67,6 +67,21 @@ std::uint8_t case_at(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x)
     return walls.cell_case[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))];
 }
 
+/// The last of `count` particles whose cell has solid in it, or −1.
+template <class Real>
+std::int32_t last_near_wall(const GridShape& shape, const std::uint8_t* cell_case,
+                            const Vec2<Real>* position, std::int32_t count) {
+    const std::uint8_t* origin = cell_case + shape.index(0, 0);
+    while (--count >= 0) {
+        const Vec2<Real> x = position[count];
+        if (origin[static_cast<std::int32_t>(x.y) * shape.stride +
+                   static_cast<std::int32_t>(x.x)] != kCellOutside) {
+            break;
+        }
+    }
+    return count;
+}
+
 /// The body at the node of the cell that is deepest inside.
 template <class Real>
 std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::int32_t node) {
@@ -78,17 +93,20 @@ std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::in
     return walls.nearest[deepest];
 }
 
+/// By so much more than rounding, cells.
+template <class Real>
+inline constexpr Real kClear = Real(1.0 / 128.0);
+
 /// Whether a point is in front of the contour of its cell by more than rounding, where the contour
 /// is one line: nearly all that are asked for are. Across a corner the line is where the distance,
 /// linear from the corner's node on, is 0. False: the contour must be found.
 template <class Real>
 bool clearly_outside(std::uint8_t which, const Real (&d)[4], Vec2<Real> f) {
-    constexpr Real kClear = Real(1.0 / 128.0);
     const auto corner = [&](std::int32_t node, std::int32_t beside, std::int32_t over, Real x,
                             Real y) {
         const Vec2<Real> slope{d[beside] - d[node], d[over] - d[node]};
         return d[node] + (slope.x * x + slope.y * y) >
-               kClear * (absolute(slope.x) + absolute(slope.y));
+               kClear<Real> * (absolute(slope.x) + absolute(slope.y));
     };
     // Height over the line between the crossings of two opposite edges.
     const auto height = [&](std::int32_t low, std::int32_t high, std::int32_t low_end,
@@ -106,10 +124,10 @@ bool clearly_outside(std::uint8_t which, const Real (&d)[4], Vec2<Real> f) {
         case 11: return corner(2, 3, 1, Real(1) - f.x, Real(1) - f.y);
         case 8:
         case 7: return corner(3, 2, 0, f.x, Real(1) - f.y);
-        case 3: return height(0, 3, 1, 2, f.x, f.y) > kClear;
-        case 12: return height(0, 3, 1, 2, f.x, f.y) < -kClear;
-        case 9: return height(0, 1, 3, 2, f.y, f.x) > kClear;
-        case 6: return height(0, 1, 3, 2, f.y, f.x) < -kClear;
+        case 3: return height(0, 3, 1, 2, f.x, f.y) > kClear<Real>;
+        case 12: return height(0, 3, 1, 2, f.x, f.y) < -kClear<Real>;
+        case 9: return height(0, 1, 3, 2, f.y, f.x) > kClear<Real>;
+        case 6: return height(0, 1, 3, 2, f.y, f.x) < -kClear<Real>;
         default: return false;
     }
 }

@@ -31,26 +31,6 @@ inline LaneVectors operator*(Lanes s, LaneVectors a) { return {s * a.x, s * a.y}
 inline Lanes dot(LaneVectors a, LaneVectors b) { return a.x * b.x + a.y * b.y; }
 inline Vec2<float> of_lane(LaneVectors a, std::int32_t k) { return {a.x[k], a.y[k]}; }
 
-/// Two times two numbers around each of four places: the lower two, the upper two.
-struct Squares {
-    Lanes low_left;
-    Lanes low_right;
-    Lanes high_left;
-    Lanes high_right;
-};
-/// From two rows, of which either may lie anywhere, at four places.
-inline Squares squares_at(const float* low, const float* high, const std::int32_t* at) {
-    const auto both = [&](std::int32_t k) {
-        return shuffle<0, 1, 4, 5>(load_pair(low + at[k]), load_pair(high + at[k]));
-    };
-    const Lanes a = shuffle<0, 4, 1, 5>(both(0), both(1));
-    const Lanes b = shuffle<2, 6, 3, 7>(both(0), both(1));
-    const Lanes c = shuffle<0, 4, 1, 5>(both(2), both(3));
-    const Lanes d = shuffle<2, 6, 3, 7>(both(2), both(3));
-    return {shuffle<0, 1, 4, 5>(a, c), shuffle<2, 3, 6, 7>(a, c), shuffle<0, 1, 4, 5>(b, d),
-            shuffle<2, 3, 6, 7>(b, d)};
-}
-
 /// Three numbers in a row at four places, of which the last is there.
 struct Threes {
     Lanes left;
