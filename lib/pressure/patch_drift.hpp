@@ -166,24 +166,19 @@ inline void drift_columns(const Drift<Solids, Real>& drift, Real price,
 }
 
 #if WEIR_HAS_LANES
-/// A whole patch at once. False: not all of its faces move.
-template <bool Solids>
-inline bool drift_at_once(const Drift<Solids, float>& drift, bool pays,
-                          StaggeredGrid<float>& grid) {
-    if (!all_move(drift)) {
-        return false;
-    }
+/// A whole patch at once, that lies at none of the tank's walls.
+template <bool Closed, class Drift>
+inline void drift_at_once(const Drift& drift, bool pays, StaggeredGrid<float>& grid) {
     DriftOfPatch way;
     float price = 0.0F;
     if (pays) {
         Weights<float> sums;
-        find_drift<true>(drift, grid, way, sums);
+        find_drift<true, Closed>(drift, grid, way, sums);
         price = price_of(sums);
     } else {
-        find_drift<false>(drift, grid, way, nullptr);
+        find_drift<false, Closed>(drift, grid, way, nullptr);
     }
-    apply_drift(drift, way, price, grid);
-    return true;
+    apply_drift<Closed>(drift, way, price, grid);
 }
 #endif
 
@@ -194,7 +189,11 @@ inline void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGr
     }
     pays = pays && drift.has_excess(drift.patch.q);  // without disorder nothing is paid
     if constexpr (kHasLanes<Real>) {
-        if (drift_at_once(drift, pays, grid)) {
+        if (is_inner(drift)) {
+            const bool closed = Solids && !all_open(drift);
+            const auto at_once = closed ? drift_at_once<Solids, Drift<Solids, Real>>
+                                        : drift_at_once<false, Drift<Solids, Real>>;
+            at_once(drift, pays, grid);
             return;
         }
     }

@@ -91,6 +91,43 @@ inline LaneMask beside_liquid(const float* level, std::int32_t stride, std::int3
     return (load_lanes(level + c) <= zero) & (highest > zero);
 }
 
+/// What `surrounded` asks of four cells.
+struct DimpleTask {
+    const float* level;
+    const float* open_u;  ///< null: no solids
+    const float* open_v;
+    const std::uint8_t* cell_case;
+    std::int32_t stride;
+    float share;         ///< of open faces that liquid must cover
+    float share_of_cut;  ///< the same for a cell that a contour crosses
+    float filled;        ///< a level that is no evidence
+};
+
+/// Which of four cells liquid surrounds. `left` … `upper`: 1 for each face within the tank, or 0.
+inline LaneMask surrounded_four(const DimpleTask& task, std::int32_t c, Lanes left, Lanes right,
+                                float lower, float upper) {
+    Lanes open = all_lanes(0.0F);
+    Lanes covered = all_lanes(0.0F);
+    const auto face = [&](Lanes inside, const float* share, std::int32_t neighbour) {
+        const Lanes fraction = task.open_u != nullptr ? inside * load_lanes(share) : inside;
+        const Lanes there = load_lanes(task.level + neighbour);
+        const LaneMask liquid = (there > all_lanes(0.0F)) & (there != all_lanes(task.filled));
+        open = open + fraction;
+        covered = covered + (liquid ? fraction : all_lanes(0.0F));
+    };
+    face(left, task.open_u + c, c - 1);
+    face(right, task.open_u + c + 1, c + 1);
+    face(all_lanes(lower), task.open_v + c, c - task.stride);
+    face(all_lanes(upper), task.open_v + c + task.stride, c + task.stride);
+    Lanes share = all_lanes(task.share);
+    if (task.open_u != nullptr) {
+        const std::uint8_t* cases = task.cell_case + c;
+        const LaneMask cut = LaneMask{cases[0], cases[1], cases[2], cases[3]} != 0;
+        share = cut ? all_lanes(task.share_of_cut) : share;
+    }
+    return (open > all_lanes(0.0F)) & (covered >= share * open);
+}
+
 #endif
 
 }  // namespace weir

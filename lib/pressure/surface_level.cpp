@@ -98,31 +98,55 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
     return open > Real(0) && covered >= share * open;
 }
 
+#if WEIR_HAS_LANES
+/// `fill_dimples` of a row, four at a time. Returns the next cell to do.
+inline std::int32_t fill_dimples_in_lanes(const GridShape& s, const Borders<float>& borders,
+                                          const Walls<float>& walls, std::int32_t j,
+                                          float* level) {
+    const DimpleTask task{level,
+                          walls.active ? walls.open_u : nullptr,
+                          walls.open_v,
+                          walls.cell_case,
+                          s.stride,
+                          kFilledShare<float>,
+                          kFilledShareOfCut<float>,
+                          kFilledLevel<float>};
+    const auto is = [](bool there) { return there ? 1.0F : 0.0F; };
+    const float lower = is(j > 0 || borders.wrap_y);
+    const float upper = is(j + 1 < s.ny || borders.wrap_y);
+    const bool inner_row = !walls.active && j > 0 && j + 1 < s.ny;
+    std::int32_t i = 0;
+    for (; i + 4 <= s.nx; i += 4) {
+        // Four open faces want liquid behind all of them.
+        const bool inner = inner_row && i > 0 && i + 4 < s.nx;
+        const std::int32_t c = s.index(i, j);
+        const LaneMask beside = beside_liquid(level, s.stride, c, inner);
+        if (any_true(beside)) {
+            const Lanes left{is(i > 0 || borders.wrap_x), 1.0F, 1.0F, 1.0F};
+            const Lanes right{1.0F, 1.0F, 1.0F, is(i + 4 < s.nx || borders.wrap_x)};
+            const LaneMask filled = beside & surrounded_four(task, c, left, right, lower, upper);
+            store_lanes(level + c,
+                        filled ? all_lanes(kFilledLevel<float>) : load_lanes(level + c));
+        }
+    }
+    return i;
+}
+#endif
+
 /// Air cells that liquid surrounds are taken as filled.
 template <class Real>
 void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
                   const Part& rows, LevelOf<Real>* level) {
-    const auto fill = [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        if (surrounded(s, borders, walls, level, i, j)) {
-            level[c] = kFilledLevel<Real>;
-        }
-    };
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t i = 0;
         if constexpr (kHasLanes<Real>) {
-            const bool inner_row = !walls.active && j > 0 && j + 1 < s.ny;
-            for (; i + 4 <= s.nx; i += 4) {
-                // Four open faces want liquid behind all of them.
-                const bool inner = inner_row && i > 0 && i + 4 < s.nx;
-                const std::int32_t c = s.index(i, j);
-                for_each_true(beside_liquid(level, s.stride, c, inner),
-                              [&](std::int32_t k) { fill(i + k, j, c + k); });
-            }
+            i = fill_dimples_in_lanes(s, borders, walls, j, level);
         }
         for (; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (level[c] <= Real(0) && beside_liquid(level, s.stride, c)) {
-                fill(i, j, c);
+            if (level[c] <= Real(0) && beside_liquid(level, s.stride, c) &&
+                surrounded(s, borders, walls, level, i, j)) {
+                level[c] = kFilledLevel<Real>;
             }
         }
     }

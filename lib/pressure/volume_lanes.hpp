@@ -40,35 +40,70 @@ inline Real in_turn(const Real (&column)[kCoarseEdge]) {
 
 #if WEIR_HAS_LANES
 
-/// Excess of cells c, c + 1 … as long as enough are left before `end`; returns the next one to do.
+/// As `excess`; `lowest`: level of the lowest cell next to each.
 template <class L>
-inline std::int32_t excess_cells(const PressureFields<float>& f, std::int32_t stride,
-                                 const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
+inline typename L::Floats excess_of_cells(const PressureFields<float>& f,
+                                          const ExcessLimits& limits, std::int32_t c,
+                                          typename L::Floats lowest) {
     const auto zero = L::all(0.0F);
     const auto half = L::all(0.5F);
     const auto one = L::all(1.0F);
     const auto slack = L::all(limits.subsurface_slack);
     const auto window = L::all(limits.window);
+    const auto e = L::load(f.density + c) - one;
+    const auto inner = (L::load(f.level + c) > zero) & (lowest > zero);
+    const auto at_surface = L::clamp(e - L::all(limits.surface_slack), zero, window);
+    auto inside = e;
+    const auto below = lowest < half;
+    if (!limits.exact_below && L::any_true(inner & below)) {
+        const auto missing = half - lowest;
+        const auto more = e + L::all(0.125F) * missing * missing;
+        inside = below ? more - L::clamp(more, -slack, slack) : e;
+    }
+    const auto under = one + L::all(limits.hanging) * L::load(f.pressure + c);
+    const auto held = L::clamp(under, zero, one);
+    inside = inside < zero ? held * inside : inside;
+    return inner ? L::clamp(inside, -window, window) : at_surface;
+}
+
+/// Of cells c, c + 1 … as long as enough are left before `end`; returns the next one to do.
+template <class L>
+inline std::int32_t excess_cells(const PressureFields<float>& f, std::int32_t stride,
+                                 const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
     for (; c + L::kLanes <= end; c += L::kLanes) {
-        const auto e = L::load(f.density + c) - L::all(1.0F);
         const auto lowest =
             L::minimum(L::minimum(L::load(f.level + c - 1), L::load(f.level + c + 1)),
                        L::minimum(L::load(f.level + c - stride), L::load(f.level + c + stride)));
-        const auto inner = (L::load(f.level + c) > zero) & (lowest > zero);
-        const auto at_surface = L::clamp(e - L::all(limits.surface_slack), zero, window);
-        auto inside = e;
-        const auto below = lowest < half;
-        if (!limits.exact_below && L::any_true(inner & below)) {
-            const auto missing = half - lowest;
-            const auto more = e + L::all(0.125F) * missing * missing;
-            inside = below ? more - L::clamp(more, -slack, slack) : e;
-        }
-        const auto under = one + L::all(limits.hanging) * L::load(f.pressure + c);
-        const auto held = L::clamp(under, zero, one);
-        inside = inside < zero ? held * inside : inside;
-        L::store(f.divergence + c, inner ? L::clamp(inside, -window, window) : at_surface);
+        L::store(f.divergence + c, excess_of_cells<L>(f, limits, c, lowest));
     }
     return c;
+}
+
+/// Of those of four cells beside closed faces that a bit tells, if they are liquid.
+inline void excess_beside_walls_lanes(const Walls<float>& walls, const PressureFields<float>& f,
+                                      std::int32_t stride, const ExcessLimits& limits,
+                                      std::int32_t c, std::uint32_t bits) {
+    const auto told = static_cast<std::int32_t>(bits);
+    const Lanes level = load_lanes(f.level + c);
+    const LaneMask wet = (level > all_lanes(0.0F)) & ((LaneMask{1, 2, 4, 8} & told) != 0);
+    if (!any_true(wet)) {
+        return;
+    }
+    Lanes lowest = level;
+    const auto look = [&](const float* open, std::int32_t neighbour) {
+        lowest = load_lanes(open) > all_lanes(0.0F)
+                     ? minimum(lowest, load_lanes(f.level + neighbour))
+                     : lowest;
+    };
+    look(walls.open_u + c, c - 1);
+    look(walls.open_u + c + 1, c + 1);
+    look(walls.open_v + c, c - stride);
+    look(walls.open_v + c + stride, c + stride);
+    const Lanes e = excess_of_cells<FourLanes>(f, limits, c, lowest);
+    const Lanes slack = all_lanes(limits.subsurface_slack);
+    const Lanes room = minimum(all_lanes(1.0F), load_lanes(walls.full_density + c));
+    const Lanes counts = (e - clamp(e, -slack, slack)) * room;
+    store_lanes(f.divergence + c, wet ? counts : load_lanes(f.divergence + c));
 }
 
 #if WEIR_HAS_WIDE_LANES
@@ -251,16 +286,16 @@ inline void drift_rows(const Drift& drift, float price, StaggeredGrid<float>& gr
     });
 }
 
-/// Whether a patch is whole and all of its faces move.
+/// Whether a patch is whole and none of its faces lies on the tank's walls.
 template <class Drift>
-inline bool all_move(const Drift& drift) {
-    if (drift.patch.width != kCoarseEdge || drift.patch.height != kCoarseEdge ||
-        !drift.first_moves_x() || !drift.moves_y(0)) {
-        return false;
-    }
-    if (drift.solids() == nullptr) {
-        return true;
-    }
+inline bool is_inner(const Drift& drift) {
+    return drift.patch.width == kCoarseEdge && drift.patch.height == kCoarseEdge &&
+           drift.first_moves_x() && drift.moves_y(0);
+}
+
+/// Whether solids leave all faces of such a patch open.
+template <class Drift>
+inline bool all_open(const Drift& drift) {
     Lanes least = all_lanes(1.0F);
     std::int32_t c = drift.shape.index(drift.patch.i, drift.patch.j);
     for (std::int32_t y = 0; y < kCoarseEdge; ++y, c += drift.shape.stride) {
@@ -276,8 +311,18 @@ struct DriftOfPatch {
     Lanes v[kCoarseEdge];
 };
 
-/// `Weighed`: also what it weighs.
-template <bool Weighed, class Drift, class Sums>
+/// What a face has if it is open, else 0.
+template <bool Closed>
+inline Lanes if_open([[maybe_unused]] const float* open, Lanes there) {
+    if constexpr (Closed) {
+        return load_lanes(open) > all_lanes(0.0F) ? there : all_lanes(0.0F);
+    } else {
+        return there;
+    }
+}
+
+/// `Weighed`: also what it weighs; `Closed`: some of the faces are.
+template <bool Weighed, bool Closed, class Drift, class Sums>
 inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, DriftOfPatch& way,
                        [[maybe_unused]] Sums&& sums) {
     const std::int32_t stride = drift.shape.stride;
@@ -294,12 +339,15 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
     std::int32_t c = first;
     for (std::int32_t y = 0; y < kCoarseEdge; ++y) {
         const Lanes here = load_lanes(e);
-        way.u[y] = speed * ((here - load_lanes(e - 1)) + along_x);
-        way.v[y] = speed * ((here - e_below) + all_lanes(drift.along_y[y]));
+        const float* open_u = Closed ? drift.walls.open_u + c : nullptr;
+        const float* open_v = Closed ? drift.walls.open_v + c : nullptr;
+        way.u[y] = if_open<Closed>(open_u, speed * ((here - load_lanes(e - 1)) + along_x));
+        way.v[y] = if_open<Closed>(open_v, speed * ((here - e_below) +
+                                                    all_lanes(drift.along_y[y])));
         if constexpr (Weighed) {
             const Lanes held = load_lanes(p);
-            const Lanes u = load_lanes(grid.u + c);
-            const Lanes v = load_lanes(grid.v + c);
+            const Lanes u = if_open<Closed>(open_u, load_lanes(grid.u + c));
+            const Lanes v = if_open<Closed>(open_v, load_lanes(grid.v + c));
             lifted = lifted + way.u[y] * (held - load_lanes(p - 1));
             lifted = lifted + way.v[y] * (held - p_below);
             moving = (moving + u * u) + v * v;
@@ -318,7 +366,7 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
     }
 }
 
-template <class Drift>
+template <bool Closed, class Drift>
 inline void apply_drift(const Drift& drift, const DriftOfPatch& way, float price,
                         StaggeredGrid<float>& grid) {
     std::int32_t c = drift.shape.index(drift.patch.i, drift.patch.j);
@@ -326,8 +374,12 @@ inline void apply_drift(const Drift& drift, const DriftOfPatch& way, float price
         const Lanes u = load_lanes(grid.u + c);
         const Lanes v = load_lanes(grid.v + c);
         if (price != 0.0F) {
-            store_lanes(grid.mass_u + c, load_lanes(grid.mass_u + c) - all_lanes(price) * u);
-            store_lanes(grid.mass_v + c, load_lanes(grid.mass_v + c) - all_lanes(price) * v);
+            const float* open_u = Closed ? drift.walls.open_u + c : nullptr;
+            const float* open_v = Closed ? drift.walls.open_v + c : nullptr;
+            store_lanes(grid.mass_u + c, load_lanes(grid.mass_u + c) -
+                                             if_open<Closed>(open_u, all_lanes(price) * u));
+            store_lanes(grid.mass_v + c, load_lanes(grid.mass_v + c) -
+                                             if_open<Closed>(open_v, all_lanes(price) * v));
         }
         store_lanes(grid.u + c, u - way.u[y]);
         store_lanes(grid.v + c, v - way.v[y]);
