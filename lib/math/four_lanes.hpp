@@ -66,6 +66,9 @@ struct FourLanes {
     }
     /// Of groups that hold every second of several things: all in their order.
     static Floats in_order(Floats a) { return a; }
+    /// Lanes 0, 2 … of a, then of b; 1, 3 …
+    static Floats every_second(Floats a, Floats b) { return weir::shuffle<0, 2, 4, 6>(a, b); }
+    static Floats every_other(Floats a, Floats b) { return weir::shuffle<1, 3, 5, 7>(a, b); }
     /// Lanes 0 and 1 of each group of a, then of b.
     static Floats first_pairs(Floats a, Floats b) { return weir::shuffle<0, 1, 4, 5>(a, b); }
     static Floats last_pairs(Floats a, Floats b) { return weir::shuffle<2, 3, 6, 7>(a, b); }

@@ -105,6 +105,12 @@ struct EightLanes {
     static Floats in_order(Floats a) {
         return __builtin_shufflevector(a, a, 0, 4, 1, 5, 2, 6, 3, 7);
     }
+    static Floats every_second(Floats a, Floats b) {
+        return __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+    }
+    static Floats every_other(Floats a, Floats b) {
+        return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+    }
     static Floats first_pairs(Floats a, Floats b) {
         return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
     }

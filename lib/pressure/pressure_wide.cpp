@@ -4,6 +4,7 @@
 #include "pressure/plain_lanes.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/surface_lanes.hpp"
+#include "pressure/system_lanes.hpp"
 #include "pressure/volume_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
@@ -25,6 +26,18 @@ std::int32_t relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std
 
 std::int32_t build_plain_wide(PlainTask& task, std::int32_t c, std::int32_t end, bool inside) {
     return build_plain_cells<EightLanes>(task, c, end, inside);
+}
+
+std::int32_t weigh_wide(const PressureFields<float>& fields, const float* open_u,
+                        const float* open_v, std::int32_t stride, std::int32_t c,
+                        std::int32_t end, float& there) {
+    return weigh_cells<EightLanes>(fields, open_u, open_v, stride, c, end, there);
+}
+
+std::int32_t accelerate_wide(const PressureFields<float>& fields, const float* open_u,
+                             const float* open_v, bool has_lower, std::int32_t c,
+                             std::int32_t end, StaggeredGrid<float>& grid) {
+    return accelerate_cells<EightLanes>(fields, open_u, open_v, has_lower, c, end, grid);
 }
 
 std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_density,

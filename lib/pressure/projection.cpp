@@ -75,11 +75,11 @@ void project(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
     const ShareOf<Real>* open_u = Solids ? weights.walls.open_u : nullptr;
     const ShareOf<Real>* open_v = Solids ? weights.walls.open_v : nullptr;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
+        for (std::int32_t i = 0, row = s.index(0, j); i < s.nx; ++i) {
             if constexpr (kHasLanes<Real> && !Mixed) {
                 if (weights.has_left(i)) {
-                    i += accelerate_lanes(fields, open_u, open_v, s, i, j, weights.has_lower(j),
-                                          grid);
+                    i = accelerate_lanes(fields, open_u, open_v, weights.has_lower(j), row + i,
+                                         row + s.nx, grid) - row;
                     if (i == s.nx) {
                         break;
                     }

@@ -7,20 +7,6 @@ namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// Sum of the four neighbours of each of four cells.
-inline Lanes neighbours_of_four(const float* p, std::int32_t stride, std::int32_t c) {
-    return (load_lanes(p + c - 1) + load_lanes(p + c + 1)) +
-           (load_lanes(p + c - stride) + load_lanes(p + c + stride));
-}
-
-/// Adds lane after lane.
-inline float add_in_order(float sum, Lanes what) {
-    return (((sum + what[0]) + what[1]) + what[2]) + what[3];
-}
-inline float subtract_in_order(float sum, Lanes what) {
-    return (((sum - what[0]) - what[1]) - what[2]) - what[3];
-}
-
 /// The open share of each face of four cells; 0 on the tank's walls.
 struct FourFaces {
     Lanes left;
@@ -34,10 +20,11 @@ inline Lanes least_of(const FourFaces& faces) {
 }
 
 /// As `liquid_fraction`, where one of the levels is above 0 and the other not.
-inline Lanes fraction_between(Lanes a, Lanes b, Lanes open) {
-    const Lanes liquid = maximum(a, b);
-    const Lanes least = maximum(all_lanes(0.05F), all_lanes(1.0F) - all_lanes(4.0F) * open);
-    return maximum(least, liquid / (liquid - minimum(a, b)));
+template <class L, class Floats>
+inline Floats fraction_between(Floats a, Floats b, Floats open) {
+    const auto liquid = L::maximum(a, b);
+    const auto least = L::maximum(L::all(0.05F), L::all(1.0F) - L::all(4.0F) * open);
+    return L::maximum(least, liquid / (liquid - L::minimum(a, b)));
 }
 
 /// What four cells are to their equations.
@@ -59,7 +46,7 @@ inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& fa
     const Lanes level = load_lanes(fields.level + c);
     const auto coefficient = [&](Lanes weight, std::int32_t at) {
         const Lanes beside = load_lanes(fields.level + at);
-        return beside > zero ? weight : weight / fraction_between(level, beside, weight);
+        return beside > zero ? weight : weight / fraction_between<FourLanes>(level, beside, weight);
     };
     const Lanes diagonal = (coefficient(faces.left, c - 1) + coefficient(faces.right, c + 1)) +
                            (coefficient(faces.lower, c - stride) + coefficient(faces.upper, up));
@@ -82,74 +69,83 @@ inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& fa
     store_lanes(fields.inverse_diagonal + c,
                 wet ? (kinds.wide ? one : -one) / (wet ? diagonal : one) : zero);
     store_lanes(fields.pressure + c, start);
-    system.wanted = subtract_in_order(system.wanted, wet ? start * divergence : zero);
-    system.there = add_in_order(system.there, wet ? (start * diagonal) * start : zero);
+    add_to_sums<FourLanes>(wet ? start * divergence : zero,
+                           wet ? (start * diagonal) * start : zero, system);
     any = any_true(wet);
     return true;
 }
 
-/// Takes pᵀ(neighbours of p) from `there`, cells c … as long as four are left before `end`.
+/// Takes pᵀ(neighbours of p) from `there`, cells c … as long as enough are left before `end`.
 /// `open_u` null: no solids. Returns the next cell to do.
-inline std::int32_t weigh_lanes(const PressureFields<float>& fields, const float* open_u,
+template <class L>
+inline std::int32_t weigh_cells(const PressureFields<float>& fields, const float* open_u,
                                 const float* open_v, std::int32_t stride, std::int32_t c,
                                 std::int32_t end, float& there) {
-    const Lanes zero = all_lanes(0.0F);
-    for (; c + 4 <= end; c += 4) {
-        const Lanes inverse = load_lanes(fields.inverse_diagonal + c);
-        const LaneMask wet = inverse != zero;
-        if (!any_true(wet)) {
+    const auto zero = L::all(0.0F);
+    for (; c + L::kLanes <= end; c += L::kLanes) {
+        const auto inverse = L::load(fields.inverse_diagonal + c);
+        const auto wet = inverse != zero;
+        if (!L::any_true(wet)) {
             continue;
         }
         const float* at = fields.pressure + c;
-        Lanes around = neighbours_of_four(fields.pressure, stride, c);
-        if (open_u != nullptr && any_negative(inverse)) {
-            const Lanes weighted = (load_lanes(open_u + c) * load_lanes(at - 1) +
-                                    load_lanes(open_u + c + 1) * load_lanes(at + 1)) +
-                                   (load_lanes(open_v + c) * load_lanes(at - stride) +
-                                    load_lanes(open_v + c + stride) * load_lanes(at + stride));
+        const auto left = L::load(at - 1);
+        const auto right = L::load(at + 1);
+        const auto lower = L::load(at - stride);
+        const auto upper = L::load(at + stride);
+        auto around = (left + right) + (lower + upper);
+        if (open_u != nullptr && L::any_negative(inverse)) {
+            const auto weighted =
+                (L::load(open_u + c) * left + L::load(open_u + c + 1) * right) +
+                (L::load(open_v + c) * lower + L::load(open_v + c + stride) * upper);
             around = inverse < zero ? weighted : around;
         }
-        there = subtract_in_order(there, wet ? load_lanes(at) * around : zero);
+        const auto taken = wet ? L::load(at) * around : zero;
+        L::each_group([&](auto group) {
+            const auto four = L::template group<group>(taken);
+            there = (((there - four[0]) - four[1]) - four[2]) - four[3];
+        });
     }
     return c;
 }
 
-/// velocity −= the pressure's rise across both faces of cells i … in a row, as long as four are
-/// left. `has_lower`: otherwise their lower faces are the tank's wall. `open_u` null: no solids.
-/// Returns how many.
-inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const float* open_u,
-                                     const float* open_v, const GridShape& s, std::int32_t i,
-                                     std::int32_t j, bool has_lower, StaggeredGrid<float>& grid) {
-    const Lanes zero = all_lanes(0.0F);
-    const Lanes one = all_lanes(1.0F);
-    const std::int32_t first = s.index(i, j);
-    const std::int32_t end = s.index(s.nx, j);
-    std::int32_t c = first;
-    const auto any_kind = [&](float* velocity, Lanes here, Lanes before, Lanes rise, Lanes open) {
-        const Lanes now = load_lanes(velocity + c);
-        const LaneMask both = minimum(here, before) > zero;
-        const LaneMask moves = (maximum(here, before) > zero) & (open > zero);
-        const Lanes answer = both ? rise : rise / fraction_between(here, before, open);
-        const LaneMask pushes = (now > zero) == (answer < zero);
-        const Lanes share = pushes ? minimum(one, all_lanes(4.0F) * open) : one;
-        store_lanes(velocity + c, moves ? now - share * answer : now);
+/// velocity −= the pressure's rise across both faces of cells c … of a row, as long as enough are
+/// left before `end`. `has_lower`: otherwise their lower faces are the tank's wall. `open_u` null:
+/// no solids. Returns the next cell to do.
+template <class L>
+inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const float* open_u,
+                                     const float* open_v, bool has_lower, std::int32_t c,
+                                     std::int32_t end, StaggeredGrid<float>& grid) {
+    using Floats = typename L::Floats;
+    const std::int32_t stride = grid.shape.stride;
+    const auto zero = L::all(0.0F);
+    const auto one = L::all(1.0F);
+    const auto any_kind = [&](float* velocity, Floats here, Floats before, Floats rise,
+                              Floats open) {
+        const auto now = L::load(velocity + c);
+        const auto both = L::minimum(here, before) > zero;
+        const auto moves = (L::maximum(here, before) > zero) & (open > zero);
+        const auto answer = both ? rise : rise / fraction_between<L>(here, before, open);
+        const auto pushes = (now > zero) == (answer < zero);
+        const auto share = pushes ? L::minimum(one, L::all(4.0F) * open) : one;
+        L::store(velocity + c, moves ? now - share * answer : now);
     };
-    for (; c + 4 <= end; c += 4) {
-        const Lanes here = load_lanes(fields.level + c);
-        const Lanes left = load_lanes(fields.level + c - 1);
-        const Lanes lower = load_lanes(fields.level + c - s.stride);
-        if (!any_true(maximum(here, maximum(left, lower)) > zero)) {
+    for (; c + L::kLanes <= end; c += L::kLanes) {
+        const auto here = L::load(fields.level + c);
+        const auto left = L::load(fields.level + c - 1);
+        const auto lower = L::load(fields.level + c - stride);
+        if (!L::any_true(L::maximum(here, L::maximum(left, lower)) > zero)) {
             continue;
         }
-        const Lanes wide_u = open_u != nullptr ? load_lanes(open_u + c) : one;
-        const Lanes wide_v = open_u != nullptr ? load_lanes(open_v + c) : one;
-        const Lanes p = load_lanes(fields.pressure + c);
-        const Lanes rise_x = p - load_lanes(fields.pressure + c - 1);
-        const Lanes rise_y = p - load_lanes(fields.pressure + c - s.stride);
-        const LaneMask liquid = minimum(here, minimum(left, lower)) > zero;
-        if (has_lower && all_true(liquid & (minimum(wide_u, wide_v) >= all_lanes(0.25F)))) {
-            store_lanes(grid.u + c, load_lanes(grid.u + c) - rise_x);
-            store_lanes(grid.v + c, load_lanes(grid.v + c) - rise_y);
+        const auto wide_u = open_u != nullptr ? L::load(open_u + c) : one;
+        const auto wide_v = open_u != nullptr ? L::load(open_v + c) : one;
+        const auto p = L::load(fields.pressure + c);
+        const auto rise_x = p - L::load(fields.pressure + c - 1);
+        const auto rise_y = p - L::load(fields.pressure + c - stride);
+        const auto liquid = L::minimum(here, L::minimum(left, lower)) > zero;
+        if (has_lower && L::all_true(liquid & (L::minimum(wide_u, wide_v) >= L::all(0.25F)))) {
+            L::store(grid.u + c, L::load(grid.u + c) - rise_x);
+            L::store(grid.v + c, L::load(grid.v + c) - rise_y);
             continue;
         }
         any_kind(grid.u, here, left, rise_x, wide_u);
@@ -157,7 +153,38 @@ inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const 
             any_kind(grid.v, here, lower, rise_y, wide_v);
         }
     }
-    return c - first;
+    return c;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t weigh_wide(const PressureFields<float>& fields, const float* open_u,
+                        const float* open_v, std::int32_t stride, std::int32_t c,
+                        std::int32_t end, float& there);
+std::int32_t accelerate_wide(const PressureFields<float>& fields, const float* open_u,
+                             const float* open_v, bool has_lower, std::int32_t c,
+                             std::int32_t end, StaggeredGrid<float>& grid);
+#endif
+
+inline std::int32_t weigh_lanes(const PressureFields<float>& fields, const float* open_u,
+                                const float* open_v, std::int32_t stride, std::int32_t c,
+                                std::int32_t end, float& there) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        c = weigh_wide(fields, open_u, open_v, stride, c, end, there);
+    }
+#endif
+    return weigh_cells<FourLanes>(fields, open_u, open_v, stride, c, end, there);
+}
+
+inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const float* open_u,
+                                     const float* open_v, bool has_lower, std::int32_t c,
+                                     std::int32_t end, StaggeredGrid<float>& grid) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        c = accelerate_wide(fields, open_u, open_v, has_lower, c, end, grid);
+    }
+#endif
+    return accelerate_cells<FourLanes>(fields, open_u, open_v, has_lower, c, end, grid);
 }
 
 #endif

@@ -33,6 +33,33 @@ struct Pairs {
     Float* first_v() const { return v + up(); }
 };
 
+/// Numbers of two fields side by side → the two fields, as long as enough are left before `end`;
+/// returns the next one to do.
+template <class L>
+inline std::int32_t unpack_pairs(const float* pairs, std::int32_t k, std::int32_t end,
+                                 float* first, float* second) {
+    for (; k + L::kLanes <= end; k += L::kLanes) {
+        const auto a = L::load(pairs + 2 * k);
+        const auto b = L::load(pairs + 2 * k + L::kLanes);
+        L::store(first + k, L::every_second(a, b));
+        L::store(second + k, L::every_other(a, b));
+    }
+    return k;
+}
+
+template <class L>
+inline std::int32_t pack_pairs(const float* first, const float* second, std::int32_t k,
+                               std::int32_t end, float* pairs) {
+    for (; k + L::kLanes <= end; k += L::kLanes) {
+        const auto a = L::load(first + k);
+        const auto b = L::load(second + k);
+        const auto low = L::template shuffle<0, 4, 1, 5>(a, b);
+        const auto high = L::template shuffle<2, 6, 3, 7>(a, b);
+        L::store_in_turn(pairs + 2 * k, low, high);
+    }
+    return k;
+}
+
 /// What a gather of some particles is told; lengths in cells.
 struct GatherTask {
     Pairs<const float> pairs;

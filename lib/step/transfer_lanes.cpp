@@ -23,15 +23,14 @@ void each_row(Work work, const GridShape& s, const Visit& visit) {
     });
 }
 
-/// Numbers of two fields side by side → the two fields.
 void unpack(const float* pairs, const Part& part, float* first, float* second) {
     std::int32_t k = part.first;
-    for (; k + 4 <= part.end; k += 4) {
-        const Lanes a = load_lanes(pairs + 2 * k);
-        const Lanes b = load_lanes(pairs + 2 * k + 4);
-        store_lanes(first + k, shuffle<0, 2, 4, 6>(a, b));
-        store_lanes(second + k, shuffle<1, 3, 5, 7>(a, b));
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        k = unpack_wide(pairs, k, part.end, first, second);
     }
+#endif
+    k = unpack_pairs<FourLanes>(pairs, k, part.end, first, second);
     for (; k < part.end; ++k) {
         first[k] = pairs[2 * k];
         second[k] = pairs[2 * k + 1];
@@ -40,12 +39,12 @@ void unpack(const float* pairs, const Part& part, float* first, float* second) {
 
 void pack(const float* first, const float* second, const Part& part, float* pairs) {
     std::int32_t k = part.first;
-    for (; k + 4 <= part.end; k += 4) {
-        const Lanes a = load_lanes(first + k);
-        const Lanes b = load_lanes(second + k);
-        store_lanes(pairs + 2 * k, shuffle<0, 4, 1, 5>(a, b));
-        store_lanes(pairs + 2 * k + 4, shuffle<2, 6, 3, 7>(a, b));
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        k = pack_wide(first, second, k, part.end, pairs);
     }
+#endif
+    k = pack_pairs<FourLanes>(first, second, k, part.end, pairs);
     for (; k < part.end; ++k) {
         pairs[2 * k] = first[k];
         pairs[2 * k + 1] = second[k];

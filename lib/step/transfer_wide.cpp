@@ -15,6 +15,16 @@ void scatter_wide(const float* position, const float* velocity, std::int32_t cou
     scatter_all<EightLanes>(position, velocity, count, pairs);
 }
 
+std::int32_t unpack_wide(const float* pairs, std::int32_t k, std::int32_t end, float* first,
+                         float* second) {
+    return unpack_pairs<EightLanes>(pairs, k, end, first, second);
+}
+
+std::int32_t pack_wide(const float* first, const float* second, std::int32_t k,
+                       std::int32_t end, float* pairs) {
+    return pack_pairs<EightLanes>(first, second, k, end, pairs);
+}
+
 void find_extremes_wide(const float* position, std::int32_t particles, float* low, float* high) {
     find_extremes<EightLanes>(position, particles, low, high);
 }

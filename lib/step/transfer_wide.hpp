@@ -7,10 +7,14 @@
 namespace weir {
 
 #if WEIR_HAS_WIDE_LANES
-/// As `gather_all` and `scatter_all` of `EightLanes`; only where `has_wide_lanes()`.
+/// As the loops of `EightLanes`; only where `has_wide_lanes()`.
 float gather_wide(const GatherTask& task);
 void scatter_wide(const float* position, const float* velocity, std::int32_t count,
                   const Pairs<float>& pairs);
+std::int32_t unpack_wide(const float* pairs, std::int32_t k, std::int32_t end, float* first,
+                         float* second);
+std::int32_t pack_wide(const float* first, const float* second, std::int32_t k,
+                       std::int32_t end, float* pairs);
 #endif
 
 }  // namespace weir
