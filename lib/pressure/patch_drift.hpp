@@ -180,6 +180,14 @@ inline void drift_at_once(const Drift& drift, bool pays, StaggeredGrid<float>& g
     }
     apply_drift<Closed>(drift, way, price, grid);
 }
+template <bool Solids>
+inline void drift_inner(const Drift<Solids, float>& drift, bool pays, StaggeredGrid<float>& grid) {
+    if (Solids && !all_open(drift)) {
+        drift_at_once<Solids>(drift, pays, grid);
+    } else {
+        drift_at_once<false>(drift, pays, grid);
+    }
+}
 #endif
 
 template <bool Solids, class Real>
@@ -190,10 +198,7 @@ inline void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGr
     pays = pays && drift.has_excess(drift.patch.q);  // without disorder nothing is paid
     if constexpr (kHasLanes<Real>) {
         if (is_inner(drift)) {
-            const bool closed = Solids && !all_open(drift);
-            const auto at_once = closed ? drift_at_once<Solids, Drift<Solids, Real>>
-                                        : drift_at_once<false, Drift<Solids, Real>>;
-            at_once(drift, pays, grid);
+            drift_inner(drift, pays, grid);
             return;
         }
     }
