@@ -27,6 +27,11 @@ public:
         pointer = reinterpret_cast<T*>(memory_ + plan_.offset[static_cast<std::int32_t>(block)]);
     }
 
+    std::int32_t elements(Block block) const {
+        const auto slot = static_cast<std::int32_t>(block);
+        return static_cast<std::int32_t>(plan_.bytes[slot] / plan_.element_bytes[slot]);
+    }
+
 private:
     std::byte* memory_;
     const Layout& plan_;
@@ -80,7 +85,8 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
 
 template <class Real>
 void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Real>& coarse) {
-    const std::int32_t entries = coarse_entries(capacity);
+    const std::int32_t count = coarse_fields_of<Real>(capacity);
+    const std::int32_t entries = carver.elements(Block::coarse_cells) / count;
     Real* next = nullptr;
     carver.take(Block::coarse_cells, next);
     Real** const fields[] = {&coarse.correction, &coarse.residual, &coarse.inverse_diagonal,
@@ -91,8 +97,6 @@ void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Rea
         coarse.residual = next + entries;
         return;
     }
-    const std::int32_t count =
-        capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields;
     for (std::int32_t k = 0; k < count; ++k) {
         *fields[k] = next;
         next += entries;
@@ -131,8 +135,8 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
     carver.take(Block::divergence, simulation.pressure.divergence);
     carver.take(Block::inverse_diagonal, simulation.pressure.inverse_diagonal);
     if constexpr (Stored<Real>::shares_momentum) {
-        simulation.pressure.divergence = simulation.grid.u + cell_entries(capacity);
-        simulation.pressure.inverse_diagonal = simulation.grid.v + cell_entries(capacity);
+        simulation.pressure.divergence = simulation.grid.u + cell_entries<Real>(capacity);
+        simulation.pressure.inverse_diagonal = simulation.grid.v + cell_entries<Real>(capacity);
     } else {
         simulation.grid.pairs = simulation.pressure.divergence;  // and the inverse diagonal behind
     }
@@ -142,7 +146,7 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
 #if WEIR_PARALLEL
     if constexpr (kHasLanes<Real>) {
         simulation.grid.spans = {simulation.pressure.coarse.correction,
-                                 kCoarseFields * coarse_entries(capacity)};
+                                 carver.elements(Block::coarse_cells)};
     }
 #endif
     carve_solids(carver, capacity, simulation);

@@ -151,15 +151,18 @@ constexpr void for_each_window(const Capacity& capacity, Visit visit) {
     }
 }
 
-/// Entries of the arrays of cells, faces and nodes.
+/// Entries of the arrays of cells, faces and nodes. Packed worlds store all of the tank.
+template <class Real>
 constexpr std::int32_t cell_entries(const Capacity& capacity) {
-    return is_windowed(capacity) ? capacity.window_cells
-                                 : entries_of(capacity.cells_x, capacity.cells_y);
+    return !Stored<Real>::shares_momentum && is_windowed(capacity)
+               ? capacity.window_cells
+               : entries_of(capacity.cells_x, capacity.cells_y);
 }
 
 /// Entries of an array of the coarse grid.
+template <class Real>
 constexpr std::int32_t coarse_entries(const Capacity& capacity) {
-    if (!is_windowed(capacity)) {
+    if (Stored<Real>::shares_momentum || !is_windowed(capacity)) {
         return entries_of(coarse_cells(capacity.cells_x), coarse_cells(capacity.cells_y));
     }
     std::int32_t most = 0;
@@ -211,8 +214,8 @@ constexpr Layout layout(const Capacity& capacity) {
     const auto count = [](std::int32_t value) { return static_cast<std::size_t>(value); };
     const std::size_t particles = count(capacity.particles), vertices = count(capacity.vertices);
     // One ring of ghost cells on each side; nodes and faces share the cells' numbering.
-    const std::size_t cells = count(cell_entries(capacity));
-    const std::size_t coarse = count(coarse_entries(capacity));
+    const std::size_t cells = count(cell_entries<Real>(capacity));
+    const std::size_t coarse = count(coarse_entries<Real>(capacity));
     const std::size_t coarse_fields = count(coarse_fields_of<Real>(capacity));
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
     const std::size_t moving_cells = capacity.moving_bodies ? solid_cells : 0;
