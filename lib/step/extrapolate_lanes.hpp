@@ -40,7 +40,7 @@ template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
                                 typename L::Floats spray) {
     const auto zero = L::all(0.0F);
-    const auto ahead = spray - L::all(1.25F) * liquid;
+    const auto ahead = spray - L::all(1.5F) * liquid;
     const auto leaves = push > zero ? L::minimum(spray, ahead) > zero
                                     : L::maximum(spray, ahead) < zero;
     return leaves ? zero : push;
