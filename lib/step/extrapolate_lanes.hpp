@@ -27,7 +27,7 @@ struct ExtrapolateTask {
 
 /// 1 from the ninth on. Not inline: a file compiled for AVX2 gives others nothing.
 constexpr float kFromNinth[] = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F,
-                                       1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+                                1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
 
 /// Lanes from the `k`-th of eight on.
 template <class L>

@@ -177,6 +177,9 @@ Borders<Real> borders_of(const WorldDef& def, Face<Real> cells_per_m) {
     return borders;
 }
 
+/// After fewer a coarse correction may leave more energy than it found.
+constexpr std::int32_t kLeastSweeps = 4;
+
 /// With an equation of state each particle too many pushes: livelier liquid gains what it stirs.
 template <class Real>
 constexpr Real kElasticFlip = Real(0.97);
@@ -199,7 +202,7 @@ Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
     settings.second_density = static_cast<Real>(def.second_density_ratio);
     settings.borders = borders_of<Real>(def, cells_per_m);
     settings.cfl = static_cast<Real>(def.cfl);
-    settings.sweeps = def.pressure_sweeps;
+    settings.sweeps = maximum(def.pressure_sweeps, kLeastSweeps);
     settings.max_substeps = def.max_substeps;
     settings.pressure = def.pressure;
     settings.keep_sorted = def.keep_sorted;

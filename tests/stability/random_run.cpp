@@ -122,9 +122,7 @@ bool limits_depth(const RandomScene& scene, const Tally& tally) {
 }
 
 /// The drift that keeps the volume may lift a shallow pool by a hundredth of a cell.
-double energy_bound(const RandomScene& scene) { return scene.scheme.elastic() ? 1.05 : 1.01; }
-
-bool limits_energy(const RandomScene& scene) { return scene.tame; }
+constexpr double kMostEnergy = 1.01;
 
 /// What a whole campaign of scenes came to.
 struct Campaign {
@@ -135,8 +133,6 @@ struct Campaign {
     std::int32_t too_deep = 0;
     std::int32_t deeper_than_a_corner = 0;
     std::int32_t energy_checked = 0;
-    std::int32_t over_energy_otherwise = 0;  ///< where it is not limited
-    std::int32_t otherwise = 0;
     std::int32_t depth_checked = 0;
     std::int32_t solids = 0;
     std::int32_t polygons_refused = 0;
@@ -145,7 +141,6 @@ struct Campaign {
     std::int64_t removed = 0;
     std::int32_t removed_at_rest = 0;  ///< scenes with removals though no solid moved
     double worst_energy = 0.0;
-    double worst_otherwise = 0.0;
     double deepest = 0.0;
     double deepest_thin = 0.0;
 
@@ -164,17 +159,11 @@ struct Campaign {
         refused += outcome.refused.empty() ? 0 : 1;
         bool good = whole && outcome.refused.empty() && !shut_in;
         if (scene.energy_only_falls()) {
-            const bool over = !(t.energy_ratio <= energy_bound(scene));
-            if (limits_energy(scene)) {
-                ++energy_checked;
-                worst_energy = std::max(worst_energy, t.energy_ratio);
-                over_energy += over ? 1 : 0;
-                good = good && !over;
-            } else {
-                ++otherwise;
-                worst_otherwise = std::max(worst_otherwise, t.energy_ratio);
-                over_energy_otherwise += over ? 1 : 0;
-            }
+            const bool over = !(t.energy_ratio <= kMostEnergy);
+            ++energy_checked;
+            worst_energy = std::max(worst_energy, t.energy_ratio);
+            over_energy += over ? 1 : 0;
+            good = good && !over;
         }
         if (limits_depth(scene, t) && t.solids) {
             ++depth_checked;
@@ -236,9 +225,6 @@ void random_scenes(Report& report, const Effort& effort) {
     report.equals("random.energy_grew", campaign.over_energy, "scenes", 0);
     report.equals("random.deep_in_a_solid", campaign.too_deep, "scenes", 0);
     report.figure("random.worst_energy", campaign.worst_energy, "of put in");
-    figure("wild.energy_looked_at", campaign.otherwise);
-    figure("wild.energy_grew", campaign.over_energy_otherwise);
-    report.figure("random.wild.worst_energy", campaign.worst_otherwise, "of put in");
     report.figure("random.deeper_than_0.15", campaign.deeper_than_a_corner, "scenes");
     report.figure("random.deepest", campaign.deepest, "cells");
     report.figure("random.deepest_in_thin_solids", campaign.deepest_thin, "cells");

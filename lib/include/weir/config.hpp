@@ -127,7 +127,8 @@ struct WorldDef {
     Contour contour = Contour::interpolated;
 
     /// Red-black relaxation sweeps per substep, after one correction on cells four times as large;
-    /// 1 … 1000. What is left of the divergence falls to a fiftieth with 6, a sixteenth with 4.
+    /// 1 … 1000, of which 4 are always made: after fewer, energy might rise. What is left of the
+    /// divergence falls to a fiftieth with 6, a sixteenth with 4.
     std::int32_t pressure_sweeps = 6;
 
     /// Longest way of a particle within one substep, cells; 0.1 … 2. The step is cut accordingly.
