@@ -127,6 +127,13 @@ void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
 
 #if WEIR_HAS_LANES
 
+inline void note_liquid(bool any, std::int32_t j, Solve<float>& system) {
+    if (any) {
+        system.first_row = minimum(system.first_row, j);
+        system.last_row = j;
+    }
+}
+
 /// Cells i … i + 3 of any kind in one. False: to be done one by one.
 template <bool Solids>
 bool build_any_four(const FaceWeights<Solids, false, float>& weights, std::int32_t i,
@@ -169,23 +176,8 @@ bool build_any_four(const FaceWeights<Solids, false, float>& weights, std::int32
                         add_flow, any)) {
         return false;
     }
-    if (any) {
-        system.first_row = minimum(system.first_row, j);
-        system.last_row = j;
-    }
+    note_liquid(any, j, system);
     return true;
-}
-
-#endif
-
-#if WEIR_HAS_LANES
-
-template <class Real>
-void note_liquid(bool any, std::int32_t j, Solve<Real>& system) {
-    if (any) {
-        system.first_row = minimum(system.first_row, j);
-        system.last_row = j;
-    }
 }
 
 /// Cells from i on, eight at a time as long as they are alike; returns the next one to do.

@@ -19,11 +19,17 @@ inline Lanes least_of(const FourFaces& faces) {
     return minimum(minimum(faces.left, faces.right), minimum(faces.lower, faces.upper));
 }
 
+/// As `width_of`.
+template <class L, class Floats>
+inline Floats width_of_lanes(Floats open) {
+    return L::minimum(L::all(1.0F), L::all(4.0F) * open);
+}
+
 /// As `liquid_fraction`, where one of the levels is above 0 and the other not.
 template <class L, class Floats>
 inline Floats fraction_between(Floats a, Floats b, Floats open) {
     const auto liquid = L::maximum(a, b);
-    const auto least = L::maximum(L::all(0.05F), L::all(1.0F) - L::all(4.0F) * open);
+    const auto least = L::maximum(L::all(0.05F), L::all(1.0F) - width_of_lanes<L>(open));
     return L::maximum(least, liquid / (liquid - L::minimum(a, b)));
 }
 
@@ -127,7 +133,7 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
         const auto moves = (L::maximum(here, before) > zero) & (open > zero);
         const auto answer = both ? rise : rise / fraction_between<L>(here, before, open);
         const auto pushes = (now > zero) == (answer < zero);
-        const auto share = pushes ? L::minimum(one, L::all(4.0F) * open) : one;
+        const auto share = pushes ? width_of_lanes<L>(open) : one;
         L::store(velocity + c, moves ? now - share * answer : now);
     };
     for (; c + L::kLanes <= end; c += L::kLanes) {

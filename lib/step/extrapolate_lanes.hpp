@@ -4,9 +4,12 @@
 
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/system_lanes.hpp"
 
 namespace weir {
+
+/// Spray that is faster than pushed liquid by this factor is out of its reach.
+constexpr float kOutOfReach = 1.5F;
 
 #if WEIR_HAS_LANES
 
@@ -40,7 +43,7 @@ template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
                                 typename L::Floats spray) {
     const auto zero = L::all(0.0F);
-    const auto ahead = spray - L::all(1.5F) * liquid;
+    const auto ahead = spray - L::all(kOutOfReach) * liquid;
     const auto leaves = push > zero ? L::minimum(spray, ahead) > zero
                                     : L::maximum(spray, ahead) < zero;
     return leaves ? zero : push;
@@ -57,15 +60,8 @@ struct Beside {
         const auto zero = L::all(0.0F);
         const auto level = L::load(task.level + at);
         const auto before = L::load(task.level + at - task.back);
-        const auto liquid = L::maximum(level, before);
-        const auto air = L::minimum(level, before);
-        auto goes_on = exists & (liquid > zero);
-        auto least = L::all(0.05F);
-        if (task.open != nullptr) {
-            const auto open = L::load(task.open + at);
-            goes_on = goes_on & (open > zero);
-            least = L::maximum(least, L::all(1.0F) - L::all(4.0F) * open);
-        }
+        const auto open = task.open != nullptr ? L::load(task.open + at) : L::all(1.0F);
+        const auto goes_on = exists & (L::maximum(level, before) > zero) & (open > zero);
         if (!L::any_true(goes_on)) {
             return;
         }
@@ -76,8 +72,8 @@ struct Beside {
             return;
         }
         const auto rise = L::load(task.pressure + at) - L::load(task.pressure + at - task.back);
-        const auto fraction = L::maximum(least, liquid / (liquid - air));
-        const auto push = zero - (air > zero ? rise : rise / fraction);
+        const auto both = L::minimum(level, before) > zero;
+        const auto push = zero - (both ? rise : rise / fraction_between<L>(level, before, open));
         sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own) : zero;
     }
 };

@@ -109,11 +109,11 @@ struct Component {
     const ThinWalls<Real>* thin;    ///< through which nothing goes on; null: there are none
 };
 
-/// What a push on liquid does to a face in the air beside it: spray that runs ahead, faster by
-/// half than the liquid that was pushed, is out of its reach.
+/// What a push on liquid does to a face in the air beside it: it does not reach spray that runs
+/// ahead.
 template <class Real>
 Real push_on_spray(Real push, Real liquid, Real spray) {
-    const Real ahead = spray - Real(1.5) * liquid;
+    const Real ahead = spray - Real(kOutOfReach) * liquid;
     const bool leaves = push > Real(0) ? minimum(spray, ahead) > Real(0)
                                        : maximum(spray, ahead) < Real(0);
     return leaves ? Real(0) : push;

@@ -63,22 +63,16 @@ def main():
             print(f"{name:<14} {way:<8} {instructions:>10.1f} {nodes:>8} {world:>12,}  {what}")
             rows.append([f"{name} {way}", round(instructions, 2), "instructions/particle/substep",
                          "", ""])
-        if name in TARGETS:
-            ratio = cost["skipped"][0] / cost["absent"][0]
-            ok = ratio <= TARGETS[name]
-            held = held and ok
-            print(f"{name:<14} skipped over absent {ratio:.4f} (target {TARGETS[name]})"
-                  f"{'' if ok else '  SHORT'}")
-            rows.append([f"{name} skipped/absent", round(ratio, 4), "ratio",
-                         f"<={TARGETS[name]}", "yes" if ok else "short"])
-        if name in MEMORY:
-            ratio = cost["skipped"][2] / cost["absent"][2]
-            ok = ratio <= MEMORY[name]
-            held = held and ok
-            print(f"{name:<14} bytes skipped over absent {ratio:.4f} (target {MEMORY[name]})"
-                  f"{'' if ok else '  SHORT'}")
-            rows.append([f"{name} bytes", round(ratio, 4), "ratio", f"<={MEMORY[name]}",
-                         "yes" if ok else "short"])
+        for limits, column, said, row in ((TARGETS, 0, "skipped", "skipped/absent"),
+                                          (MEMORY, 2, "bytes skipped", "bytes")):
+            if name in limits:
+                ratio = cost["skipped"][column] / cost["absent"][column]
+                ok = ratio <= limits[name]
+                held = held and ok
+                print(f"{name:<14} {said} over absent {ratio:.4f} (target {limits[name]})"
+                      f"{'' if ok else '  SHORT'}")
+                rows.append([f"{name} {row}", round(ratio, 4), "ratio", f"<={limits[name]}",
+                             "yes" if ok else "short"])
         if "used" in cost:
             ratio = cost["used"][0] / cost["skipped"][0]
             print(f"{name:<14} used over skipped   {ratio:.3f}")
