@@ -15,6 +15,11 @@ struct NodeBox {
     bool empty() const { return i1 < i0 || j1 < j0; }
 };
 
+/// The nodes of both.
+inline NodeBox common(const NodeBox& a, const NodeBox& b) {
+    return {maximum(a.i0, b.i0), maximum(a.j0, b.j0), minimum(a.i1, b.i1), minimum(a.j1, b.j1)};
+}
+
 /// A placed polygon, in cells.
 template <class Real>
 struct RasterPolygon {

@@ -54,10 +54,14 @@ void close(Velocity* velocity, Line wall, const Level* level, std::int32_t cell,
 template <class Velocity, class Real>
 void mirror_along(Velocity* velocity, Line ghost, Line inside, const SurfaceLaw<Real>& wall,
                   Real sense) {
+    if (!wall.no_slip) {
+        copy(velocity, ghost, inside);
+        return;
+    }
     const Real slide = sense * wall.conveyor;
     for (std::int32_t k = 0; k < ghost.count; ++k) {
         const Real value = velocity[inside.first + k * inside.step];
-        velocity[ghost.first + k * ghost.step] = wall.no_slip ? (slide + slide) - value : value;
+        velocity[ghost.first + k * ghost.step] = (slide + slide) - value;
     }
 }
 

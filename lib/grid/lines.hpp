@@ -19,8 +19,10 @@ inline Line row(const GridShape& s, std::int32_t j) { return {s.index(-1, j), 1,
 
 template <class Field>
 void copy(Field* field, Line to, Line from) {
-    for (std::int32_t k = 0; k < to.count; ++k) {
-        field[to.first + k * to.step] = field[from.first + k * from.step];
+    Field* at = field + to.first;
+    const Field* other = field + from.first;
+    for (std::int32_t k = 0; k < to.count; ++k, at += to.step, other += from.step) {
+        *at = *other;
     }
 }
 

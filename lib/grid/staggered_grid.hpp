@@ -83,6 +83,10 @@ inline void clear_rows(const GridShape& s, const Part& rows, Field* field) {
     });
 }
 
+/// Whether a part of a huge tank can be stored. Packed worlds are so small that they store it all.
+template <class Real>
+inline constexpr bool kHasWindow = !Stored<Real>::shares_momentum;
+
 /// Level of a cell that no particle reaches (level_of_density(0)), cells.
 template <class Real>
 inline constexpr Real kEmptyLevel = Real(-1.5);

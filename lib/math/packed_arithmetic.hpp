@@ -10,14 +10,42 @@ inline std::int32_t rounded_shift(std::int32_t value, int shift) {
     return (value + (1 << (shift - 1)) + (value >> 31)) >> shift;
 }
 
+/// A pointer, or a number that counts, which the compiler knows nothing about: it can neither be
+/// taken apart nor replaced by others that count along with it.
+template <class Number>
+inline Number whole(Number number) {
+    __asm__("" : "+r"(number));
+    return number;
+}
+
+/// A number that stays in a register, for processors that make it in several instructions.
+template <class Number>
+inline Number kept(Number number) {
+#if defined(__ARM_ARCH_6M__)
+    __asm__("" : "+r"(number));
+#endif
+    return number;
+}
+
+/// A number that is added to a product, for processors that do so in one instruction.
+inline std::int32_t beside_product(std::int32_t number) {
+#if !defined(__ARM_ARCH_6M__)
+    __asm__("" : "+r"(number));
+#endif
+    return number;
+}
+
 /// As a number of so many bits.
 template <int Bits>
 inline std::int32_t saturated(std::int32_t value) {
 #if defined(__ARM_FEATURE_SAT)
     return __builtin_arm_ssat(value, Bits);
 #else
-    const std::int32_t sign = value >> 31;
-    return value >> (Bits - 1) == sign ? value : sign ^ ((1 << (Bits - 1)) - 1);
+    // Most are one.
+    const std::uint32_t shifted = static_cast<std::uint32_t>(value) << (32 - Bits);
+    const std::int32_t cut = Bits == 16 ? static_cast<std::int16_t>(value)
+                                        : static_cast<std::int32_t>(shifted) >> (32 - Bits);
+    return cut == value ? value : (value >> 31) ^ ((1 << (Bits - 1)) - 1);
 #endif
 }
 inline std::int16_t short_of(std::int32_t value) {
@@ -33,11 +61,41 @@ inline std::int32_t scaled(std::int32_t factor, std::int32_t value) {
     return part * 128 + ((low * factor) >> 7);
 }
 
+/// Adds to two numbers side by side. Told what is in registers together, compilers see that a
+/// processor that can loads and stores both at once.
+inline void add_two(SmallFixed* at, std::int32_t first, std::int32_t second) {
+#if defined(__thumb2__)
+    __asm__("" : "+r"(at));
+    std::int32_t sum = at[0].raw;
+    std::int32_t next = at[1].raw;
+    __asm__("" : "+r"(sum), "+r"(next));
+    sum += first;
+    next += second;
+    __asm__("" : "+r"(sum), "+r"(next));
+    at[0].raw = sum;
+    at[1].raw = next;
+#else
+    at[0].raw += first;
+    at[1].raw += second;
+#endif
+}
+
+/// The lowest byte. (Compilers for the Cortex-M0 make a mask of two instructions first.)
+inline std::int32_t low_byte(std::uint32_t word) {
+#if defined(__ARM_ARCH_6M__)
+    std::int32_t byte;
+    __asm__("uxtb %0, %1" : "=l"(byte) : "l"(word));
+    return byte;
+#else
+    return static_cast<std::uint8_t>(word);
+#endif
+}
+
 /// So many bits that are as good as random, out of a number whose last places change all the time:
 /// added before digits are cut off, they make what is rounded right on average. Rounded to the
 /// nearest, everything below half a unit a step would stand still. What stands still stays so.
 inline std::int32_t chance(std::int32_t number, int bits) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(number) * 0x9E3779B1U >>
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(number) * kept(0x9E3779B1U) >>
                                      (32 - bits));
 }
 

@@ -93,8 +93,9 @@ template <class Real>
 void hold(const CoarseAxis<Real>& axis, CoarseFace<Real> face, std::int32_t cell, std::int32_t air,
           Real outward, std::int32_t q, bool forward) {
     const Real level = axis.fields.level[cell];
-    const Real distance =
-        liquid_fraction(level, axis.fields.level[air], face.open) + maximum(Real(0), outward);
+    const Real beside = axis.fields.level[air];
+    const Real distance = liquid_fraction(axis.fields, level, beside, face.open) +
+                          maximum(Real(0), outward);
     const std::int32_t beyond = forward ? q + axis.coarse_back : q - axis.coarse_back;
     if (axis.coarse.residual[beyond] > Real(0)) {
         if (!axis.targets.has(q)) {

@@ -6,52 +6,139 @@ namespace {
 
 /// Bulk viscosity in units of sound speed × cell.
 template <class Real>
-constexpr Real kBulkViscosity = Real(0.3);
+constexpr Real kBulkViscosity = Real(0.375);
 
-}  // namespace
-
+/// c dt, cells.
 template <class Real>
-void equation_of_state(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real sound_speed, StaggeredGrid<Real>& grid,
-                       PressureFields<Real>& fields, Work work) {
-    const GridShape& s = grid.shape;
-    const Real stiffness = dt_s * sound_speed * sound_speed;
-    const Real damping = dt_s * kBulkViscosity<Real> * sound_speed;
-    const Part cells = work.take(s.ny, s.nx);
-    for (std::int32_t j = cells.first; j < cells.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
-            const Real compression = fields.density[c] - Real(1);
-            Real pressure = Real(0);
-            if (compression > Real(0)) {
-                const Real divergence = (grid.u[c + 1] - grid.u[c]) +
-                                        (grid.v[c + s.stride] - grid.v[c]);
-                pressure = maximum(Real(0), stiffness * compression - damping * divergence);
-            }
-            fields.pressure[c] = pressure;
-        }
+Real way_of_sound(const PressureFields<Real>& fields) {
+    return fields.last_dt * fields.sound_speed;
+}
+
+/// The flow out of a cell that counts: less of it where the equation is stiff, or the cell thin.
+template <class Real>
+Real counted_flow(const PressureFields<Real>& fields, std::int32_t c) {
+    const Real density = minimum(Real(1), Real(fields.density[c]));
+    const Real kept = absolute(Real(fields.inverse_diagonal[c]));
+    if constexpr (Stored<Real>::shares_momentum) {  // the diagonal itself
+        const Real flow = density * Real(fields.divergence[c]);
+        return kept > Real(4) ? Real(4) * flow / kept : flow;
+    } else {
+        return minimum(Real(1), Real(4) * kept) * density * fields.divergence[c];
     }
-    if (work.once(s.border())) {
-        extend_cells(borders, s, fields.pressure);
-        fields.last_dt = dt_s;
-    }
-    const Part faces = work.take(s.ny, s.nx);
-    for (std::int32_t j = faces.first; j < faces.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
-            if ((i > 0 || borders.wrap_x) && (!walls.active || walls.open_u[c] > Real(0))) {
-                grid.u[c] -= fields.pressure[c] - fields.pressure[c - 1];
-            }
-            if ((j > 0 || borders.wrap_y) && (!walls.active || walls.open_v[c] > Real(0))) {
-                grid.v[c] -= fields.pressure[c] - fields.pressure[c - s.stride];
+}
+
+/// body(cell) for all that are liquid and not shut in. (Beside liquid diagonals may hold a mark.)
+template <class Real, class Body>
+void for_each_liquid(const GridShape& s, const Part& rows, const PressureFields<Real>& fields,
+                     const Body& body) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        const std::int32_t end = s.index(s.nx, j);
+        for (std::int32_t c = s.index(0, j); c < end; ++c) {
+            if (fields.level[c] > LevelOf<Real>(0) &&
+                fields.inverse_diagonal[c] != VelocityOf<Real>(0)) {
+                body(c);
             }
         }
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                                     \
-    template void equation_of_state(const Borders<Real>&, const Walls<Real>&, Seconds<Real>, Real, \
-                                    StaggeredGrid<Real>&, PressureFields<Real>&, Work);
+/// A liquid cell's pressure, by what has flown in.
+template <class Real>
+Real carried(const OpenWeights<Real>& weights, const PressureFields<Real>& fields, std::int32_t i,
+             std::int32_t j) {
+    const StaggeredGrid<Real>& grid = weights.grid;
+    const std::int32_t stride = grid.shape.stride;
+    const std::int32_t c = grid.shape.index(i, j);
+    const Real here = fields.pressure[c];
+    const bool left = weights.has_left(i);
+    const bool right = weights.has_right(i);
+    const bool below = weights.has_lower(j);
+    const bool above = weights.has_upper(j);
+    // A wall's face lets nothing through, whatever number stands there.
+    const auto mean = [](const VelocityOf<Real>* velocity, std::int32_t first, bool has_first,
+                         std::int32_t second, bool has_second) {
+        return ((has_first ? Real(velocity[first]) : Real(0)) +
+                (has_second ? Real(velocity[second]) : Real(0))) *
+               Real(0.5);
+    };
+    const auto less = [&](bool there, std::int32_t from) {
+        return there && fields.level[from] > LevelOf<Real>(0) ? here - fields.pressure[from]
+                                                              : Real(0);
+    };
+    const Real u = mean(grid.u, c, left, c + 1, right);
+    const Real v = mean(grid.v, c, below, c + stride, above);
+    const Real from_x = u > Real(0) ? less(left, c - 1) : less(right, c + 1);
+    const Real from_y = v > Real(0) ? less(below, c - stride) : less(above, c + stride);
+    const Real way_x = fields.last_dt * absolute(u);
+    const Real way_y = fields.last_dt * absolute(v);
+    const Real lost = way_x * from_x + way_y * from_y;
+    const Real way = way_x + way_y;
+    return here - (way > Real(1) ? lost / way : lost);
+}
+
+}  // namespace
+
+template <class Real>
+void follow_sound(Real sound_speed, PressureFields<Real>& fields) {
+    if (sound_speed < fields.sound_speed) {
+        fields.change = fields.change * (sound_speed / fields.sound_speed);
+    }
+    fields.sound_speed = sound_speed;
+}
+
+template <class Real>
+void carry_pressure(const OpenWeights<Real>& weights, PressureFields<Real>& fields, Work work) {
+    const GridShape& s = weights.grid.shape;
+    for (std::int32_t colour = 0; colour < 2; ++colour) {
+        if (work.once(s.border())) {
+            extend_cells(weights.borders, s, fields.pressure);
+        }
+        work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+            for (std::int32_t j = rows.first; j < rows.end; ++j) {
+                for (std::int32_t i = (j + colour) & 1; i < s.nx; i += 2) {
+                    const std::int32_t c = s.index(i, j);
+                    if (fields.level[c] > LevelOf<Real>(0)) {
+                        fields.pressure[c] = carried(weights, fields, i, j);
+                    }
+                }
+            }
+        });
+    }
+}
+
+template <class Real>
+void compress(const Borders<Real>& borders, const GridShape& shape, PressureFields<Real>& fields,
+              Work work) {
+    const Real way = way_of_sound(fields);
+    work.share(work.take(shape.ny, shape.nx), shape.nx, 1, [&](const Part& rows, std::int32_t) {
+        for_each_liquid(shape, rows, fields, [&](std::int32_t c) {
+            const Real flow = way * counted_flow(fields, c);
+            fields.pressure[c] = maximum(Real(0), fields.pressure[c] - way * flow) -
+                                 kBulkViscosity<Real> * flow;
+        });
+    });
+    if (work.once(shape.border())) {
+        extend_cells(borders, shape, fields.pressure);
+    }
+}
+
+template <class Real>
+void release_pressure(const GridShape& shape, PressureFields<Real>& fields, Work work) {
+    const Real way = way_of_sound(fields);
+    work.share(work.take(shape.ny, shape.nx), shape.nx, 1, [&](const Part& rows, std::int32_t) {
+        for_each_liquid(shape, rows, fields, [&](std::int32_t c) {
+            const Real flow = way * counted_flow(fields, c);
+            fields.pressure[c] += kBulkViscosity<Real> * flow;
+        });
+    });
+}
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template void follow_sound(Real, PressureFields<Real>&);                                \
+    template void carry_pressure(const OpenWeights<Real>&, PressureFields<Real>&, Work);    \
+    template void compress(const Borders<Real>&, const GridShape&, PressureFields<Real>&,   \
+                           Work);                                                           \
+    template void release_pressure(const GridShape&, PressureFields<Real>&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -75,4 +75,8 @@ struct FaceWeights {
     }
 };
 
+/// Of faces that are all open.
+template <class Real>
+using OpenWeights = FaceWeights<false, false, Real>;
+
 }  // namespace weir

@@ -45,14 +45,26 @@ struct PressureFields {
     LevelOf<Real>* level = nullptr;    ///< height of the surface over the centre, cells; > 0 liquid
     CoarseGrid<Real> coarse;
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
-    /// Whether paths are straight where the pressure sees to it (leap.hpp): with the projection and
-    /// liquid of one density. Liquids that overturned gained 0.9 % in energy by it.
+    /// Whether paths are straight where the pressure sees to it (leap.hpp): with liquid of one
+    /// density. Liquids that overturned gained 0.9 % in energy by it.
     bool leaps = true;
+    /// Packed worlds drift every other substep: 1 and the cells that the last one found overfull;
+    /// 0: it had none.
+    std::uint16_t drifted = 0;
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
-    /// At most 1. Projection: strength of gravity now over that which `pressure` was solved for.
-    /// Equation of state: speed of sound in use over that asked for.
+    /// What of `pressure` to start from, at most 1: less if gravity has become weaker since it was
+    /// solved for, or sound slower.
     Real change = Real(1);
+    Real sound_speed = Real(0);  ///< with an equation of state, in use, cells/s; 0: incompressible
     Solve<Real> solve = {};
 };
+
+/// Where the surface is nearer to a cell's centre, it counts as so near, cells: below a twentieth
+/// the equation would be stiffer than the surface is known. What a compressible liquid stores
+/// would tear it apart with a lever of more than four.
+template <class Real>
+inline Real least_fraction(const PressureFields<Real>& fields) {
+    return Real(fields.sound_speed > Real(0) ? 0.25F : 0.05F);
+}
 
 }  // namespace weir

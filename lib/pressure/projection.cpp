@@ -1,6 +1,8 @@
 #include "pressure/projection.hpp"
 
 #include "pressure/coarse_correction.hpp"
+#include "pressure/equation_of_state.hpp"
+#include "pressure/project_packed.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/relax_packed.hpp"
 #include "pressure/start.hpp"
@@ -48,23 +50,13 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
 template <class Real>
 inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32_t before,
                        Real light, const ShareOf<Real>* open, const PressureFields<Real>& fields) {
-    if constexpr (Stored<Real>::coarse) {
-        const std::int32_t share = open != nullptr ? open[face].raw : 128;
-        if (share > 0 && (fields.level[before].raw > 0 || fields.level[face].raw > 0)) {
-            const Real rise = pressure_rise(fields, before, face, Real::of_raw(share * 512));
-            velocity[face].raw = short_of(velocity[face].raw - rounded_shift(rise.raw, 9));
-        }
-        return;
-    }
     const Real through = open != nullptr ? Real(open[face]) : Real(1);
     const bool liquid = fields.level[before] > Real(0) || fields.level[face] > Real(0);
     if (liquid && through > Real(0)) {
         const Real rise = light * pressure_rise(fields, before, face, through);
         const Real was = velocity[face];
-        // Particles around a narrow gap have more mass than goes through: it brakes them, but what
-        // it would give them in energy nothing has lost.
         const bool pushes = (was > Real(0)) == (rise < Real(0));
-        velocity[face] = was - (pushes ? width_of(through) * rise : rise);
+        velocity[face] = was - (pushes ? push_through(through, fields) * rise : rise);
     }
 }
 
@@ -213,12 +205,11 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
     }
 }
 
+/// Puts up the equations, for the velocity that `weights` know. Not inline: it is called twice.
 template <bool Solids, bool Mixed, class Real>
-void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t sweeps,
-           const CoupledSolve<Real>* coupled, StaggeredGrid<Real>& grid,
-           PressureFields<Real>& fields, Work work) {
-    const GridShape& s = grid.shape;
-    const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
+[[gnu::noinline]] void build(const FaceWeights<Solids, Mixed, Real>& weights,
+                             PressureFields<Real>& fields, Work work) {
+    const GridShape& s = weights.grid.shape;
     const Part built = work.take(s.ny, s.nx);
     if constexpr (Stored<Real>::coarse) {
         build_packed<Solids>(weights, built, fields);
@@ -226,6 +217,29 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
         add_rows(work, built, s, fields,
                  [&](std::int32_t j) { return build_row(weights, j, fields); });
     }
+}
+
+/// The pressure of a compressible liquid, one step in time later. It answers to the flow that there
+/// was: gravity, which it holds up, has not pulled at that yet.
+template <bool Solids, bool Mixed, class Real>
+void advance(const Borders<Real>& borders, const Walls<Real>& walls,
+             const StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work) {
+    StaggeredGrid<Real> before = grid;
+    before.u = grid.mass_u;
+    before.v = grid.mass_v;
+    carry_pressure(OpenWeights<Real>{before, borders, walls}, fields, work);
+    build(FaceWeights<Solids, Mixed, Real>{before, borders, walls}, fields, work);
+    compress(borders, grid.shape, fields, work);
+}
+
+/// The pressure of an incompressible liquid, as near as so many sweeps bring it.
+template <bool Solids, bool Mixed, class Real>
+void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t sweeps,
+           const CoupledSolve<Real>* coupled, const StaggeredGrid<Real>& grid,
+           PressureFields<Real>& fields, Work work) {
+    const GridShape& s = grid.shape;
+    const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
+    build(weights, fields, work);
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.pressure);
     }
@@ -253,8 +267,25 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
             }
         }
     }
+}
+
+template <bool Solids, bool Mixed, class Real>
+void solve_and_project(const Borders<Real>& borders, const Walls<Real>& walls,
+                       std::int32_t sweeps, const CoupledSolve<Real>* coupled,
+                       StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work) {
+    const GridShape& s = grid.shape;
+    const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
+    if (fields.sound_speed > Real(0)) {
+        advance<Solids, Mixed>(borders, walls, grid, fields, work);
+    } else {
+        solve<Solids, Mixed>(borders, walls, sweeps, coupled, grid, fields, work);
+    }
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
-        project(weights, rows, fields, grid);
+        if constexpr (Stored<Real>::coarse) {
+            project_packed(weights, rows, fields, grid);
+        } else {
+            project(weights, rows, fields, grid);
+        }
     });
 }
 
@@ -283,13 +314,13 @@ void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls,
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
     }
     const bool seams = borders.wrap_x || borders.wrap_y;
-    if (seams && work.once(grid.shape.border())) {  // leaps look across
+    if (seams && work.once(grid.shape.border())) {  // leaps look across, and what is carried
         extend_velocity(borders, grid.shape, grid.mass_u, grid.mass_v);
     }
-    auto solver = solve<Solids, false, Real>;
+    auto solver = solve_and_project<Solids, false, Real>;
     if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
         if (grid.inverse_density_u != nullptr) {
-            solver = solve<Solids, true, Real>;
+            solver = solve_and_project<Solids, true, Real>;
         }
     }
     solver(borders, walls, sweeps, coupled, grid, fields, work);

@@ -18,7 +18,9 @@ inline constexpr std::int32_t kColdStart = 8;
 /// density that the grid holds. Starts from the last pressure, makes one correction on a coarse
 /// grid and then `sweeps` red-black relaxations, no more and no less: time is bounded, the result
 /// is the same on every machine. Cost: about 10 operations a liquid cell and sweep.
-/// `coupled`: free bodies that are solved for together with the pressure, or null.
+/// Compressible liquid (`fields.sound_speed`) is not solved for: its pressure moves on by a step of
+/// the equation of state. `coupled`: free bodies that are solved for together with the pressure,
+/// or null.
 template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
@@ -36,14 +38,23 @@ inline Real width_of(Real open) {
     return minimum(Real(1), Real(4) * open);
 }
 
+/// Share of the pressure's rise that an open face passes on where it pushes, and does not brake:
+/// particles around a narrow gap have more mass than goes through, and what the pressure would give
+/// them in energy nothing has lost. A compressible liquid stores so much that only the open share
+/// itself is safe.
+template <class Real>
+inline Real push_through(Real open, const PressureFields<Real>& fields) {
+    return fields.sound_speed > Real(0) ? open : width_of(open);
+}
+
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face
 /// between them answers to the pressure by its inverse.
 template <class Real>
-inline Real liquid_fraction(Real level_liquid, Real level_air, Real open) {
-    // Below 1/20 the equation would be stiffer than the surface is known. A narrow gap hardly moves
-    // the liquid that drives it: with a lever like that it would shoot particles through, each of
-    // them with its whole mass.
-    const Real least = maximum(Real(0.05), Real(1) - width_of(open));
+inline Real liquid_fraction(const PressureFields<Real>& fields, Real level_liquid, Real level_air,
+                            Real open) {
+    // A narrow gap hardly moves the liquid that drives it: with a small share as its lever it would
+    // shoot particles through, each of them with its whole mass.
+    const Real least = maximum(least_fraction(fields), Real(1) - width_of(open));
     return maximum(least, level_liquid / (level_liquid - level_air));
 }
 
@@ -80,9 +91,9 @@ inline Real pressure_rise(const PressureFields<Real>& fields, std::int32_t befor
     if (level_before > Real(0)) {
         return level_after > Real(0)
                    ? difference
-                   : difference / liquid_fraction(level_before, level_after, open);
+                   : difference / liquid_fraction(fields, level_before, level_after, open);
     }
-    return difference / liquid_fraction(level_after, level_before, open);
+    return difference / liquid_fraction(fields, level_after, level_before, open);
 }
 
 }  // namespace weir

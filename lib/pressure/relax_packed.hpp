@@ -48,22 +48,25 @@ inline std::int32_t neighbours(const Real* p, const Walls<Real>& walls, std::int
 
 /// What a cell's pressure becomes: p += ω (Σ p − divergence − n p) / n. The factor ω / n, in
 /// 256ths, may be coarse, since where the residual is 0 nothing moves; n may not.
-inline std::int32_t relaxed(std::int32_t here, std::int32_t residual, std::int32_t factor) {
-    return saturated<29>(here + ((saturated<22>(residual) * factor + 128) >> 8));
+inline std::int32_t relaxed(std::int32_t here, std::int32_t residual, std::int32_t factor,
+                            std::int32_t half = 128) {
+    return saturated<29>(here + ((saturated<22>(residual) * factor + half) >> 8));
 }
 
 /// A cell with no weight in between: `Sides` of its faces are open, and liquid is behind each.
+/// In two's complement: with pressures at their limits sums may wrap around, and are limited.
 template <int Sides, class Real>
-[[gnu::always_inline]] inline void relax_plain(Real* here, std::ptrdiff_t stride,
-                                               std::int32_t divergence, std::int32_t factor) {
-    // In two's complement: with pressures at their limits it may wrap around, and is limited.
-    const auto raw = [](Real pressure) { return static_cast<std::uint32_t>(pressure.raw); };
-    const std::uint32_t sum =
-        (raw(here[-1]) + raw(here[1])) + (raw(here[-stride]) + raw(here[stride]));
+[[gnu::always_inline]] inline void relax_plain(Real* here, std::uint32_t around,
+                                               std::int32_t divergence, std::int32_t factor,
+                                               std::int32_t half) {
     const std::uint32_t flow = static_cast<std::uint32_t>(divergence) * 512U;
-    here->raw = relaxed(here->raw, static_cast<std::int32_t>(sum - flow - Sides * raw(*here)),
-                        factor);
+    const std::uint32_t pulled = Sides * static_cast<std::uint32_t>(here->raw);
+    here->raw = relaxed(here->raw, static_cast<std::int32_t>(around - flow - pulled),
+                        factor, half);
 }
+
+/// In place of a diagonal, twice behind a row's liquid: whoever goes by twos meets it.
+inline constexpr std::int16_t kRowEnd = 0x7FFF;
 
 /// 2048 / n, and for n = 0 as for 1.
 struct Inverses {
@@ -97,24 +100,39 @@ template <bool Solids, class Real>
         relaxed(here, fixed::subtract(sum - flow, times_diagonal(diagonal, here)), factor);
 }
 
-/// Relaxes cells c, c + 2 … before `end`.
+/// Relaxes cells c, c + 2 … of a row.
 template <bool Solids, class Real>
 void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls, Real omega,
-                      std::int32_t stride, std::int32_t c, std::int32_t end) {
+                      std::int32_t stride, std::int32_t c) {
     Real* here = fields.pressure + c;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;
-    const VelocityOf<Real>* last = fields.inverse_diagonal + end;
     // Both lie in the caller's memory.
     const std::ptrdiff_t to_divergence = fields.divergence - fields.inverse_diagonal;
     const std::int32_t step = omega.raw >> 1;  // ω in 1/2^15ths, so that ω / n has 8 bits
     const std::int32_t step_of_4 = step / 512;
-    for (; diagonal < last; diagonal += 2, here += 2) {
-        const std::int32_t kept = diagonal->raw;
-        if (kept == 512) {
-            relax_plain<4>(here, stride, diagonal[to_divergence].raw, step_of_4);
-        } else if (kept == 384) {
-            relax_plain<3>(here, stride, diagonal[to_divergence].raw, step / 384);
-        } else if (kept != 0) {
+    const std::int32_t amid = kept(512);
+    const std::int32_t half = beside_product(128);
+    const auto raw = [](Real pressure) { return static_cast<std::uint32_t>(pressure.raw); };
+    const auto around = [&] {
+        return (raw(here[-1]) + raw(here[1])) +
+               (raw(here[-stride]) + raw(here[stride]));
+    };
+    std::int32_t own = diagonal->raw;
+    const auto next = [&] {
+        here = whole(here + 2);
+        diagonal = whole(diagonal + 2);
+        own = diagonal->raw;
+    };
+    for (; own != kRowEnd; next()) {
+        while (own == amid) {
+            relax_plain<4>(here, around(), diagonal[to_divergence].raw, step_of_4, half);
+            next();
+        }
+        if (own == 384) {
+            relax_plain<3>(here, around(), diagonal[to_divergence].raw, step / 384, half);
+        } else if (own == kRowEnd) {
+            return;
+        } else if (own != 0) {
             relax_rare<Solids>(fields, walls, step, stride,
                                static_cast<std::int32_t>(here - fields.pressure));
         }
@@ -182,7 +200,7 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
     };
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const bool inner_row = weights.has_lower(j) && weights.has_upper(j);
-        bool wet = false;
+        std::int32_t end = s.index(0, j);  // of the row's liquid
         for (std::int32_t i = 0; i < s.nx; ++i) {
             const std::int32_t c = s.index(i, j);
             const std::int32_t up = c + s.stride;
@@ -202,9 +220,11 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
             } else {
                 build_rare<Solids>(weights, i, j, fields);
             }
-            wet = wet || fields.inverse_diagonal[c].raw != 0;
+            end = fields.inverse_diagonal[c].raw != 0 ? c + 1 : end;
         }
-        if (wet) {
+        fields.inverse_diagonal[end].raw = kRowEnd;
+        fields.inverse_diagonal[end + 1].raw = kRowEnd;
+        if (end != s.index(0, j)) {
             fields.solve.first_row = minimum(fields.solve.first_row, j);
             fields.solve.last_row = j;
         }
@@ -236,6 +256,9 @@ void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, 
         const std::int32_t kept = fields.inverse_diagonal[c].raw;
         if (kept == 0) {
             continue;
+        }
+        if (kept == kRowEnd) {
+            break;
         }
         const Real* at = fields.pressure + c;
         const std::int32_t pull =
@@ -273,7 +296,7 @@ template <bool Solids, bool Mixed, class Real>
     const GridShape& s = weights.grid.shape;
     for (std::int32_t j = low; j <= high; ++j) {
         relax_packed_row<Solids>(fields, weights.walls, omega, s.stride,
-                                 s.index((j + colour) & 1, j), s.index(s.nx, j));
+                                 s.index((j + colour) & 1, j));
     }
 }
 

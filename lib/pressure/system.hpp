@@ -12,9 +12,11 @@ namespace weir {
 
 /// One face of a cell: how much it adds to the diagonal.
 template <class Real>
-inline Real face_coefficient(Real weight, Real open, Real level, SameAs<Real> neighbour_level) {
-    return neighbour_level > Real(0) ? weight
-                                     : weight / liquid_fraction(level, neighbour_level, open);
+inline Real face_coefficient(const PressureFields<Real>& fields, Real weight, Real open,
+                             Real level, SameAs<Real> neighbour_level) {
+    return neighbour_level > Real(0)
+               ? weight
+               : weight / liquid_fraction(fields, level, neighbour_level, open);
 }
 
 /// What the pressure on the surface adds to a liquid cell's equation beyond what the sweeps read
@@ -25,7 +27,7 @@ inline Real surface_share(Real weight, Real open, Real level, std::int32_t neigh
     const Real air = fields.level[neighbour];
     return air > Real(0) ? Real(0)
                          : weight * fields.pressure[neighbour] *
-                               (Real(1) / liquid_fraction(level, air, open) - Real(1));
+                               (Real(1) / liquid_fraction(fields, level, air, open) - Real(1));
 }
 
 /// Sum of what a liquid cell's faces add to its diagonal.
@@ -37,10 +39,12 @@ Real diagonal_of(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
     const std::int32_t down = c - weights.grid.shape.stride;
     const Real level = fields.level[c];
     const Faces<Real> w = weights.around(i, j);
-    return (face_coefficient(w.left, weights.open_u(c), level, fields.level[c - 1]) +
-            face_coefficient(w.right, weights.open_u(c + 1), level, fields.level[c + 1])) +
-           (face_coefficient(w.lower, weights.open_v(c), level, fields.level[down]) +
-            face_coefficient(w.upper, weights.open_v(up), level, fields.level[up]));
+    const auto share = [&](Real weight, Real open, std::int32_t neighbour) {
+        return face_coefficient(fields, weight, open, level, fields.level[neighbour]);
+    };
+    return (share(w.left, weights.open_u(c), c - 1) +
+            share(w.right, weights.open_u(c + 1), c + 1)) +
+           (share(w.lower, weights.open_v(c), down) + share(w.upper, weights.open_v(up), up));
 }
 
 /// What flows out of it, less what is asked for and what pressure on the surface answers. `wide`:

@@ -27,9 +27,10 @@ inline Floats width_of_lanes(Floats open) {
 
 /// As `liquid_fraction`, where one of the levels is above 0 and the other not.
 template <class L, class Floats>
-inline Floats fraction_between(Floats a, Floats b, Floats open) {
+inline Floats fraction_between(float nearest, Floats a, Floats b, Floats open) {
     const auto liquid = L::maximum(a, b);
-    const auto least = L::maximum(L::all(0.05F), L::all(1.0F) - width_of_lanes<L>(open));
+    const auto least =
+        L::maximum(L::all(nearest), L::all(1.0F) - width_of_lanes<L>(open));
     return L::maximum(least, liquid / (liquid - L::minimum(a, b)));
 }
 
@@ -52,7 +53,9 @@ inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& fa
     const Lanes level = load_lanes(fields.level + c);
     const auto coefficient = [&](Lanes weight, std::int32_t at) {
         const Lanes beside = load_lanes(fields.level + at);
-        return beside > zero ? weight : weight / fraction_between<FourLanes>(level, beside, weight);
+        return beside > zero ? weight
+                             : weight / fraction_between<FourLanes>(least_fraction(fields), level,
+                                                                    beside, weight);
     };
     const Lanes diagonal = (coefficient(faces.left, c - 1) + coefficient(faces.right, c + 1)) +
                            (coefficient(faces.lower, c - stride) + coefficient(faces.upper, up));
@@ -126,14 +129,17 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     const std::int32_t stride = grid.shape.stride;
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
+    const bool elastic = fields.sound_speed > 0.0F;
+    const float least = least_fraction(fields);
     const auto any_kind = [&](float* velocity, Floats here, Floats before, Floats rise,
                               Floats open) {
         const auto now = L::load(velocity + c);
         const auto both = L::minimum(here, before) > zero;
         const auto moves = (L::maximum(here, before) > zero) & (open > zero);
-        const auto answer = both ? rise : rise / fraction_between<L>(here, before, open);
+        const auto answer =
+            both ? rise : rise / fraction_between<L>(least, here, before, open);
         const auto pushes = (now > zero) == (answer < zero);
-        const auto share = pushes ? width_of_lanes<L>(open) : one;
+        const auto share = pushes ? (elastic ? open : width_of_lanes<L>(open)) : one;
         L::store(velocity + c, moves ? now - share * answer : now);
     };
     for (; c + L::kLanes <= end; c += L::kLanes) {

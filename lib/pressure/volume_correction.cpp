@@ -135,12 +135,12 @@ template <bool Solids, class Real>
 void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                  Real gain, Real weight, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
                  std::int32_t& overfull, Work work) {
-    if (work.once(1)) {
-        overfull = 0;
-    }
     if constexpr (Stored<Real>::coarse) {
         correct_packed<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
     } else {
+        if (work.once(1)) {
+            overfull = 0;
+        }
         correct<Solids>(borders, walls, gain / dt_s, weight, fields, grid, overfull, work);
     }
 }

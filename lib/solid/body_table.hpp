@@ -12,6 +12,13 @@ namespace weir {
 
 enum class BodyKind : std::uint8_t { free, fixed, moving };
 
+/// How far a body's furthest point goes along an axis at most, if its position goes that way and
+/// it turns by so much. The same of velocities.
+template <class Number>
+Number furthest_way(Vec2<Number> way, Number turn, Number radius) {
+    return maximum(absolute(way.x), absolute(way.y)) + absolute(turn) * radius;
+}
+
 /// Cells and seconds. Vertices stand at first_vertex in the pools, pieces at
 /// kPieceIndicesPerVertex × first_vertex, so that one number says where everything is.
 template <class Real>
@@ -36,6 +43,11 @@ struct Body {
     bool moved = false;             ///< since it was last rasterized
     bool open = false;              ///< a polyline
     bool hollow = false;            ///< thin all over: the nodes do not show it
+
+    bool has_speed() const {
+        return velocity.x != Real(0) || velocity.y != Real(0) || spin != Real(0);
+    }
+    Real fastest_point() const { return furthest_way(velocity, spin, radius); }
 };
 static_assert(sizeof(Body<float>) <= kBodyBytes<float>, "raise kBodyBytes");
 static_assert(sizeof(Body<double>) <= kBodyBytes<double>, "raise kBodyBytes");

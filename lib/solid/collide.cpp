@@ -38,6 +38,7 @@ struct Scene {
     Contacts<Real>& contacts;
     CollideResult<Real>& result;
     Seconds<Real> dt_s;
+    bool beyond;  ///< where no picture is stored, and a search for a way out would draw a thousand
 };
 
 /// Where a place of the liquid would be if it had moved with the body in this substep.
@@ -180,6 +181,12 @@ bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real>
     const Body<Real>& body = scene.walls.body[slot];
     const Vec2<Real> seen = carried(scene, body, before);
     const Vec2<Real> from = within_tank(scene.shape, seen);
+    if (scene.beyond) {  // it goes along until there is a picture, or the body is gone
+        scene.particles.position[k] = from;
+        blow(scene, k, slot, from, Vec2<Real>(velocity_at(body, from)));
+        ++scene.result.stuck;
+        return true;
+    }
     bool pressed = !in_tank(scene.shape, seen);
     if (scene.walls.moving && body.kind == BodyKind::moving && !pressed) {
         const Standing<Real> at = standing(scene.shape, scene.walls, from);
@@ -344,8 +351,8 @@ template <class Real>
 void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real>& flight,
              std::int32_t first, std::int32_t count, Particles<Real>& particles,
              Contacts<Real>& contacts, CollideResult<Real>& result) {
-    Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s};
-    const bool all = flight.far || walls.thin != nullptr;
+    Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s, flight.beyond};
+    const bool all = flight.far || walls.thin != nullptr || flight.beyond;
 #if WEIR_HAS_LANES
     if constexpr (kHasLanes<Real>) {
         if (!all && maximum(shape.stride, shape.ny) < 0x8000) {

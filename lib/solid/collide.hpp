@@ -19,8 +19,10 @@ struct Flight {
     /// Their places at the beginning of the substep.
     const Vec2<PositionOf<Real>>* before = nullptr;
     bool far = false;                    ///< one of them moved further than a cell along an axis
-    Seconds<Real> dt_s{};
+    Seconds<Real> dt_s{};       ///< for which bodies moved
     bool mark_removed = false;  ///< who is removed stays, marked, until `Particles::remove_marked`
+    /// They are where no picture of the solids is stored. Who is inside there stays inside.
+    bool beyond = false;
 };
 
 template <class Real>

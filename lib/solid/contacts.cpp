@@ -40,7 +40,7 @@ void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t
         ++contacts.missed;
         return;
     }
-    contacts.last = at;
+    contacts.last = static_cast<std::uint16_t>(at);
     Contact& entry = contacts.entry[at];
     const float mass = kind == Liquid::second ? contacts.second_density * contacts.particle_m2
                                               : contacts.particle_m2;

@@ -10,14 +10,14 @@ namespace weir {
 template <class Real>
 struct Contacts {
     Contact* entry = nullptr;
-    std::int32_t capacity = 0;
-    std::int32_t used = 0;
+    std::uint16_t capacity = 0;
+    std::uint16_t used = 0;
+    std::uint16_t last = 0;        ///< where the last blow was entered
+    std::uint16_t world = 0;       ///< tag in the bodies' names
     std::int32_t missed = 0;       ///< blows on bodies for which there was no entry left
-    std::int32_t last = 0;         ///< where the last blow was entered
     float cell_m = 1.0F;
     float particle_m2 = 0.0F;      ///< area that a particle stands for
     float second_density = 1.0F;
-    std::uint16_t world = 0;       ///< tag in the bodies' names
 };
 
 /// Forgets the last step's events.

@@ -3,7 +3,7 @@
 
 #include "contour/gradient.hpp"
 #include "contour/marching_squares.hpp"
-#include "solid/walls.hpp"
+#include "solid/picture_beyond.hpp"
 
 namespace weir {
 
@@ -62,9 +62,38 @@ ContourHit<Real> hit_in(const CellView<Real>& cell, std::uint8_t which) {
                                 : contour_distance(contour_cell(cell.corner), cell.local);
 }
 
+/// Whether a look at the contours need not ask where they are stored: in nearly all worlds.
+template <class Real>
+bool all_stored([[maybe_unused]] const Walls<Real>& walls) {
+    if constexpr (kHasWindow<Real>) {
+        return walls.stored.bodies == nullptr;
+    } else {
+        return true;
+    }
+}
+
+/// In a world of which a part is stored. Not inline: others are not to pay for it.
+template <class Real>
+[[gnu::noinline, gnu::cold]] std::uint8_t case_in_window(const GridShape& s,
+                                                         const Walls<Real>& walls,
+                                                         std::int32_t i, std::int32_t j) {
+    if constexpr (kHasWindow<Real>) {
+        if (!is_stored(walls, s, i, j)) {
+            return PictureBeyond<Real>(s, walls, i, j, 0).which();
+        }
+    }
+    return walls.cell_case[s.index(i, j)];
+}
+
+template <class Real>
+std::uint8_t case_of(const GridShape& s, const Walls<Real>& walls, std::int32_t i,
+                     std::int32_t j) {
+    return all_stored(walls) ? walls.cell_case[s.index(i, j)] : case_in_window(s, walls, i, j);
+}
+
 template <class Real>
 std::uint8_t case_at(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
-    return walls.cell_case[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))];
+    return case_of(s, walls, static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y));
 }
 
 /// The last of `count` particles whose cell has solid in it, or −1.
@@ -152,11 +181,13 @@ Vec2<Real> normal_behind(const GridShape& s, const Walls<Real>& walls, const Cel
                        line_normal);
 }
 
-/// A cell that is solid all over holds no open point, also where all its nodes lie on the outline.
+/// Where all that is asked for is stored. A cell that is solid all over holds no open point, also
+/// where all its nodes lie on the outline.
 template <class Real>
-Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
+Standing<Real> standing_in(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
     Standing<Real> at;
-    at.which = case_at(shape, walls, x);
+    at.which = walls.cell_case[shape.index(static_cast<std::int32_t>(x.x),
+                                           static_cast<std::int32_t>(x.y))];
     if (at.which == kCellOutside) {
         return at;
     }
@@ -171,6 +202,26 @@ Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<R
     }
     at.slot = at.inside ? touched_body(shape, walls, cell.node) : kNoBody;
     return at;
+}
+
+template <class Real>
+[[gnu::noinline, gnu::cold]] Standing<Real> standing_in_window(const GridShape& shape,
+                                                               const Walls<Real>& walls,
+                                                               Vec2<Real> x) {
+    if constexpr (kHasWindow<Real>) {
+        const auto i = static_cast<std::int32_t>(x.x);
+        const auto j = static_cast<std::int32_t>(x.y);
+        if (!is_stored(walls, shape, i, j)) {
+            const PictureBeyond<Real> drawn(shape, walls, i, j, 1);
+            return standing_in(drawn.shape(), drawn.walls(), x);
+        }
+    }
+    return standing_in(shape, walls, x);
+}
+
+template <class Real>
+Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
+    return all_stored(walls) ? standing_in(shape, walls, x) : standing_in_window(shape, walls, x);
 }
 
 }  // namespace weir

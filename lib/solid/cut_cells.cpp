@@ -122,12 +122,9 @@ Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const Veloc
 
 /// Whether cut cells add to the cells around them what the kernel finds in them, exactly. Else the
 /// liquid in a cut cell is taken for spread evenly. In packed worlds sums of shares of 1/128 would
-/// be no better; an equation of state pushes with what one particle too many shows in a narrow
-/// share.
+/// be no better.
 template <class Real>
-bool exact_shares(const Walls<Real>& walls) {
-    return !Stored<Real>::coarse && !walls.elastic;
-}
+constexpr bool kExactShares = !Stored<Real>::coarse;
 
 /// Kernel of the nine cells around one over its liquid, by row and column. With t the hat function
 /// of a cell's width and h(x) = t(x − ½) + t(x + ½) it is ¼ [h(x) t(y) + t(x) h(y)].
@@ -197,10 +194,10 @@ struct Column {
 
 /// Density that a cell shows when all around it is full: without the cut cells if they add theirs.
 template <class Real>
-Real full_density(const GridShape& s, const Walls<Real>& walls, const VelocityOf<Real>* area,
-                  std::int32_t i, std::int32_t j, const Column& left, const Column& middle,
+Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t i,
+                  std::int32_t j, const Column& left, const Column& middle,
                   const Column& right) {
-    if (exact_shares(walls)) {
+    if constexpr (kExactShares<Real>) {
         // Shares of the kernel are so many 32nds.
         const std::int32_t sides = (left.own + right.own) + middle.ends;
         return kCornerShare<Real> *
@@ -243,7 +240,7 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
             const bool near = any != kOpen && (left.all & middle.all & right.all) != kSolid;
             const std::int32_t c = s.index(i, j);
             walls.full_density[c] =
-                near ? full_density(s, walls, area, i, j, left, middle, right)
+                near ? full_density<Real>(s, area, i, j, left, middle, right)
                      : Real(any == kOpen ? 1 : 0);
             mark_near(walls, s, i, j,
                       near && (thin || is_mirrored<Real>(walls, walls.open_u[c], c, c + s.stride) ||
@@ -257,7 +254,7 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
 }  // namespace
 
 template <class Real>
-void update_cut_cells(const GridShape& shape, const NodeBox& nodes, bool thin,
+void update_cut_cells(const GridShape& shape, const NodeBox& nodes, const Rim& rim, bool thin,
                       VelocityOf<Real>* scratch, Walls<Real>& walls) {
     // Changed nodes reach the faces around them, the slivers beside those, and by the density
     // kernel one cell more, for which areas are wanted one further still.
@@ -265,15 +262,17 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, bool thin,
     contour_matrix(shape, cells_around(shape, nodes, 0), walls);
     open_areas(shape, cells_around(shape, nodes, 2), walls, scratch);
     close_slivers(shape, inner, scratch, walls);
-    look_around(shape, inner, scratch, thin, walls);
-    if (exact_shares(walls)) {
-        add_cut_cells(shape, inner, walls);
+    const NodeBox asked{maximum(inner.i0, rim.left), maximum(inner.j0, rim.below), inner.i1,
+                        inner.j1};
+    look_around(shape, asked, scratch, thin, walls);
+    if constexpr (kExactShares<Real>) {
+        add_cut_cells(shape, asked, walls);
     }
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \
-    template void update_cut_cells(const GridShape&, const NodeBox&, bool, VelocityOf<Real>*, \
-                                   Walls<Real>&);
+    template void update_cut_cells(const GridShape&, const NodeBox&, const Rim&, bool,        \
+                                   VelocityOf<Real>*, Walls<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -196,8 +196,7 @@ bool limit(Face<Real> fastest, Face<Real> radius, Twist<Real>& twist) {
         twist = Twist<Real>{};
         return true;
     }
-    const Number speed = maximum(absolute(twist.velocity.x), absolute(twist.velocity.y)) +
-                         absolute(twist.spin) * radius;
+    const Number speed = furthest_way(twist.velocity, twist.spin, radius);
     const Number spin = clamp(twist.spin, -Number(kMaxAngle), Number(kMaxAngle));
     if (!(speed > fastest) && spin == twist.spin) {
         return false;

@@ -19,8 +19,29 @@ NodeBox unite(const NodeBox& a, const NodeBox& b) {
     return {minimum(a.i0, b.i0), minimum(a.j0, b.j0), maximum(a.i1, b.i1), maximum(a.j1, b.j1)};
 }
 
-NodeBox intersect(const NodeBox& a, const NodeBox& b) {
-    return {maximum(a.i0, b.i0), maximum(a.j0, b.j0), minimum(a.i1, b.i1), minimum(a.j1, b.j1)};
+template <class Real>
+GridShape stored_part(const Layers<Real>& layers) {
+    return stored_part(layers.walls, layers.shape);
+}
+
+/// Ghost cells of what is stored that are cells of the tank, and of which all nodes are stored.
+template <class Real>
+Rim rim_of(const Layers<Real>& layers) {
+    const GridShape part = stored_part(layers);
+    return {part.i0 > 0 ? 1 : 0, part.j0 > 0 ? 1 : 0};
+}
+
+template <class Real>
+NodeBox everywhere(const Layers<Real>& layers) {
+    const GridShape part = stored_part(layers);
+    const Rim rim = rim_of(layers);
+    return {part.i0 - rim.left, part.j0 - rim.below, part.i0 + part.nx, part.j0 + part.ny};
+}
+
+/// As much of a box as is stored.
+template <class Real>
+NodeBox stored_of(const Layers<Real>& layers, const NodeBox& box) {
+    return kHasWindow<Real> ? common(box, everywhere(layers)) : box;
 }
 
 template <class Real>
@@ -30,9 +51,10 @@ NodeBox reach(const GridShape& shape, const BodyTable<Real>& table, const Body<R
 
 template <class Real>
 std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot,
-                  const NodeBox& box, DistanceOf<Real>* distance, SlotOf<Real>* nearest) {
+                  const NodeBox& nodes, DistanceOf<Real>* distance, SlotOf<Real>* nearest) {
     const Body<Real>& body = table.body[slot];
-    if (body.hollow) {
+    const NodeBox box = stored_of(layers, nodes);
+    if (body.hollow || box.empty()) {
         return 0;
     }
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
@@ -45,7 +67,8 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
 
 /// Copies the static layer into the merged one.
 template <class Real>
-void restore(Layers<Real>& layers, const NodeBox& box) {
+void restore(Layers<Real>& layers, const NodeBox& changed) {
+    const NodeBox box = stored_of(layers, changed);
     if (box.empty()) {
         return;
     }
@@ -88,9 +111,18 @@ void forget_moves(BodyTable<Real>& table) {
 
 /// Open fractions around a box of nodes whose distances changed.
 template <class Real>
-void recut(Layers<Real>& layers, const NodeBox& box) {
+void recut(Layers<Real>& layers, const NodeBox& changed) {
     Walls<Real>& walls = layers.walls;
-    update_cut_cells(layers.shape, box, layers.thin.capacity > 0, layers.scratch, walls);
+    const NodeBox box = stored_of(layers, changed);
+    if (box.empty()) {
+        return;
+    }
+    GridShape part = stored_part(layers);
+    const Rim rim = rim_of(layers);
+    part = {part.nx + rim.left, part.ny + rim.below, part.stride, part.i0 - rim.left,
+            part.j0 - rim.below};
+    update_cut_cells(part, {box.i0 - part.i0, box.j0 - part.j0, box.i1 - part.i0, box.j1 - part.j0},
+                     rim, layers.thin.capacity > 0, layers.scratch, walls);
     if (walls.thin != nullptr) {
         close_thin_faces(layers.shape, box, layers.thin, walls.open_u, walls.open_v,
                          walls.full_density);
@@ -107,7 +139,7 @@ std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const N
     std::int32_t nodes = 0;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
-        const NodeBox part = intersect(body.drawn, box);
+        const NodeBox part = common(body.drawn, box);
         if (body.kind == BodyKind::moving && !part.empty()) {
             nodes += draw(layers, table, slot, part, layers.walls.distance, layers.walls.nearest);
         }
@@ -116,14 +148,18 @@ std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const N
     return nodes;
 }
 
+/// All that is stored, ghosts included.
 template <class Real>
-NodeBox everywhere(const Layers<Real>& layers) {
-    return {0, 0, layers.shape.nx, layers.shape.ny};
+Part stored_entries(const Layers<Real>& layers) {
+    const GridShape part = stored_part(layers);
+    const std::int32_t first = part.index(-1, -1);
+    return {first, first + part.size()};
 }
 
 template <class Real>
 void empty_static(Layers<Real>& layers) {
-    for (std::int32_t c = 0; c < layers.shape.size(); ++c) {
+    const Part entries = stored_entries(layers);
+    for (std::int32_t c = entries.first; c < entries.end; ++c) {
         layers.static_distance[c] = kBand<Real>;
         layers.static_nearest[c] = kNoBody;
     }
@@ -137,13 +173,14 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
     const auto each = [&](auto visit) {
         for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
             const Body<Real>& body = table.body[slot];
-            const NodeBox changed = unite(body.left, body.drawn);
+            const NodeBox changed = stored_of(layers, unite(body.left, body.drawn));
             if (body.moved && !changed.empty()) {
                 visit(changed);
             }
         }
     };
-    const std::int32_t all_cells = layers.shape.nx * layers.shape.ny;
+    const GridShape part = stored_part(layers);
+    const std::int32_t all_cells = part.nx * part.ny;
     each([&](const NodeBox& box) {
         const std::int32_t more = (box.i1 - box.i0 + 4) * (box.j1 - box.j0 + 4);
         cells = minimum(cells + more, all_cells);
@@ -157,16 +194,27 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
 
 /// Draws all static bodies anew, and the moving ones onto them.
 template <class Real>
-void redraw_static(Layers<Real>& layers, BodyTable<Real>& table) {
+std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table) {
+    std::int32_t nodes = 0;
     empty_static(layers);
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
         if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
-            draw(layers, table, slot, body.drawn, layers.static_distance,
-                 layers.static_nearest);
+            nodes += draw(layers, table, slot, body.drawn, layers.static_distance,
+                          layers.static_nearest);
         }
     }
-    refresh(layers, table, everywhere(layers));
+    return nodes + refresh(layers, table, everywhere(layers));
+}
+
+/// The most nodes of a body that moves, wherever it is.
+template <class Real>
+std::int64_t nodes_of_moving(const Layers<Real>& layers, const Body<Real>& body) {
+    const GridShape part = stored_part(layers);
+    // Floor and 1: that many nodes come upon an interval. A hundredth for rounding.
+    const Real reach = body.radius + kBand<Real> + Real(0.01);
+    const std::int64_t width = floor_to_int(reach + reach) + 1;
+    return minimum<std::int64_t>(width, part.nx + 1) * minimum<std::int64_t>(width, part.ny + 1);
 }
 
 /// Thin walls are looked at where there are any.
@@ -181,7 +229,8 @@ template <class Real>
 void clear_layers(Layers<Real>& layers) {
     empty_static(layers);
     Walls<Real>& walls = layers.walls;
-    for (std::int32_t c = 0; c < layers.shape.size(); ++c) {
+    const Part entries = stored_entries(layers);
+    for (std::int32_t c = entries.first; c < entries.end; ++c) {
         walls.distance[c] = kBand<Real>;
         walls.nearest[c] = kNoBody;
         walls.cell_case[c] = 0;
@@ -189,9 +238,9 @@ void clear_layers(Layers<Real>& layers) {
         walls.open_v[c] = Real(1);
         walls.full_density[c] = Real(1);
     }
-    std::memset(walls.near, 0,
-                static_cast<std::size_t>(near_words(layers.shape) * layers.shape.ny) *
-                    sizeof walls.near[0]);
+    const GridShape part = stored_part(layers);
+    std::memset(walls.near + first_near_word(part), 0,
+                static_cast<std::size_t>(near_words(part) * part.ny) * sizeof walls.near[0]);
 }
 
 template <class Real>
@@ -238,6 +287,12 @@ void redraw_all(Layers<Real>& layers, BodyTable<Real>& table) {
     redraw_static(layers, table);
 }
 
+template <class Real>
+std::int32_t draw_stored(Layers<Real>& layers, const BodyTable<Real>& table) {
+    clear_layers(layers);
+    return redraw_static(layers, table);
+}
+
 /// Every body that moved leaves a rectangle and enters one; both are wiped, then all bodies that
 /// reach into any of them are drawn. Merging takes the smaller distance, so drawing a body again
 /// where it stands already changes nothing.
@@ -280,17 +335,29 @@ std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table
     std::int64_t nodes = 0;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
-        if (body.kind != BodyKind::moving) {
-            continue;
+        if (body.kind == BodyKind::moving) {
+            const std::int64_t box = nodes_of_moving(layers, body);
+            nodes += table.load != nullptr ? 2 * box : box;
         }
-        // Floor and 1: that many nodes come upon an interval. A hundredth for rounding.
-        const Real reach = body.radius + kBand<Real> + Real(0.01);
-        const std::int64_t width = floor_to_int(reach + reach) + 1;
-        const std::int64_t box = minimum<std::int64_t>(width, layers.shape.nx + 1) *
-                                 minimum<std::int64_t>(width, layers.shape.ny + 1);
-        nodes += table.load != nullptr ? 2 * box : box;
     }
     return static_cast<std::int32_t>(minimum<std::int64_t>(nodes, 0x7FFFFFFF));
+}
+
+template <class Real>
+std::int32_t most_stored_nodes(const Layers<Real>& layers, const BodyTable<Real>& table) {
+    const GridShape part = stored_part(layers);
+    std::int64_t nodes = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        const Body<Real>& body = table.body[slot];
+        if (body.kind == BodyKind::moving) {
+            nodes += nodes_of_moving(layers, body);
+        } else if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
+            const NodeBox& box = body.drawn;
+            nodes += static_cast<std::int64_t>(minimum(box.i1 - box.i0, part.nx) + 1) *
+                     (minimum(box.j1 - box.j0, part.ny) + 1);
+        }
+    }
+    return static_cast<std::int32_t>(minimum<std::int64_t>(nodes, 0x3FFFFFFF));
 }
 
 /// The vertices of the others close up: records of thin edges, which name them, are kept anew.
@@ -323,7 +390,9 @@ void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
     template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t); \
     template void redraw_all(Layers<Real>&, BodyTable<Real>&);                        \
     template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);              \
+    template std::int32_t draw_stored(Layers<Real>&, const BodyTable<Real>&);         \
     template std::int32_t most_nodes(const Layers<Real>&, const BodyTable<Real>&);    \
+    template std::int32_t most_stored_nodes(const Layers<Real>&, const BodyTable<Real>&); \
     template void remove_drawn(Layers<Real>&, BodyTable<Real>&, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

@@ -43,6 +43,15 @@ void redraw_all(Layers<Real>& layers, BodyTable<Real>& table);
 template <class Real>
 std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table);
 
+/// Draws what is stored of the tank anew: another part of it than before. What stands still goes by
+/// where it was drawn last. Returns the number of nodes that were computed.
+template <class Real>
+std::int32_t draw_stored(Layers<Real>& layers, const BodyTable<Real>& table);
+
+/// The most nodes that `draw_stored` can compute, whichever part it is. Saturates.
+template <class Real>
+std::int32_t most_stored_nodes(const Layers<Real>& layers, const BodyTable<Real>& table);
+
 /// The most nodes that merging can compute: all bodies that can move, each wherever it is, and free
 /// ones twice a substep. Saturates.
 template <class Real>

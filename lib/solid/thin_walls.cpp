@@ -328,11 +328,10 @@ void follow_bodies(ThinWalls<Real>& thin, const BodyTable<Real>& table) {
         if (at.count == 0 || body.kind != BodyKind::moving) {
             continue;
         }
-        thin.moving = thin.moving || body.velocity.x != Real(0) || body.velocity.y != Real(0) ||
-                      body.spin != Real(0);
+        thin.moving = thin.moving || body.has_speed();
         const Vec2<Real> way = body.position - body.met_position;
         const Real angle = half_turn(body.angle - body.met_angle);
-        const Real far = maximum(absolute(way.x), absolute(way.y)) + absolute(angle) * body.radius;
+        const Real far = furthest_way(way, angle, body.radius);
         if (!(far > Real(0))) {
             continue;
         }

@@ -25,14 +25,24 @@ inline constexpr Real kDeepestMirror = Real(-1.5);
 template <class Real>
 inline constexpr Real kBoundLayer = Real(0.5);
 
+/// What is stored of the tank: all of it, or a part (step/window.hpp). Elsewhere the picture of the
+/// solids is drawn for whoever asks (solid/picture_beyond.hpp).
+template <class Real, bool Has = kHasWindow<Real>>
+struct StoredPart {
+    SmallShape at;
+    const BodyTable<Real>* bodies = nullptr;  ///< null: all of the tank is stored
+};
+template <class Real>
+struct StoredPart<Real, false> {};
+
 /// Arrays share the grid's numbering. `active` false: no body exists and none of them is read.
 template <class Real>
 struct Walls {
     bool active = false;  ///< there are bodies; within a substep: and one is near the liquid
     bool moving = false;                ///< a body has a velocity or a spin
     bool binary = false;                ///< Contour::mid_edge
-    bool elastic = false;               ///< Pressure::equation_of_state
     bool sticking = false;              ///< the liquid is viscous, and a body without slip
+    std::int16_t bodies = 0;            ///< slots
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
     SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell
@@ -42,21 +52,58 @@ struct Walls {
     std::uint32_t* near = nullptr;  ///< a bit a cell: its left or lower face is to be mirrored
     const Body<Real>* body = nullptr;
     ThinWallsPointer<Real> thin = {};   ///< null: no wall is thinner than a cell
-    std::int32_t bodies = 0;            ///< slots
     BodyLoad<Real>* load = nullptr;     ///< what bodies receive; null: nobody wants to know
     Face<Real> particle_mass[2] = {};   ///< of either liquid, over the first's density, cells²
+    StoredPart<Real> stored = {};
 };
+
+/// The part of the tank that arrays hold.
+template <class Real>
+inline GridShape stored_part([[maybe_unused]] const Walls<Real>& walls, const GridShape& tank) {
+    if constexpr (kHasWindow<Real>) {
+        return walls.stored.at;
+    } else {
+        return tank;
+    }
+}
+
+/// Whether what a particle asks of a cell's contour is stored: its nodes, and those next to them.
+template <class Real>
+inline bool is_stored([[maybe_unused]] const Walls<Real>& walls,
+                      [[maybe_unused]] const GridShape& tank, [[maybe_unused]] std::int32_t i,
+                      [[maybe_unused]] std::int32_t j) {
+    if constexpr (kHasWindow<Real>) {
+        if (walls.stored.bodies == nullptr) {
+            return true;
+        }
+        const GridShape part = walls.stored.at;
+        const auto within = [](std::int32_t cell, std::int32_t first, std::int32_t cells,
+                               std::int32_t all) {
+            return cell >= (first == 0 ? 0 : first + 1) &&
+                   cell < first + cells - (first + cells == all ? 0 : 1);
+        };
+        return within(i, part.i0, part.nx, tank.nx) && within(j, part.j0, part.ny, tank.ny);
+    } else {
+        return true;
+    }
+}
 
 /// Words of `near` for one row of the tank's cells, of which a shape may be a part.
 inline std::int32_t near_words(const GridShape& shape) {
     return (shape.stride - 2 + 31) / 32;
 }
 
+/// Of a part that is stored, the word that stands first.
+inline std::int32_t first_near_word(const GridShape& part) {
+    return part.j0 * near_words(part) + part.i0 / 32;
+}
+
 template <class Real>
 inline void mark_near(Walls<Real>& walls, const GridShape& shape, std::int32_t i, std::int32_t j,
                       bool near) {
-    std::uint32_t& word = walls.near[j * near_words(shape) + i / 32];
-    const std::uint32_t bit = 1U << (static_cast<std::uint32_t>(i) % 32U);
+    const std::int32_t column = shape.i0 + i;
+    std::uint32_t& word = walls.near[(shape.j0 + j) * near_words(shape) + column / 32];
+    const std::uint32_t bit = 1U << (static_cast<std::uint32_t>(column) % 32U);
     word = near ? word | bit : word & ~bit;
 }
 

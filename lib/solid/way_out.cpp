@@ -17,10 +17,12 @@ struct Nearest {
     bool found = false;
 };
 
-template <class Real>
+/// `Whole`: all of the tank is stored.
+template <bool Whole, class Real>
 void look_into(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std::int32_t j,
                Vec2<Real> from, Nearest<Real>& nearest) {
-    const std::uint8_t which = walls.cell_case[s.index(i, j)];
+    const std::uint8_t which =
+        Whole ? walls.cell_case[s.index(i, j)] : case_in_window(s, walls, i, j);
     if (which == kCellInside) {
         return;
     }
@@ -32,18 +34,20 @@ void look_into(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std
             if (nearest.found && !(square < nearest.square)) {
                 continue;
             }
-            if (which == kCellOutside || !standing(s, walls, place).inside) {
+            const auto is_inside = [&] {
+                return Whole ? standing_in(s, walls, place).inside
+                             : standing_in_window(s, walls, place).inside;
+            };
+            if (which == kCellOutside || !is_inside()) {
                 nearest = {place, square, true};
             }
         }
     }
 }
 
-}  // namespace
-
-template <class Real>
-bool nearest_free_place(const GridShape& s, const Walls<Real>& walls, Vec2<Real> point,
-                        std::int32_t reach, Vec2<Real>& place) {
+template <bool Whole, class Real>
+bool search(const GridShape& s, const Walls<Real>& walls, Vec2<Real> point, std::int32_t reach,
+            Vec2<Real>& place) {
     const auto ci = static_cast<std::int32_t>(point.x);
     const auto cj = static_cast<std::int32_t>(point.y);
     Nearest<Real> nearest;
@@ -60,13 +64,26 @@ bool nearest_free_place(const GridShape& s, const Walls<Real>& walls, Vec2<Real>
             const std::int32_t step = whole_row || ring == 0 ? 1 : 2 * ring;
             for (std::int32_t i = ci - ring; i <= ci + ring; i += step) {
                 if (i >= 0 && i < s.nx) {
-                    look_into(s, walls, i, j, point, nearest);
+                    look_into<Whole>(s, walls, i, j, point, nearest);
                 }
             }
         }
     }
     place = nearest.place;
     return nearest.found;
+}
+
+}  // namespace
+
+template <class Real>
+bool nearest_free_place(const GridShape& s, const Walls<Real>& walls, Vec2<Real> point,
+                        std::int32_t reach, Vec2<Real>& place) {
+    if constexpr (kHasWindow<Real>) {
+        if (!all_stored(walls)) {
+            return search<false>(s, walls, point, reach, place);
+        }
+    }
+    return search<true>(s, walls, point, reach, place);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                         \

@@ -27,60 +27,10 @@ inline std::int32_t sharpened(std::int32_t here, std::int32_t left, std::int32_t
     return clamp(sharp, low, high);
 }
 
-/// Tells along a row which faces have liquid all around: in their own two cells and in those of
-/// the four faces beside them. Looks at each column once.
-template <bool OnU>
-class Deep {
-public:
-    /// From face i of row j on; the cell that lies two before the seam is on its other side.
-    Deep(const GridShape& s, const LevelOf<SmallFixed>* level, std::int32_t i, std::int32_t j,
-         bool wraps)
-        : at_(level + s.index(i, j)), stride_(s.stride) {
-        if (OnU) {
-            before_ = at_[-1].raw > 0;
-            two_before_ = wraps && at_[s.nx - 2].raw > 0;
-            wide_before_ = wraps && tall(-1);
-        } else {
-            two_before_at_ = (j > 0 ? -2 : s.ny - 2) * stride_;
-            wide_before_ = wet(-1);
-            here_ = wet(0);
-        }
-    }
-
-    /// Of the next face.
-    bool next() {
-        bool deep = false;
-        if (OnU) {
-            const bool wide = tall(0);
-            deep = wide && wide_before_ && two_before_ && at_[1].raw > 0;
-            two_before_ = before_;
-            before_ = at_[0].raw > 0;
-            wide_before_ = wide;
-        } else {
-            const bool ahead = wet(1);
-            deep = here_ && wide_before_ && ahead && at_[stride_].raw > 0 &&
-                   at_[two_before_at_].raw > 0;
-            wide_before_ = here_;
-            here_ = ahead;
-        }
-        ++at_;
-        return deep;
-    }
-
-private:
-    bool tall(std::int32_t i) const {
-        return at_[i].raw > 0 && at_[i + stride_].raw > 0 && at_[i - stride_].raw > 0;
-    }
-    bool wet(std::int32_t i) const { return at_[i].raw > 0 && at_[i - stride_].raw > 0; }
-
-    const LevelOf<SmallFixed>* at_;
-    std::int32_t stride_;
-    std::int32_t two_before_at_ = 0;
-    bool two_before_ = false;
-    bool before_ = false;
-    bool wide_before_ = false;
-    bool here_ = false;
-};
+/// Whether a cell has nothing but liquid around it, as its diagonal tells: it may touch a wall.
+inline bool amid(VelocityOf<SmallFixed> diagonal) {
+    return diagonal.raw == 512 || diagonal.raw == 384;
+}
 
 /// change = now − before + share · sharp, in place of `before`; `share` in 2^−14ths.
 inline std::int16_t blended(std::int32_t now, std::int32_t before, std::int32_t sharp,
@@ -89,39 +39,39 @@ inline std::int16_t blended(std::int32_t now, std::int32_t before, std::int32_t 
     return short_of(now - before + ((share * sharp + chance(now * 4 + sharp, 14)) >> 14));
 }
 
-/// One component, ascending: what stood in a row is kept in `was` for the row above it.
-template <bool OnU>
-void blend(const GridShape& s, const LevelOf<SmallFixed>* level, bool wraps, const Part& rows,
-           std::int32_t share, const VelocityOf<SmallFixed>* now, VelocityOf<SmallFixed>* was,
-           VelocityOf<SmallFixed>* field) {
-    if (rows.first == 0 && !rows.empty()) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            was[s.index(i, -1)] = field[s.index(i, -1)];
+/// A row of faces of a kind, ascending: what stood in it is kept for the row above.
+struct BlendRow {
+    using Speed = VelocityOf<SmallFixed>;
+    const Speed* now;
+    Speed* field;
+    const Speed* lower;     ///< what stood in the row below
+    Speed* was;             ///< room for what stands here
+    const Speed* diagonal;  ///< of the cells behind the faces
+    const Speed* before;    ///< of those before them; null: no face has liquid all around
+    std::int32_t stride;
+    std::int32_t count;
+    std::int32_t share;
+};
+
+template <bool Sharp>
+void blend_row(const BlendRow& row) {
+    std::int32_t left = row.field[-1].raw;
+    std::int32_t here = row.field[0].raw;
+    for (std::int32_t k = 0; k < row.count; ++k) {
+        const std::int32_t right = row.field[k + 1].raw;
+        std::int32_t sharp = here;
+        if (Sharp && amid(row.diagonal[k]) && amid(row.before[k])) {
+            sharp = sharpened(here, left, right, row.lower[k].raw, row.field[k + row.stride].raw);
         }
-    }
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        std::int32_t face = s.index(0, j);
-        const std::int32_t end = s.index(s.nx, j);
-        const bool inside = j < s.ny && (OnU || j > 0 || wraps);
-        Deep<OnU> depth(s, level, 0, j, wraps);
-        std::int32_t left = field[face - 1].raw;
-        std::int32_t here = field[face].raw;
-        for (; face < end; ++face) {
-            const std::int32_t right = field[face + 1].raw;
-            std::int32_t sharp = here;
-            if (inside && depth.next()) {
-                sharp = sharpened(here, left, right, was[face - s.stride].raw,
-                                  field[face + s.stride].raw);
-            }
-            was[face].raw = static_cast<std::int16_t>(here);
-            if ((now[face].raw | here | sharp) != 0) {
-                field[face].raw = blended(now[face].raw, here, sharp, share);
-            }
-            left = here;
-            here = right;
+        row.was[k].raw = static_cast<std::int16_t>(here);
+        const std::int32_t now = row.now[k].raw;
+        if ((now | here | sharp) != 0) {
+            row.field[k].raw = blended(now, here, sharp, row.share);
         }
-        field[end].raw = blended(now[end].raw, here, here, share);
+        left = here;
+        here = right;
     }
+    row.field[row.count].raw = blended(row.now[row.count].raw, here, here, row.share);
 }
 
 /// What `extend_velocity` is told where a share of a velocity is kept.
@@ -143,10 +93,26 @@ inline void blend_packed(const Borders<SmallFixed>& borders, SmallFixed flip_rat
     // Of what is left: both shares have to add up to 1, or velocity would fade.
     const std::int32_t share = (1 << 14) - (flip_ratio.raw >> 2);
     const Part rows = work.take(s.ny + 1, 2 * s.nx);
-    packed::blend<true>(s, fields.level, borders.wrap_x, rows, share, grid.u, fields.divergence,
-                        grid.mass_u);
-    packed::blend<false>(s, fields.level, borders.wrap_y, rows, share, grid.v,
-                         fields.inverse_diagonal, grid.mass_v);
+    VelocityOf<SmallFixed>* diagonal = fields.inverse_diagonal;
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        const std::int32_t c = s.index(0, j);
+        const std::int32_t below = c - s.stride;
+        const bool inside = j < s.ny;
+        // The cells before the first face of a row stand for what is beyond the tank.
+        diagonal[c - 1] = borders.wrap_x ? diagonal[c + s.nx - 1] : VelocityOf<SmallFixed>(0);
+        const auto run = [&](const packed::BlendRow& row, bool sharp) {
+            sharp ? packed::blend_row<true>(row) : packed::blend_row<false>(row);
+        };
+        run({grid.u + c, grid.mass_u + c, j > 0 ? fields.divergence + below : grid.mass_u + below,
+             fields.divergence + c, diagonal + c, diagonal + c - 1, s.stride, s.nx, share},
+            inside);
+        // What stood there takes the place of diagonals that no row above looks at.
+        const bool on_seam = j == 0 && borders.wrap_y;
+        run({grid.v + c, grid.mass_v + c, j > 0 ? diagonal + below - s.stride : grid.mass_v + below,
+             diagonal + below, diagonal + c,
+             on_seam ? diagonal + s.index(0, s.ny - 1) : diagonal + below, s.stride, s.nx, share},
+            inside && (j > 0 || on_seam));
+    }
     if (work.once(s.border())) {
         extend_velocity(packed::slower(borders, SmallFixed(1) - flip_ratio), s, grid.mass_u,
                         grid.mass_v);

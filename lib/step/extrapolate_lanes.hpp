@@ -21,6 +21,7 @@ struct ExtrapolateTask {
     float* velocity;
     std::int32_t back;
     std::int32_t stride;
+    float least_fraction;
     bool velocity_itself;
     bool has_lower;      ///< whether the rows beside it are the tank's
     bool has_upper;
@@ -73,7 +74,9 @@ struct Beside {
         }
         const auto rise = L::load(task.pressure + at) - L::load(task.pressure + at - task.back);
         const auto both = L::minimum(level, before) > zero;
-        const auto push = zero - (both ? rise : rise / fraction_between<L>(level, before, open));
+        const auto push =
+            zero - (both ? rise
+                         : rise / fraction_between<L>(task.least_fraction, level, before, open));
         sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own) : zero;
     }
 };

@@ -53,6 +53,13 @@ struct Findings {
 /// What particles look like to a loop: so many cells.
 inline constexpr std::int32_t kCellsAParticle = 4;
 
+/// Of particles that meet nothing but the tank's walls.
+template <class Real>
+Transfer<Real> transfer_of(const Settings<Real>& settings, Seconds<Real> dt_s) {
+    return {dt_s, settings.flip_ratio, minimum(kLongestWay<Real> / dt_s, kFastest<Real>),
+            settings.borders};
+}
+
 /// Moves particles where there are no solids.
 template <class Real>
 void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer, Work work,
@@ -120,7 +127,8 @@ void gather_block(Simulation<Real>& simulation, const Transfer<Real>& transfer,
     if (clock != nullptr) {
         clock->charge(Stage::grid_to_particle);
     }
-    collide(simulation.grid.shape, walls, {before, moved.far > 0, transfer.dt_s, mark_removed},
+    collide(simulation.grid.shape, walls,
+            {before, moved.far > 0, simulation.walls_moved_s, mark_removed},
             first, count, particles, simulation.contacts, collisions);
     if (clock != nullptr) {
         clock->charge(Stage::collide);
@@ -176,8 +184,7 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
             StageClock& clock, StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
     const Seconds<Real> dt_s = plan.dt_s;
-    Transfer<Real> transfer{dt_s, settings.flip_ratio,
-                            minimum(kLongestWay<Real> / dt_s, kFastest<Real>), settings.borders};
+    Transfer<Real> transfer = transfer_of(settings, dt_s);
     if (simulation.bodies.load != nullptr) {
         transfer.tank = &tank_received(simulation.bodies);
         transfer.particle_mass = simulation.layers.walls.particle_mass;

@@ -169,7 +169,8 @@ void extrapolate_component(const Component<Real>& component, const PressureField
             const bool amid = j > rows.first && j + 1 < rows.end;
             if (amid && component.light == nullptr && component.thin == nullptr &&
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
-                                   back, s.stride, velocity_itself, j > component.first_j,
+                                   back, s.stride, least_fraction(fields),
+                                   velocity_itself, j > component.first_j,
                                    j + 1 < s.ny, face, row + s.nx})) {
                 continue;
             }

@@ -115,8 +115,9 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         const Vec2<Real> way{static_cast<Real>(di), static_cast<Real>(dj)};
         const Vec2<Real> place = axis.centre(i, j) + theta * way;
         const Real stiff = Real(1) / theta;
+        // Not the neighbour's normal: on the tank's wall it would ask for nodes beyond.
         pull.weight += stiff;
-        pull.towards += stiff * axis.of(axis.wall(slot, place, axis.normal(neighbour)));
+        pull.towards += stiff * axis.of(axis.wall(slot, place, axis.normal(face)));
         pull.slot = slot;
     };
     look(-1, 0);

@@ -1,6 +1,7 @@
 #include "step/occupied.hpp"
 
 #include "step/extent_lanes.hpp"
+#include "step/places_packed.hpp"
 
 namespace weir {
 
@@ -20,17 +21,20 @@ Extent<Real> extent(const Particles<Real>& particles) {
     return extent_from(Extent<Real>::of_first(particles), particles.position, 1, particles.count);
 }
 
-/// Of packed places the raw numbers tell. Four at a time: the loop costs as much as they do.
-template <>
-Extent<SmallFixed> extent(const Particles<SmallFixed>& particles) {
+/// Of packed places the raw numbers tell, both in a word: the highest of words has the highest y.
+/// Of x all bits together mostly tell that particles reach as far as matters.
+Extent<SmallFixed> extent_of_words(const Particles<SmallFixed>& particles, std::int32_t columns) {
     using Position = PositionOf<SmallFixed>;
     const Vec2<Position>* position = particles.position;
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
+    std::uint32_t highest = 0;
+    std::uint32_t bits = 0;
     std::int32_t k = 0;
     const auto look = [&](std::int32_t n) {
-        x = maximum<std::uint32_t>(x, position[n].x.raw);
-        y = maximum<std::uint32_t>(y, position[n].y.raw);
+        const std::uint32_t word = packed::word_at(position + n);
+        bits |= word;
+        if (word > highest) {
+            highest = whole(word);  // seldom: a branch costs less than a choice
+        }
     };
     for (; k + 4 <= particles.count; k += 4) {
         look(k);
@@ -41,8 +45,17 @@ Extent<SmallFixed> extent(const Particles<SmallFixed>& particles) {
     for (; k < particles.count; ++k) {
         look(k);
     }
+    std::uint32_t x = bits & 0xFFFFU;
+    const std::uint32_t enough = static_cast<std::uint32_t>(maximum(columns, 0)) * 256U;
+    if (x < 2U * enough) {  // of what the highest bit alone makes, half is sure
+        x = 0;
+        for (k = 0; k < particles.count && x < enough; ++k) {
+            x = maximum<std::uint32_t>(x, position[k].x.raw);
+        }
+    }
+    x = minimum(x, enough);
     return {{}, {Position::of_raw(static_cast<std::uint16_t>(x)),
-                 Position::of_raw(static_cast<std::uint16_t>(y))}};
+                 Position::of_raw(static_cast<std::uint16_t>(highest >> 16U))}};
 }
 
 #if WEIR_HAS_LANES
@@ -127,8 +140,13 @@ Part with_ghosts(std::int32_t first, std::int32_t cells, std::int32_t tank) {
 }  // namespace
 
 template <class Real>
-Extent<Real> extent_of(const Particles<Real>& particles) {
-    return extent<Real>(particles);
+Extent<Real> extent_of(const Particles<Real>& particles,
+                       [[maybe_unused]] std::int32_t columns) {
+    if constexpr (Stored<Real>::coarse) {
+        return extent_of_words(particles, columns);
+    } else {
+        return extent<Real>(particles);
+    }
 }
 
 template <class Real>
@@ -189,7 +207,7 @@ void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape&
 }
 
 #define WEIR_INSTANTIATE(Real)                                                               \
-    template Extent<Real> extent_of(const Particles<Real>&);                                 \
+    template Extent<Real> extent_of(const Particles<Real>&, std::int32_t);                   \
     template GridShape occupied_part(const GridShape&, const Borders<Real>&,                 \
                                      const Extent<Real>&, bool);                              \
     template bool walls_reach(const GridShape&, const BodyTable<Real>&, const Walls<Real>&); \

@@ -15,9 +15,11 @@ namespace weir {
 /// at beyond. Columns on either side likewise.
 inline constexpr std::int32_t kMargin = 4;
 
-/// Cost: 4 comparisons a particle, of which there is at least one.
+/// Cost: 4 comparisons a particle, of which there is at least one. From so many columns on it does
+/// not matter how far they reach.
 template <class Real>
-Extent<Real> extent_of(const Particles<Real>& particles);
+Extent<Real> extent_of(const Particles<Real>& particles,
+                       std::int32_t columns = kMaxCellsFixed);
 
 /// The part of the tank that this substep needs. Along a seam it is always the whole tank;
 /// `from_corner`: it begins in the lower left corner whatever is empty there.

@@ -18,8 +18,8 @@ struct Settings {
     Real second_density = Real(1);   ///< of the second liquid over the first's
     Borders<Real> borders;
     Real cfl = Real(1);          ///< cells per substep
-    std::int32_t sweeps = 6;
-    std::int32_t max_substeps = 16;
+    std::int16_t sweeps = 6;
+    std::int16_t max_substeps = 16;
     Pressure pressure = Pressure::projection;
     Contour contour = Contour::interpolated;
     bool keep_sorted = false;

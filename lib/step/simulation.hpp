@@ -16,15 +16,13 @@ namespace weir {
 template <class Real>
 struct Stages;
 
-/// Packed worlds are so small that they store all of the tank.
 template <class Real>
-inline constexpr bool kHasWindow = !Stored<Real>::shares_momentum;
+struct Regions;
 
-/// What is stored of the tank.
+/// Room for a part of the tank.
 template <class Real, bool Has = kHasWindow<Real>>
 struct Window {
-    SmallShape at;            ///< all of it, or a part
-    std::int32_t cells = 0;   ///< then: how many entries there is room for; else 0
+    std::int32_t cells = 0;   ///< how many entries there is room for; 0: for all of it
     std::int32_t beyond = 0;  ///< particles that a substep leaves out: they stand before the pool
 };
 template <class Real>
@@ -43,6 +41,8 @@ struct Simulation {
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;
+    Seconds<Real> walls_behind_s{};  ///< moving bodies were held for so long in the last step
+    Seconds<Real> walls_moved_s{};   ///< and moved on for so long in this substep
     const FreeBodyStages<Real>* free_bodies = nullptr;  ///< null: there was none yet
     Real* body_diagonal = nullptr;                      ///< for them, a cell field
     Contacts<Real> contacts;
@@ -51,15 +51,12 @@ struct Simulation {
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;
     const Stages<Real>* stages = nullptr;
+    Regions<Real>* regions = nullptr;  ///< null: the world sleeps as a whole (step/regions.hpp)
 };
 
 template <class Real>
 GridShape stored_part(const Simulation<Real>& simulation) {
-    if constexpr (kHasWindow<Real>) {
-        return simulation.window.at;
-    } else {
-        return simulation.layers.shape;
-    }
+    return stored_part(simulation.layers.walls, simulation.layers.shape);
 }
 
 }  // namespace weir

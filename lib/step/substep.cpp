@@ -10,24 +10,26 @@
 #include "solid/collide.hpp"
 #include "step/bend_paths.hpp"
 #include "step/boundary_condition.hpp"
+#include "step/fly_beyond.hpp"
 #include "step/gather.hpp"
 #include "step/grid_update.hpp"
 #include "step/momentum_ledger.hpp"
 #include "step/occupied.hpp"
 #include "step/particle_to_grid.hpp"
+#include "step/regions.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thin_transfer.hpp"
 #include "step/two_way.hpp"
 #include "step/viscosity.hpp"
-#include "step/window.hpp"
 
 namespace weir {
 
 namespace {
 
-/// Moving bodies go where their velocities take them.
+/// Moving bodies go where their velocities take them, or stay for no time.
 template <class Real>
 void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, bool viscous, Seconds<Real> dt_s) {
+    const bool held = !(dt_s > Seconds<Real>{});
     walls.moving = false;
     walls.sticking = false;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
@@ -38,8 +40,11 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, bool viscous, Secon
             (table.load != nullptr && table.load[slot].is_free())) {
             continue;
         }
-        if (body.velocity.x != Real(0) || body.velocity.y != Real(0) || body.spin != Real(0)) {
+        if (body.has_speed()) {
             walls.moving = true;
+            if (held) {
+                continue;
+            }
             body.position = body.position + dt_s * body.velocity;
             body.angle = wrapped_angle(body.angle + dt_s * body.spin);
             body.moved = true;
@@ -48,35 +53,36 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, bool viscous, Secon
     }
 }
 
+template <class Real>
+bool is_elastic(const Simulation<Real>& simulation) {
+    return simulation.settings.pressure == Pressure::equation_of_state;
+}
+
 template <bool Solids, class Real>
 void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     const Settings<Real>& settings = simulation.settings;
     const Walls<Real>& walls = simulation.layers.walls;
-    if (settings.pressure == Pressure::projection) {
-        if constexpr (!Stored<Real>::coarse) {  // packed worlds have no tension
-            if (plan.surface_tension > Real(0)) {
-                surface_tension(simulation.grid.shape, settings.borders, walls,
-                                plan.surface_tension * plan.dt_s, simulation.pressure, work);
-            }
-        }
-        if constexpr (Solids) {
-            const CoupledSolve<Real> coupled = coupled_solve(simulation, plan.dt_s);
-            projection(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
-                       simulation.pressure,
-                       simulation.free_bodies != nullptr ? &coupled : nullptr, work);
-        } else {
-            projection_in_open(settings.borders, walls, plan.dt_s, plan.sweeps,
-                               simulation.grid, simulation.pressure, work);
-        }
-        extrapolate(settings.borders, walls, simulation.pressure,
-                    settings.surface_tension > Real(0), simulation.grid, work);
-    } else {
-        equation_of_state(settings.borders, walls, plan.dt_s, plan.sound_speed,
-                          simulation.grid, simulation.pressure, work);
-        if (settings.sound_speed > Real(0)) {
-            simulation.pressure.change = plan.sound_speed / settings.sound_speed;
+    const bool elastic = is_elastic(simulation);
+    if (elastic && work.once(1)) {
+        follow_sound(plan.sound_speed, simulation.pressure);
+    }
+    if constexpr (!Stored<Real>::coarse) {  // packed worlds have no tension
+        if (plan.surface_tension > Real(0)) {
+            surface_tension(simulation.grid.shape, settings.borders, walls,
+                            plan.surface_tension * plan.dt_s, simulation.pressure, work);
         }
     }
+    if constexpr (Solids) {
+        const CoupledSolve<Real> coupled = coupled_solve(simulation, plan.dt_s);
+        const bool yields = simulation.free_bodies != nullptr && !elastic;
+        projection(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
+                   simulation.pressure, yields ? &coupled : nullptr, work);
+    } else {
+        projection_in_open(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
+                           simulation.pressure, work);
+    }
+    extrapolate(settings.borders, walls, simulation.pressure,
+                settings.surface_tension > Real(0), simulation.grid, work);
 }
 
 /// The gain holds for a substep in which something moves half a cell, or a wave of the size of a
@@ -124,6 +130,23 @@ std::int32_t follow(Simulation<Real>& simulation) {
     return cost;
 }
 
+/// All stages see the particles that are awake.
+template <class Real>
+void skip_asleep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
+    if (simulation.regions != nullptr) {
+        simulation.regions->stages->begin(simulation, plan, work);
+    }
+}
+
+template <class Real>
+void watch_asleep(Simulation<Real>& simulation, Work work, StageClock& clock,
+                  const StepReport& report) {
+    if (simulation.regions != nullptr) {
+        simulation.regions->stages->end(simulation, work, report);
+        clock.charge(Stage::grid_to_particle);
+    }
+}
+
 /// The grid's stages see the part of the tank that the liquid is in.
 template <class Real>
 void skip_empty(Simulation<Real>& simulation, Work work) {
@@ -138,7 +161,8 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
         one = simulation.extent;
     }
     work.share(work.take(particles.count, 1), 1, 1, [&](const Part& part, std::int32_t n) {
-        pieces[n] = extent_of(particles.part(part.first, part.end - part.first));
+        pieces[n] = extent_of(particles.part(part.first, part.end - part.first),
+                              tank.nx - kMargin);
     });
     for (const Extent<Real>& one : pieces) {
         simulation.extent.add(one);
@@ -171,7 +195,8 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
     }
     if (windowed && work.foreseeing()) {
         work.expect(1, kLooksBeyond * particles.count);
-        work.expect(1, simulation.window.cells);
+        work.expect(1, simulation.window.cells +
+                           most_stored_nodes(simulation.layers, simulation.bodies));
     }
 }
 
@@ -198,8 +223,10 @@ template <class Real>
 void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
                  StepReport& report) {
     if (work.once(simulation.bodies.vertices_used + 1)) {
-        move_bodies(simulation.bodies, simulation.layers.walls, plan.viscosity > Real(0),
-                    plan.dt_s);
+        Seconds<Real>& moved_s = simulation.walls_moved_s;
+        moved_s = plan.walls_held ? Seconds<Real>{} : plan.dt_s + simulation.walls_behind_s;
+        simulation.walls_behind_s = Seconds<Real>{};
+        move_bodies(simulation.bodies, simulation.layers.walls, plan.viscosity > Real(0), moved_s);
     }
     if (work.once(simulation.bodies.capacity)) {
         const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);
@@ -207,7 +234,7 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         work.spend(nodes);
     }
     if (work.foreseeing()) {
-        work.expect(1, most_nodes(simulation.layers, simulation.bodies));
+        work.expect(1, plan.walls_held ? 0 : most_nodes(simulation.layers, simulation.bodies));
     }
 }
 
@@ -225,6 +252,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         draw_bodies(simulation, plan, work, report);
         clock.charge(Stage::contour);
     }
+    skip_asleep(simulation, plan, work);
     skip_empty(simulation, work);
     order_particles(simulation, work);
     const bool two_way = simulation.bodies.load != nullptr;
@@ -256,13 +284,15 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
             press_tank(simulation, dt_s);
         }
     }
+    if (is_elastic(simulation)) {
+        release_pressure(grid.shape, simulation.pressure, work);
+    }
     fill_borders<Solids>(simulation, work);
     clock.charge(Stage::pressure);
 
     blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
-    if (settings.volume_gain > Real(0) && settings.pressure == Pressure::projection &&
-        !plan.settling) {
+    if (settings.volume_gain > Real(0) && !plan.settling) {
         const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
         const Vec2<Real> g = settings.gravity;
         const Real weight = maximum(absolute(g.x), absolute(g.y)) * dt_s;
@@ -278,9 +308,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         clock.charge(Stage::contour);
     }
     gather<Solids>(simulation, plan, work, clock, report);
-    if constexpr (kHasWindow<Real> && !Solids) {
+    if constexpr (kHasWindow<Real>) {
         if (simulation.window.cells > 0) {
-            fly_beyond(simulation, plan, work, report);
+            fly_beyond<Solids>(simulation, plan, work, report);
             clock.charge(Stage::grid_to_particle);
         }
     }
@@ -288,6 +318,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         close_ledger(simulation, dt_s, work);
         clock.charge(Stage::collide);
     }
+    watch_asleep(simulation, work, clock, report);
 }
 
 }  // namespace
@@ -297,13 +328,24 @@ const Stages<Real>& open_stages() {
     static constexpr auto kNowhere = [](const GridShape&, const Walls<Real>&, Vec2<Real>) {
         return false;
     };
-    static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere};
+    static constexpr auto kNothing = [](Layers<Real>&, BodyTable<Real>&) -> std::int32_t {
+        return 0;
+    };
+    static constexpr auto kNoSolid = [](Layers<Real>& layers,
+                                        const BodyTable<Real>& table) -> std::int32_t {
+        if (table.capacity > 0) {
+            clear_layers(layers);
+        }
+        return 0;
+    };
+    static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere, kNothing, kNoSolid};
     return kStages;
 }
 
 template <class Real>
 const Stages<Real>& solid_stages() {
-    static constexpr Stages<Real> kStages{substep<true, Real>, inside_solid<Real>};
+    static constexpr Stages<Real> kStages{substep<true, Real>, inside_solid<Real>,
+                                          merge_moving<Real>, draw_stored<Real>};
     return kStages;
 }
 

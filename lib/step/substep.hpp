@@ -14,6 +14,10 @@ struct Stages {
     void (*substep)(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
                     StepReport& report);
     bool (*inside_solid)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point);
+    /// Draws the bodies that were put elsewhere since the last step: somebody looks at them.
+    std::int32_t (*draw_moved)(Layers<Real>& layers, BodyTable<Real>& table);
+    /// Draws all bodies: another part of the tank is stored.
+    std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
 };
 
 /// Of a world in which there never was a body.

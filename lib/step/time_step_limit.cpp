@@ -11,8 +11,8 @@ constexpr Real kRootOfGravityWay = Real(0.346410162);
 template <class Real>
 constexpr Real kSoundCfl = Real(0.4);
 
-/// Sound that steps were too long for stiffens again by so much a step: at once, it would release
-/// more than it took.
+/// Sound that steps were too long for stiffens again by so much a step: what is crammed together
+/// would be torn apart.
 template <class Real>
 constexpr Real kSoundRecovery = Real(1.0625);
 
@@ -49,11 +49,17 @@ Real fastest(const Simulation<Real>& simulation) {
     for (std::int32_t slot = 0; slot < simulation.bodies.capacity; ++slot) {
         const Body<Real>& body = simulation.bodies.body[slot];
         if (body.kind == BodyKind::moving) {
-            speed = maximum(speed, maximum(absolute(body.velocity.x), absolute(body.velocity.y)) +
-                                       absolute(body.spin) * body.radius);
+            speed = maximum(speed, body.fastest_point());
         }
     }
     return speed;
+}
+
+/// Sound that steps are too long for. Liquid that is faster than it piles up: what it then stored
+/// would tear it apart, so sound gives way by as much again.
+template <class Real>
+Real softened(Real sound_speed, Real speed) {
+    return speed > sound_speed ? sound_speed * (sound_speed / speed) : sound_speed;
 }
 
 }  // namespace
@@ -61,7 +67,7 @@ Real fastest(const Simulation<Real>& simulation) {
 template <class Real>
 Seconds<Real> longest_step(const Settings<Real>& settings) {
     const Real gravity = strength(settings.gravity);
-    const Real most = static_cast<Real>(settings.max_substeps);
+    const Real most = static_cast<Real>(static_cast<std::int32_t>(settings.max_substeps));
     if (!(gravity > Real(0))) {
         return Seconds<Real>(1);
     }
@@ -79,8 +85,9 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     const Real fall = dt_s * (square_root(gravity) / kRootOfGravityWay<Real>);
     std::int32_t wanted = maximum(at_least(reach, most), at_least(fall, most));
     SubstepPlan<Real> plan;
-    plan.sound_speed =
-        settings.sound_speed * minimum(Real(1), kSoundRecovery<Real> * simulation.pressure.change);
+    const Real last = simulation.pressure.sound_speed;
+    plan.sound_speed = last > Real(0) ? minimum(settings.sound_speed, kSoundRecovery<Real> * last)
+                                      : settings.sound_speed;
     if (settings.pressure == Pressure::equation_of_state) {
         const Real waves = (settings.sound_speed + speed) * dt_s / kSoundCfl<Real>;
         wanted = maximum(wanted, at_least(waves, most));
@@ -94,10 +101,11 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
         wanted = maximum(wanted, at_least(ripples, most));
     }
     plan.substeps = static_cast<std::int16_t>(minimum(wanted, most));
-    plan.sweeps = static_cast<std::int16_t>(settings.sweeps);
+    plan.sweeps = settings.sweeps;
     plan.dt_s = part_of(dt_s, plan.substeps);
     if (settings.pressure == Pressure::equation_of_state && wanted > most) {
-        plan.sound_speed = minimum(plan.sound_speed, kSoundCfl<Real> / plan.dt_s);
+        plan.sound_speed = minimum(plan.sound_speed,
+                                   softened(kSoundCfl<Real> / plan.dt_s, speed + gravity * dt_s));
     }
     plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);
     plan.surface_tension =

@@ -14,6 +14,7 @@ struct SubstepPlan {
     Real viscosity = Real(0);    ///< cells²/s, lowered likewise
     Real surface_tension = Real(0);  ///< cells³/s², lowered likewise
     bool settling = false;  ///< all that moves is what packed numbers cannot tell from rest
+    bool walls_held = false;  ///< moving bodies stay where they are drawn
 };
 
 /// Substeps so that no particle travels further than cfl cells (Courant, Friedrichs & Lewy 1928),

@@ -1,57 +1,24 @@
 #include "step/transfer_packed.hpp"
 
 #include "math/packed_arithmetic.hpp"
+#include "step/places_packed.hpp"
 #include "step/tank_walls.hpp"
 
 namespace weir {
 
 namespace {
 
-using Real = SmallFixed;
-using Speed = VelocityOf<Real>;
-using Place = PositionOf<Real>;
-
-static_assert(sizeof(Place) == 2 && sizeof(Speed) == 2, "the loops below know these formats");
-static_assert(Real(Place::of_raw(1)).raw == 256, "places are 256ths");
-static_assert(Real(Speed::of_raw(1)).raw == 512, "velocities are 128ths");
-static_assert(Stored<Real>::particle_mass == 2, "256 units of mass a particle");
+using namespace packed;
 
 /// Mass of 32 particles: 8 times what a full cell's faces hold.
 constexpr std::uint32_t kFull = 0x2000;
 
-/// Both places of a particle in a word, x below.
-inline std::uint32_t word_of(const Vec2<Place>* place) {
-    std::uint32_t word = 0;
-    __builtin_memcpy(&word, __builtin_assume_aligned(place, 4), sizeof word);
-    return word;
+#if !defined(__ARM_FEATURE_UNALIGNED) || !defined(__ARMEL__)
+/// Of a mass, which is not negative. (Of signed numbers a Cortex-M0 loads none at a fixed place.)
+inline std::uint32_t raw_of(const Speed& mass) {
+    return reinterpret_cast<const std::uint16_t&>(mass.raw);
 }
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "x stands first");
-
-/// From the faces of a kind to the corners of the cells that they are in the middle of.
-template <bool OnU>
-inline constexpr std::uint32_t kHalf = OnU ? 128U << 16U : 128U;
-
-/// What the four faces around a point get, 256ths that add up to 256.
-struct Weights {
-    std::int32_t lower_left;
-    std::int32_t lower_right;
-    std::int32_t upper_left;
-    std::int32_t upper_right;
-};
-
-inline Weights weights_of(std::uint32_t at) {
-    const auto fx = static_cast<std::int32_t>(at & 255U);
-    const auto fy = static_cast<std::int32_t>((at >> 16U) & 255U);
-    const std::int32_t both = (fx * fy + 128) >> 8;
-    const std::int32_t upper = fy - both;
-    return {256 - fx - upper, fx - both, upper, both};
-}
-
-/// The first of those faces, from the first one of the kind.
-inline std::int32_t base_of(std::uint32_t at, std::int32_t stride) {
-    return static_cast<std::int32_t>(at >> 24U) * stride +
-           static_cast<std::int32_t>((at >> 8U) & 255U);
-}
+#endif
 
 /// Adds to the masses of four faces. False: one of them is full.
 inline bool add_masses(Speed* low, Speed* high, const Weights& w) {
@@ -69,17 +36,18 @@ inline bool add_masses(Speed* low, Speed* high, const Weights& w) {
     __builtin_memcpy(static_cast<void*>(low), &lower, sizeof lower);
     __builtin_memcpy(static_cast<void*>(high), &upper, sizeof upper);
 #else
-    const std::int32_t m0 = low[0].raw;
-    const std::int32_t m1 = low[1].raw;
-    const std::int32_t m2 = high[0].raw;
-    const std::int32_t m3 = high[1].raw;
-    if (static_cast<std::uint32_t>(m0 | m1 | m2 | m3) >= kFull) {
+    // Looked at and read again: to keep four wants more registers than there are.
+    const auto add = [](Speed& mass, std::int32_t more) {
+        mass.raw = static_cast<std::int16_t>(static_cast<std::int32_t>(raw_of(mass)) + more);
+    };
+    const std::uint32_t lower = raw_of(low[0]) | raw_of(low[1]);
+    if ((lower | raw_of(high[0]) | raw_of(high[1])) >= kept(kFull)) {
         return false;
     }
-    low[0].raw = static_cast<std::int16_t>(m0 + w.lower_left);
-    low[1].raw = static_cast<std::int16_t>(m1 + w.lower_right);
-    high[0].raw = static_cast<std::int16_t>(m2 + w.upper_left);
-    high[1].raw = static_cast<std::int16_t>(m3 + w.upper_right);
+    add(low[0], w.lower_left);
+    add(low[1], w.lower_right);
+    add(high[0], w.upper_left);
+    add(high[1], w.upper_right);
 #endif
     return true;
 }
@@ -87,28 +55,29 @@ inline bool add_masses(Speed* low, Speed* high, const Weights& w) {
 /// One component of all particles to its faces, `mass` and `momentum` from the first of which.
 /// Both in one loop want more registers than there are. @return how often faces were full.
 template <bool OnU>
-std::int32_t scatter(const Particles<Real>& particles, Speed* mass, Real* momentum,
-                     std::int32_t stride) {
-    const Vec2<Place>* place = particles.position;
-    const Vec2<Place>* end = place + particles.count;
-    const Vec2<Speed>* velocity = particles.velocity;
+[[gnu::noinline]] std::int32_t scatter(const Particles<Real>& particles, Speed* mass,
+                                       Real* momentum, std::int32_t stride) {
+    const Strip strip(particles);
+    const std::int32_t row = stride * kSpeedBytes;
+    // Momenta lie twice as far apart as masses.
+    const std::uintptr_t to_momentum = whole(reinterpret_cast<std::uintptr_t>(momentum) -
+                                             2 * reinterpret_cast<std::uintptr_t>(mass));
+    const std::uint32_t half = kept(kHalf<OnU>);
     std::int32_t refused = 0;
-    for (; place != end; ++place, ++velocity) {
-        const std::uint32_t at = word_of(place) + kHalf<OnU>;
+    for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
+        k = whole(k);
+        const std::uint32_t at = strip.word(k) + half;
+        Speed* m = further(mass, base_of(at, row));
         const Weights w = weights_of(at);
-        const std::int32_t base = base_of(at, stride);
-        Speed* m = mass + base;
-        if (!add_masses(m, m + stride, w)) {
+        if (!add_masses(m, further(m, row), w)) {
             ++refused;
             continue;
         }
-        const std::int32_t v = (OnU ? velocity->x.raw : velocity->y.raw) * 4;  // 512ths
-        Real* p = momentum + base;
-        p[0].raw += w.lower_left * v;
-        p[1].raw += w.lower_right * v;
-        p += stride;
-        p[0].raw += w.upper_left * v;
-        p[1].raw += w.upper_right * v;
+        const Speed velocity = OnU ? strip.velocity(k).x : strip.velocity(k).y;
+        const std::int32_t v = velocity.raw * 4;  // 512ths
+        Real* p = reinterpret_cast<Real*>(2 * reinterpret_cast<std::uintptr_t>(m) + to_momentum);
+        add_two(p, w.lower_left * v, w.lower_right * v);
+        add_two(further(p, 2 * row), w.upper_left * v, w.upper_right * v);
     }
     return refused;
 }
@@ -155,14 +124,17 @@ struct Gather {
     const Transfer<Real>& transfer;
     Pace pace;
     std::int32_t flip;
-    std::uint32_t low;   ///< halves of the lowest places between the tank's walls, a word
-    std::uint32_t high;  ///< and of the highest
+    std::uint32_t high;  ///< halves of the highest places between the tank's walls, a word
 };
 
+/// Halves of the lowest ones.
+constexpr std::uint32_t kGap = Place(kWallGap<Real>).raw;
+constexpr std::uint32_t kLowest = (kGap + 1U) / 2U * 0x10001U;
+
 /// Of a field in 128ths, 2^−15.
-inline std::int32_t weighed(const Speed* low, std::int32_t stride, const Weights& w) {
-    const Speed* high = low + stride;
+inline std::int32_t weighed(const Speed* low, std::int32_t row, const Weights& w) {
 #if defined(__ARM_FEATURE_SIMD32)
+    const Speed* high = further(low, row);
     // Two of 16 bits at a time.
     const auto pair = [](std::int32_t left, std::int32_t right) { return left + right * 0x10000; };
     const auto velocities = [](const Speed* at) {
@@ -176,17 +148,18 @@ inline std::int32_t weighed(const Speed* low, std::int32_t stride, const Weights
 #else
     std::int32_t sum = w.lower_left * low[0].raw;
     sum += w.lower_right * low[1].raw;
+    const Speed* high = whole(further(low, row));
     sum += w.upper_left * high[0].raw;
     sum += w.upper_right * high[1].raw;
     return sum;
 #endif
 }
 
-/// Of what the velocity was a share, and what the faces give. @return its size.
+/// Of what the velocity was a share, and what the faces give. @return its square.
 inline std::int32_t change(std::int16_t& own, std::int32_t flip, std::int32_t gained) {
-    const std::int32_t now = saturated<16>((flip * own + gained * 64 + (1 << 13)) >> 14);
+    const std::int32_t now = saturated<16>((flip * own + gained * 64 + kept(1 << 13)) >> 14);
     own = static_cast<std::int16_t>(now);
-    return absolute(now);
+    return now * now;
 }
 
 /// How far it goes, 256ths: bits that nobody uses decide what is rounded.
@@ -220,8 +193,11 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
 }
 
 /// Those few that go further than a cell, or come to the tank's walls. `way`: 256ths.
-[[gnu::noinline]] void advect_rare(const Gather& gather, Vec2<std::int32_t> way, Vec2<Place>& place,
-                                   Vec2<Speed>& speed, TransferResult<Real>& result) {
+[[gnu::noinline]] void advect_rare(const Gather& gather, Vec2<std::int32_t> way,
+                                   const Strip& strip, std::ptrdiff_t at,
+                                   TransferResult<Real>& result) {
+    Vec2<Place>& place = strip.place(at);
+    Vec2<Speed>& speed = strip.velocity(at);
     const GridShape& s = gather.grid.shape;
     const auto is_far = [](std::int32_t part) { return part < -256 || part > 256; };
     result.far += is_far(way.x) || is_far(way.y) ? 1 : 0;
@@ -239,62 +215,72 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
 constexpr std::int32_t kStrip = 32;
 
 /// Along x: velocities, and how far each particle goes, 256ths. A pass for each component: both
-/// want more registers than there are. @return the fastest, 128ths of a cell a second.
-[[gnu::noinline]] std::int32_t gather_u(const Gather& gather, const Particles<Real>& strip,
-                                        std::int32_t* way_x) {
-    const std::int32_t stride = gather.grid.shape.stride;
-    const Speed* along = gather.grid.u + 1;
-    const Speed* gained = gather.grid.mass_u + 1;
+/// want more registers than there are. @return the square of the fastest, or `fastest`.
+[[gnu::noinline]] std::int32_t gather_u(const Gather& gather, const Particles<Real>& particles,
+                                        std::int32_t* way_x, std::int32_t fastest) {
+    const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
+    const Speed* first = whole(gather.grid.u + 1);
+    const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.u, gather.grid.mass_u));
     const Pace pace = gather.pace;
     const std::int32_t flip = gather.flip;
-    const Vec2<Place>* place = strip.position;
-    const Vec2<Place>* end = place + strip.count;
-    Vec2<Speed>* velocity = strip.velocity;
-    std::int32_t fastest = 0;
-    for (; place != end; ++place, ++velocity, ++way_x) {
-        const std::uint32_t at = word_of(place) + kHalf<true>;
+    const std::uint32_t half = kept(kHalf<true>);
+    const Strip strip(particles);
+    std::int32_t* way = whole(way_x + particles.count);
+    for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
+        k = whole(k);
+        const std::uint32_t at = strip.word(k) + half;
         const Weights w = weights_of(at);
-        const std::int32_t base = base_of(at, stride);
-        *way_x = moves(pace, weighed(along + base, stride, w));
-        fastest = maximum(
-            fastest, change(velocity->x.raw, flip, weighed(gained + base, stride, w)));
+        const Speed* along = further(first, base_of(at, row));
+        *further(way, k) = moves(pace, weighed(along, row, w));
+        fastest = maximum(fastest, change(strip.velocity(k).x.raw, flip,
+                                          weighed(further(along, to_gained), row, w)));
     }
     return fastest;
 }
 
 /// Along y, and there they go.
-[[gnu::noinline]] std::int32_t gather_v(const Gather& gather, const Particles<Real>& strip,
-                                        const std::int32_t* way_x, TransferResult<Real>& result) {
-    const std::int32_t stride = gather.grid.shape.stride;
-    const Speed* along = gather.grid.v + stride;
-    const Speed* gained = gather.grid.mass_v + stride;
+[[gnu::noinline]] std::int32_t gather_v(const Gather& gather, const Particles<Real>& particles,
+                                        const std::int32_t* way_x, std::int32_t fastest,
+                                        TransferResult<Real>& result) {
+    const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
+    const Speed* first = whole(further(gather.grid.v, row));
+    const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.v, gather.grid.mass_v));
     const Pace pace = gather.pace;
     const std::int32_t flip = gather.flip;
-    Vec2<Place>* place = strip.position;
-    const Vec2<Place>* end = place + strip.count;
-    Vec2<Speed>* velocity = strip.velocity;
-    std::int32_t fastest = 0;
-    for (; place != end; ++place, ++velocity, ++way_x) {
-        const std::uint32_t from = word_of(place);
+    const Strip strip(particles);
+    const std::int32_t* ways = whole(way_x + particles.count);
+    for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
+        k = whole(k);
+        const std::uint32_t from = strip.word(k);
         const std::uint32_t at = from + kHalf<false>;
         const Weights w = weights_of(at);
-        const std::int32_t base = base_of(at, stride);
-        const std::int32_t way_y = moves(pace, weighed(along + base, stride, w));
-        fastest = maximum(
-            fastest, change(velocity->y.raw, flip, weighed(gained + base, stride, w)));
+        const Speed* along = further(first, base_of(at, row));
+        const std::int32_t way_y = moves(pace, weighed(along, row, w));
+        fastest = maximum(fastest, change(strip.velocity(k).y.raw, flip,
+                                          weighed(further(along, to_gained), row, w)));
         // Both axes in a word. Halves leave a bit that tells which of them is out of its bounds.
-        const std::uint32_t way =
-            static_cast<std::uint32_t>(*way_x) + static_cast<std::uint32_t>(way_y) * 0x10000U;
+        const std::uint32_t way = static_cast<std::uint32_t>(*further(ways, k)) +
+                                  static_cast<std::uint32_t>(way_y) * 0x10000U;
         const std::uint32_t to = from + way;
         const std::uint32_t half = (to >> 1U) & 0x7FFF7FFFU;
-        const std::uint32_t out = (half - gather.low) | (gather.high - half);
+        const std::uint32_t out = (half - kLowest) | (gather.high - half);
         if (((way + 0x1000100U) & 0xFE00FE00U) == 0 && (out & 0x80008000U) == 0) {
-            __builtin_memcpy(__builtin_assume_aligned(place, 4), &to, sizeof to);
+            __builtin_memcpy(__builtin_assume_aligned(strip.places + k, 4), &to, sizeof to);
         } else {
-            advect_rare(gather, {*way_x, way_y}, *place, *velocity, result);
+            advect_rare(gather, {*further(ways, k), way_y}, strip, k, result);
         }
     }
     return fastest;
+}
+
+/// Of the square of a velocity.
+std::int32_t root_of(std::int32_t square) {
+    std::int32_t root = 0;
+    for (std::int32_t bit = 1 << 15; bit != 0; bit >>= 1) {
+        const std::int32_t more = root + bit;
+        root = more <= 0x8000 && more * more <= square ? more : root;
+    }
+    return root;
 }
 
 }  // namespace
@@ -308,7 +294,6 @@ std::int32_t scatter_packed(const Particles<Real>& particles, StaggeredGrid<Real
 TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
                                    Particles<Real>& particles) {
     const GridShape& s = grid.shape;
-    constexpr std::uint32_t kGap = Place(kWallGap<Real>).raw;
     const auto highest = [](std::int32_t cells) {
         return (static_cast<std::uint32_t>(cells) * 256U - kGap - 1U) / 2U;
     };
@@ -316,17 +301,16 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
                         transfer,
                         pace_of(clock_of(transfer.dt_s)),
                         transfer.flip_ratio.raw >> 2,
-                        (kGap + 1U) / 2U * 0x10001U,
                         highest(s.nx) + highest(s.ny) * 0x10000U};
     TransferResult<Real> result;
     std::int32_t fastest = 0;
     std::int32_t way_x[kStrip];
     for (std::int32_t k = 0; k < particles.count; k += kStrip) {
         const Particles<Real> strip = particles.part(k, minimum(kStrip, particles.count - k));
-        fastest = maximum(fastest, gather_u(gather, strip, way_x));
-        fastest = maximum(fastest, gather_v(gather, strip, way_x, result));
+        fastest = gather_u(gather, strip, way_x, fastest);
+        fastest = gather_v(gather, strip, way_x, fastest, result);
     }
-    result.max_speed = Real::of_raw(512 * fastest);
+    result.max_speed = Real::of_raw(512 * root_of(fastest));
     if (result.max_speed > transfer.limit) {
         limit_all(particles, transfer.limit, result);
         result.max_speed = transfer.limit;

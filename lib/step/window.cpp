@@ -2,8 +2,7 @@
 
 #include <cstring>
 
-#include "step/gather.hpp"
-#include "step/tank_walls.hpp"
+#include "step/substep.hpp"
 
 namespace weir {
 
@@ -23,6 +22,19 @@ std::int32_t first_entry(const GridShape& window) { return window.index(-1, -1);
 
 std::int32_t rounded_up(std::int32_t cells, std::int32_t at_once) {
     return (cells + at_once - 1) / at_once * at_once;
+}
+
+/// A part and what has to be stored around it: what cut cells next to it are is told by the nodes
+/// around those. On the left and below the window's ghosts suffice.
+template <class Real>
+GridShape with_rim(const Simulation<Real>& simulation, const GridShape& part) {
+    const GridShape& tank = simulation.layers.shape;
+    GridShape wider = part;
+    if (simulation.bodies.capacity > 0) {
+        wider.nx = minimum(part.nx + 1, tank.nx - part.i0);
+        wider.ny = minimum(part.ny + 1, tank.ny - part.j0);
+    }
+    return wider;
 }
 
 /// The least window around a part.
@@ -90,6 +102,7 @@ struct Groups {
     std::int32_t* count;
     std::int32_t at_once;
     std::int32_t cells;  ///< of the tank
+    std::int32_t rim;    ///< cells beyond a part that have to be stored
     Part kept = {};
 
     std::int32_t of(std::int32_t cell) const { return maximum(0, cell - kMargin) / at_once; }
@@ -104,7 +117,8 @@ struct Groups {
     }
     /// Cells of a window that holds what is kept.
     std::int32_t width() const {
-        return minimum(cells - kept.first * at_once, (kept.end - kept.first + 1) * at_once);
+        return minimum(cells - kept.first * at_once,
+                       rounded_up((kept.end - kept.first) * at_once + 2 * kMargin + rim, at_once));
     }
 };
 
@@ -171,6 +185,24 @@ void begin_pool(std::int32_t later, Simulation<Real>& simulation) {
 
 }  // namespace
 
+/// The picture of the solids goes along.
+template <class Real>
+void number_walls(const GridShape& window, std::int32_t on, Layers<Real>& layers) {
+    Walls<Real>& walls = layers.walls;
+    move_back(layers.static_distance, on);
+    move_back(layers.static_nearest, on);
+    move_back(layers.nodes, on);
+    move_back(layers.scratch, on);
+    move_back(walls.distance, on);
+    move_back(walls.nearest, on);
+    move_back(walls.cell_case, on);
+    move_back(walls.open_u, on);
+    move_back(walls.open_v, on);
+    move_back(walls.full_density, on);
+    const GridShape before = stored_part(walls, layers.shape);
+    move_back(walls.near, first_near_word(window) - first_near_word(before));
+}
+
 template <class Real>
 void number_cells(const GridShape& window, Simulation<Real>& simulation) {
     StaggeredGrid<Real>& grid = simulation.grid;
@@ -192,9 +224,12 @@ void number_cells(const GridShape& window, Simulation<Real>& simulation) {
         move_back(fields.density, on);
         move_back(fields.level, on);
     }
+    if constexpr (kHasWindow<Real>) {
+        number_walls(window, on, simulation.layers);
+    }
     grid.origin = origin;
     if constexpr (kHasWindow<Real>) {
-        simulation.window.at = window;
+        simulation.layers.walls.stored.at = window;
     }
     simulation.layers.shape.stride = window.stride;
     const std::int32_t coarse = coarse_cells(window.nx);
@@ -203,7 +238,8 @@ void number_cells(const GridShape& window, Simulation<Real>& simulation) {
 
 template <class Real>
 bool fits_window(const Simulation<Real>& simulation, const GridShape& part) {
-    const GridShape window = window_around(simulation.layers.shape, part);
+    const GridShape window =
+        window_around(simulation.layers.shape, with_rim(simulation, part));
     return window.size() <= simulation.window.cells;
 }
 
@@ -215,7 +251,7 @@ bool is_window(const Simulation<Real>& simulation, const GridShape& part) {
     return part.i0 % kWindowColumns == 0 && part.j0 % kWindowRows == 0 &&
            part.i0 < tank.nx && part.j0 < tank.ny && window.nx == part.nx &&
            window.ny == part.ny && (!borders.wrap_x || part.nx == tank.nx) &&
-           (!borders.wrap_y || part.ny == tank.ny) && fits_window(simulation, part);
+           (!borders.wrap_y || part.ny == tank.ny) && window.size() <= simulation.window.cells;
 }
 
 template <class Real>
@@ -225,9 +261,10 @@ GridShape hide_beyond(Simulation<Real>& simulation) {
     Particles<Real>& particles = simulation.particles;
     // Velocity and mass are not yet in use.
     auto* room = reinterpret_cast<std::int32_t*>(simulation.grid.u + simulation.grid.origin);
-    Groups columns{room, borders.wrap_x ? tank.nx : kWindowColumns, tank.nx};
+    const std::int32_t rim = simulation.bodies.capacity > 0 ? 1 : 0;
+    Groups columns{room, borders.wrap_x ? tank.nx : kWindowColumns, tank.nx, rim};
     columns.begin();
-    Groups rows{room + columns.kept.end, borders.wrap_y ? tank.ny : kWindowRows, tank.ny};
+    Groups rows{room + columns.kept.end, borders.wrap_y ? tank.ny : kWindowRows, tank.ny, rim};
     rows.begin();
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<std::int32_t> cell = cell_of(particles, k);
@@ -257,15 +294,17 @@ void show_beyond(Simulation<Real>& simulation) {
 template <class Real>
 std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
     const GridShape& tank = simulation.layers.shape;
-    const GridShape before = simulation.window.at;
-    const GridShape both = united(before, part);
+    const GridShape before = stored_part(simulation);
+    const GridShape rim = with_rim(simulation, part);
+    const GridShape both = united(before, rim);
     if (both.nx == before.nx && both.ny == before.ny) {
         return 0;
     }
     // It stays where it can: liquid that comes and goes does not move it each time.
-    const GridShape now = window_around(tank, fits_window(simulation, both) ? both : part);
-    PressureFields<Real>& fields = simulation.pressure;
     const std::int32_t entries = simulation.window.cells;
+    const bool stays = window_around(tank, both).size() <= entries;
+    const GridShape now = window_around(tank, stays ? both : rim);
+    PressureFields<Real>& fields = simulation.pressure;
     carry(before, now, entries, fields.pressure + simulation.grid.origin);
     auto* density = fields.density + simulation.grid.origin;
     auto* level = fields.level + simulation.grid.origin;
@@ -274,7 +313,7 @@ std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
         level[c] = kEmptyLevel<Real>;
     }
     number_cells(now, simulation);
-    return entries;
+    return entries + simulation.stages->draw_stored(simulation.layers, simulation.bodies);
 }
 
 template <class Real>
@@ -294,42 +333,13 @@ bool look_around(Simulation<Real>& simulation) {
     return true;
 }
 
-template <class Real>
-void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
-                StepReport& report) {
-    const Settings<Real>& settings = simulation.settings;
-    const GridShape& tank = simulation.layers.shape;
-    const Part part = work.take(simulation.window.beyond, 1);
-    Particles<Real> some =
-        simulation.particles.part(part.first - simulation.window.beyond, part.end - part.first);
-    const Transfer<Real> transfer{plan.dt_s, settings.flip_ratio,
-                                  minimum(kLongestWay<Real> / plan.dt_s, kFastest<Real>),
-                                  settings.borders};
-    const Vec2<Real> size{static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)};
-    TransferResult<Real> moved;
-    for (std::int32_t k = 0; k < some.count; ++k) {
-        Vec2<Real> x = some.position[k];
-        Vec2<Real> v = some.velocity[k];
-        v = v + plan.dt_s * settings.gravity;
-        advect<Real>(size, {transfer, some.kind_at(k)}, v, x, v, moved);
-        some.position[k] = x;
-        some.velocity[k] = v;
-    }
-    note(moved, simulation, report);
-    if (work.once(1)) {
-        report.particles_beyond = simulation.window.beyond;
-        show_beyond(simulation);
-    }
-}
-
 #define WEIR_INSTANTIATE(Real)                                                              \
     template bool fits_window(const Simulation<Real>&, const GridShape&);                   \
     template bool is_window(const Simulation<Real>&, const GridShape&);                     \
     template GridShape hide_beyond(Simulation<Real>&);                                      \
     template void show_beyond(Simulation<Real>&);                                           \
     template std::int32_t move_window(const GridShape&, Simulation<Real>&);                 \
-    template bool look_around(Simulation<Real>&);                                           \
-    template void fly_beyond(Simulation<Real>&, const SubstepPlan<Real>&, Work, StepReport&);
+    template bool look_around(Simulation<Real>&);
 WEIR_INSTANTIATE(float)
 WEIR_INSTANTIATE(double)
 WEIR_INSTANTIATE(Fixed)

@@ -15,7 +15,10 @@ inline GridShape least_window(const Capacity& capacity, bool seam_x, bool seam_y
         return seam ? cells : minimum(cells, 2 * at_once);
     };
     const std::int32_t nx = least(capacity.cells_x, kWindowColumns, seam_x);
-    return {nx, least(capacity.cells_y, kWindowRows, seam_y), nx + 2};
+    const std::int32_t ny = least(capacity.cells_y, kWindowRows, seam_y);
+    // Among solids one more row is wanted than two groups have.
+    const std::int32_t more = capacity.bodies > 0 ? kWindowRows : 0;
+    return {nx, minimum(capacity.cells_y, ny + more), nx + 2};
 }
 
 /// From now on the arrays hold that window, whatever is in them.
@@ -39,7 +42,7 @@ template <class Real>
 void show_beyond(Simulation<Real>& simulation);
 
 /// Has the window hold that part, which fits: where it has to move, the last pressure is carried
-/// along, and all else is empty. Returns the cost.
+/// along, the solids are drawn there, and all else is empty. Returns the cost.
 template <class Real>
 std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation);
 
@@ -47,10 +50,5 @@ std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation);
 /// what the last one left. False: there is no room for that, and nothing was done.
 template <class Real>
 bool look_around(Simulation<Real>& simulation);
-
-/// Moves the particles that are left out: they fall, and meet the tank's walls.
-template <class Real>
-void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
-                StepReport& report);
 
 }  // namespace weir

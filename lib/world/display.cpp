@@ -45,11 +45,13 @@ Between between(std::int32_t k, std::int32_t pixels, std::int32_t cells, std::in
 }
 
 template <class Field, class Value>
-std::int32_t sample(const Field& field, const Between& x, const Between& y, Value value) {
+std::int32_t sample(const Field& field, std::int32_t beyond, const Between& x, const Between& y,
+                    Value value) {
     const auto at = [&](std::int32_t i, std::int32_t j) {
-        i -= field.first_column;  // what is not stored is empty
+        i -= field.first_column;  // what is not stored is empty, and open
         j -= field.first_row;
-        return 0 <= i && i < field.columns && 0 <= j && j < field.rows ? value(field.at(i, j)) : 0;
+        return 0 <= i && i < field.columns && 0 <= j && j < field.rows ? value(field.at(i, j))
+                                                                       : beyond;
     };
     const auto row = [&](std::int32_t j) {
         const std::int32_t left = at(x.low, j);
@@ -84,20 +86,21 @@ ChangedRows draw(const World<Real>& world, const Display& display) {
         const std::int32_t up = display.height - 1 - row;
         const Between cell_y = between(up, display.height, world.cells_y(), kOne / 2,
                                        world.cells_y());
-        const Between node_y = between(up, display.height, world.cells_y(), 0, distance.rows);
+        const Between node_y = between(up, display.height, world.cells_y(), 0,
+                                       world.cells_y() + 1);
         for (std::int32_t column = 0; column < display.width; ++column) {
             std::uint8_t& pair = display.pixels[(row * display.width + column) / 2];
             const std::uint32_t shift = (column & 1) == 0 ? 4U : 0U;
             const std::uint32_t before = (static_cast<std::uint32_t>(pair) >> shift) & 15U;
             const Between node_x =
-                between(column, display.width, world.cells_x(), 0, distance.columns);
+                between(column, display.width, world.cells_x(), 0, world.cells_x() + 1);
             std::uint32_t shade = display.solid;
             const auto near = [](auto value) { return limited_distance(value); };
-            if (distance.data == nullptr || sample(distance, node_x, node_y, near) > 0) {
+            if (distance.data == nullptr || sample(distance, kOne, node_x, node_y, near) > 0) {
                 const Between cell_x = between(column, display.width, world.cells_x(), kOne / 2,
                                                world.cells_x());
                 const auto full = [](auto value) { return filled(value); };
-                shade = shade_of(display, sample(density, cell_x, cell_y, full), before);
+                shade = shade_of(display, sample(density, 0, cell_x, cell_y, full), before);
             }
             if (shade != before) {
                 pair = static_cast<std::uint8_t>((pair & (0xF0U >> shift)) | shade << shift);

@@ -69,9 +69,13 @@ const char* init_text(Status status) {
         case Status::window_out_of_range:
             return "capacity.window_cells: choose 0 … the cells of the largest tank";
         case Status::window_too_small:
-            return "capacity.window_cells: at least 66 × 18, along a seam the whole tank's";
-        case Status::window_without_bodies:
-            return "with capacity.window_cells a world holds no bodies and counts no forces";
+            return "capacity.window_cells: at least 66 × 18, with bodies × 26, on a seam all";
+        case Status::window_without_thin_walls:
+            return "with capacity.window_cells no thin walls are kept: leave wall_edges at 0";
+        case Status::window_without_forces:
+            return "with capacity.window_cells no forces are counted: leave two_way off";
+        case Status::regions_out_of_place:
+            return "capacity.sleeping_regions: not with two_way, window_cells or periodic borders";
         case Status::memory_missing:
             return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";
@@ -122,6 +126,8 @@ const char* content_text(Status status) {
             return "the world was made without room for forces: set capacity.two_way";
         case Status::free_body_in_small_world:
             return "SmallFixed has no room to solve for bodies: use Fixed, or move it yourself";
+        case Status::regions_missing:
+            return "regions: set capacity.sleeping_regions, and sleep.speed_mps above 0";
         case Status::output_missing: return "the pointer for the result is null";
         case Status::no_free_particle:
             return "no room for that many particles: raise capacity.particles";

@@ -2,6 +2,7 @@
 // until something changes. Nothing is rounded off on the way: it wakes as it fell asleep.
 #pragma once
 
+#include "step/regions.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
@@ -30,7 +31,17 @@ void wake_by_gravity(detail::WorldState<Real>& state, Vec2f gravity_mps2) {
     if (absolute(off.x) > most || absolute(off.y) > most) {
         state.still_gravity_mps2 = gravity_mps2;
         wake(state);
+        if (state.simulation.regions != nullptr) {
+            state.simulation.regions->wake_all();
+        }
     }
+}
+
+/// What is not faster rests, cells/s.
+template <class Real>
+Real resting_speed(const detail::WorldState<Real>& state) {
+    return static_cast<Real>(state.cells_per_m *
+                             static_cast<Face<Real>>(state.def.sleep.speed_mps));
 }
 
 /// Whether no point of any body is faster than that, cells/s. What moves as told is never at rest.
@@ -39,9 +50,7 @@ bool bodies_rest(const BodyTable<Real>& table, Real speed) {
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
         const bool yields = table.load != nullptr && table.load[slot].is_free();
-        const Real reach = maximum(absolute(body.velocity.x), absolute(body.velocity.y)) +
-                           absolute(body.spin) * body.radius;
-        if (body.kind == BodyKind::moving && reach > (yields ? speed : Real(0))) {
+        if (body.kind == BodyKind::moving && body.fastest_point() > (yields ? speed : Real(0))) {
             return false;
         }
     }
@@ -54,8 +63,7 @@ template <class Real>
 void watch_rest(detail::WorldState<Real>& state, const StepReport& report) {
     const Sleep& sleep = state.def.sleep;
     const Simulation<Real>& simulation = state.simulation;
-    const Real speed = static_cast<Real>(state.cells_per_m * static_cast<Face<Real>>(
-                                                                 sleep.speed_mps));
+    const Real speed = resting_speed(state);
     const bool at_rest = report.particles_stuck == 0 && report.particles_removed_stuck == 0 &&
                          report.particles_reset == 0 && simulation.max_speed <= speed &&
                          bodies_rest(simulation.bodies, speed);

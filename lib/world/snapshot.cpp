@@ -125,7 +125,10 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::particle_kind: return all_kinds(from, elements);
         case Block::vertex_local: return all_vertices<Real>(from, elements);
         case Block::piece_index: return all_indices(from, of);
-        case Block::pressure: return all_finite<Real>(from, elements);
+        case Block::pressure:
+        case Block::kept_pressure: return all_finite<Real>(from, elements);
+        case Block::kept_density: return all_finite<DensityOf<Real>>(from, elements);
+        case Block::region_tile: return true;  // any number names a region
         case Block::body_load:
             return all_finite<Face<Real>>(from, elements * (sizeof(BodyLoad<Real>) /
                                                             sizeof(Face<Real>)));
@@ -160,6 +163,7 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::density:
         case Block::level:
         case Block::coarse_cells:
+        case Block::regions:
         case Block::count: break;
     }
     return false;
@@ -271,6 +275,9 @@ void redraw(Simulation<Real>& simulation) {
     simulation.stages = table.used > 0 ? &solid_stages<Real>() : &open_stages<Real>();
     simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = stored_part(simulation);  // what is not kept may stand anywhere
+    if (simulation.regions != nullptr) {
+        simulation.regions->stale = true;
+    }
     clear(simulation.contacts);
     if (table.capacity > 0) {
         redraw_all(simulation.layers, table);
@@ -328,6 +335,9 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
     }
     if constexpr (kHasWindow<Real>) {
         show_beyond(state_->simulation);
+    }
+    if (state_->simulation.regions != nullptr) {
+        hide_sleepers(0, state_->simulation);
     }
     SnapshotReader take(contents, length);
     go_through<MemberRead>(take, true, plan, *state_);

@@ -9,7 +9,7 @@ namespace weir {
 
 inline constexpr std::uint32_t kSnapshotMagic = 0x52494557;  // "WEIR"
 /// Raised with every change of what is written. A changed `layout` shows by itself.
-inline constexpr std::uint32_t kSnapshotVersion = 2;
+inline constexpr std::uint32_t kSnapshotVersion = 3;
 inline constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 
 /// Which arithmetic wrote the numbers: how it writes 1.5.
@@ -71,7 +71,7 @@ inline constexpr std::size_t kHeadBytes = 2 * kWordBytes + sizeof(Head);
 
 inline std::uint64_t capacity_code(const Capacity& of) {
     const auto& [particles, cells_x, cells_y, bodies, moving, vertices, wall_edges, contacts,
-                 two_way, second_liquid, window_cells] = of;
+                 two_way, second_liquid, sleeping_regions, window_cells] = of;
     Hash hash;
     const std::int32_t numbers[] = {particles, cells_x, cells_y,
                                     bodies,    vertices, wall_edges, contacts};
@@ -83,6 +83,9 @@ inline std::uint64_t capacity_code(const Capacity& of) {
     hash.add(static_cast<std::uint32_t>(moving));
     if (is_windowed(of)) {
         hash.add(window_cells);
+    }
+    if (sleeping_regions) {
+        hash.add(std::uint32_t{1});
     }
     return hash.value();
 }
@@ -100,9 +103,16 @@ inline std::uint32_t format_code(const Layout& plan) {
     return static_cast<std::uint32_t>(hash.value());
 }
 
+/// Of the definition, and whether regions sleep.
+template <class Real>
+std::uint64_t definition_code(const detail::WorldState<Real>& state) {
+    return fingerprint(state.def) + (state.simulation.regions != nullptr ? 1U : 0U);
+}
+
 template <class Real>
 Head head_of(const detail::WorldState<Real>& state, std::size_t bytes) {
-    return {bytes, scalar_code<Real>(), capacity_code(state.def.capacity), fingerprint(state.def)};
+    return {bytes, scalar_code<Real>(), capacity_code(state.def.capacity),
+            definition_code(state)};
 }
 
 inline void write_head(SnapshotWriter& writer, const Layout& plan, const Head& head) {
@@ -152,7 +162,7 @@ Status check_frame(const void* data, std::size_t size, const Layout& plan,
     if (head.capacity != capacity_code(state.def.capacity)) {
         return Status::snapshot_of_other_capacity;
     }
-    return head.definition == fingerprint(state.def) ? Status::ok
+    return head.definition == definition_code(state) ? Status::ok
                                                      : Status::snapshot_of_other_definition;
 }
 

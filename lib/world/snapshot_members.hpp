@@ -3,6 +3,7 @@
 // somebody has decided whether it belongs to the state.
 #pragma once
 
+#include "step/regions.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
@@ -48,6 +49,25 @@ void any_member(Stream& stream, Vec2<Real>& vector) {
     any_member(stream, vector.y);
 }
 
+/// Whoever sleeps, but for tiles and what is kept of the grid, which are blocks.
+template <class Real, class Stream>
+void region_members(Stream& stream, std::int32_t particles, Regions<Real>& record) {
+    [[maybe_unused]] auto& [stages, tiles_x, tiles_y, tile, kept_pressure, kept_density, speed,
+                            after_s, asleep, hidden, watched_s, dt_s, used, woken, all_woken,
+                            any_woken, restless, stale, phase] = record;
+    stream.member(asleep, 0, particles);
+    stream.member(watched_s, 0.0F, after_s);
+    positive_member(stream, dt_s);
+    for (std::int32_t k = 0; k < kRegionWords; ++k) {
+        stream.member(used.bits[k], 0U, 0xFFFFFFFFU);
+        stream.member(woken.bits[k], 0U, 0xFFFFFFFFU);
+    }
+    stream.member(all_woken, false, true);
+    stream.member(any_woken, false, true);
+    stream.member(restless, false, true);
+    stream.member(phase, 0, kSampled - 1);
+}
+
 /// Members of the world. Settings come from the definition, which has to be the same; of them only
 /// gravity changes by a call. Walls are drawn again from the bodies.
 template <class Real, class Stream>
@@ -55,31 +75,41 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, still_s, still_gravity, pending,
            substeps_left, plan, progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
-                            bodies, layers, free_bodies, body_diagonal,
-                            contacts, gathered, extent, max_speed, ticks, stages] = simulation;
+                            bodies, layers, walls_behind, walls_moved, free_bodies, body_diagonal,
+                            contacts, gathered, extent, max_speed, ticks, stages,
+                            regions] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, last_dt, change, solve] = pressure_fields;
+                            on_surface, leaps, drifted, last_dt, change, sound_speed,
+                            solve] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,
                             vertex_capacity, vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, thin, nodes, scratch] = layers;
-    [[maybe_unused]] auto& [active, moving, binary, elastic, sticking, distance, nearest, cell_case,
-                            open_u, open_v, full_density, near, wall_body, thin_walls, wall_bodies,
-                            wall_load, particle_mass] = walls;
+    [[maybe_unused]] auto& [active, moving, binary, sticking, wall_bodies, distance,
+                            nearest, cell_case, open_u, open_v, full_density, near, wall_body,
+                            thin_walls, wall_load, particle_mass, stored] = walls;
     any_member(stream, settings.gravity);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);
+    stream.member(walls_behind, Seconds<Real>{}, Seconds<Real>(1));
     stream.member(change, Real(0), Real(1));
+    stream.member(sound_speed, Real(0), settings.sound_speed);
     stream.member(on_surface, false, true);
+    if constexpr (Stored<Real>::coarse) {
+        stream.member(drifted, 0, 0xFFFF);
+    }
     stream.member(still_s, 0.0F, def.sleep.after_s);
     any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);
     Extents extents;
     extents.particles = stream.member(count, 0, capacity);
     extents.vertices = stream.member(vertices_used, 0, vertex_capacity);
+    if (regions != nullptr) {
+        region_members(stream, extents.particles, *regions);
+    }
     if constexpr (kHasWindow<Real>) {
         if (window.cells > 0) {
-            GridShape& at = extents.window = window.at;
+            GridShape& at = extents.window = stored.at;
             at.i0 = stream.member(at.i0, 0, shape.nx);
             at.j0 = stream.member(at.j0, 0, shape.ny);
             at.nx = stream.member(at.nx, 1, shape.nx);

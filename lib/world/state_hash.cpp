@@ -6,16 +6,41 @@ namespace weir {
 
 namespace {
 
-/// Of all cells of the tank: those that are not stored are empty.
+/// Of all cells of the tank: those that are not stored are empty, those that sleep are kept apart.
 template <class Real>
-void hash_field(Hash& hash, const Real* field, const GridShape& tank, const GridShape& window) {
+void hash_pressure(Hash& hash, const Simulation<Real>& simulation) {
+    const GridShape& tank = simulation.layers.shape;
+    const GridShape window = stored_part(simulation);
+    const Regions<Real>* regions = simulation.regions;
     const std::int32_t first = window.i0 - 1;
     const std::int32_t last = window.i0 + window.nx;
     for (std::int32_t j = 0; j < tank.ny; ++j) {
         const bool stored = window.j0 - 1 <= j && j <= window.j0 + window.ny;
         for (std::int32_t i = 0; i < tank.nx; ++i) {
+            const bool asleep =
+                regions != nullptr && regions->is_number(regions->tile[regions->tile_at(i, j)]);
+            const Real* field = asleep ? regions->pressure : simulation.pressure.pressure;
             hash.add(stored && first <= i && i <= last ? field[tank.index(i, j)] : Real(0));
         }
+    }
+}
+
+template <class Real>
+void hash_regions(Hash& hash, const Regions<Real>& regions) {
+    hash.add(regions.asleep);
+    hash.add(regions.watched_s);
+    hash.add(regions.dt_s);
+    const bool flags[] = {regions.all_woken, regions.any_woken, regions.restless};
+    for (const bool flag : flags) {
+        hash.add(static_cast<std::uint32_t>(flag));
+    }
+    hash.add(static_cast<std::uint32_t>(regions.phase));
+    for (std::int32_t k = 0; k < kRegionWords; ++k) {
+        hash.add(regions.used.bits[k]);
+        hash.add(regions.woken.bits[k]);
+    }
+    for (std::int32_t tile = 0; tile < regions.tiles(); ++tile) {
+        hash.add(static_cast<std::uint32_t>(regions.tile[tile]));
     }
 }
 
@@ -77,18 +102,23 @@ std::uint64_t World<Real>::state_hash() const {
             hash.add(static_cast<std::uint32_t>(particles.kind[k]));
         }
     }
-    hash_field(hash, simulation.pressure.pressure, simulation.layers.shape,
-               stored_part(simulation));
+    hash_pressure(hash, simulation);
     hash.add(simulation.pressure.last_dt);
     const Real numbers[] = {simulation.pressure.change, simulation.max_speed,
                             simulation.settings.gravity.x, simulation.settings.gravity.y};
     for (const Real number : numbers) {
         hash.add(number);
     }
+    if (simulation.pressure.sound_speed > Real(0)) {
+        hash.add(simulation.pressure.sound_speed);
+    }
     if (may_sleep(*state_)) {
         hash.add(state_->still_s);
         hash.add(state_->still_gravity_mps2.x);
         hash.add(state_->still_gravity_mps2.y);
+    }
+    if (simulation.regions != nullptr) {
+        hash_regions(hash, *simulation.regions);
     }
     hash_bodies(hash, simulation.bodies);
     return hash.value();

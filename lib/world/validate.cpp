@@ -101,17 +101,25 @@ Status check_window(const WorldDef& def, const Reach& reach) {
     if (!reach.everything) {
         return Status::small_fixed_has_no_window;
     }
-    if (capacity.bodies > 0 || capacity.two_way) {
-        return Status::window_without_bodies;
+    if (capacity.wall_edges > 0) {
+        return Status::window_without_thin_walls;
+    }
+    if (capacity.two_way) {
+        return Status::window_without_forces;
     }
     // In narrow tanks, too: counts of particles along the sides stand in it.
     const std::int32_t least =
-        maximum(entries_of(2 * kWindowColumns, 2 * kWindowRows),
+        maximum(entries_of(2 * kWindowColumns, (capacity.bodies > 0 ? 3 : 2) * kWindowRows),
                 least_window(capacity, def.periodic_x, def.periodic_y).size());
     return capacity.window_cells < least ? Status::window_too_small : Status::ok;
 }
 
 Status check_sleep(const WorldDef& def) {
+    const Capacity& capacity = def.capacity;
+    if (capacity.sleeping_regions && (capacity.two_way || is_windowed(capacity) ||
+                                      def.periodic_x || def.periodic_y)) {
+        return Status::regions_out_of_place;
+    }
     const bool in_range = within(def.sleep.speed_mps, 0.0F, kMaxSpeed * def.cell_m) &&
                           within(def.sleep.after_s, 0.1F, 1000.0F) &&
                           within(def.sleep.gravity_mps2, 0.0F, kMaxGravity);

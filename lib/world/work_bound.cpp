@@ -19,6 +19,9 @@ void fill_up(const GridShape& stored, Simulation<Real>& simulation) {
     simulation.gathered = simulation.particles.capacity;
     simulation.grid.shape = stored;
     simulation.occupied = stored;
+    if constexpr (kHasWindow<Real>) {
+        simulation.layers.walls.stored.at = stored;
+    }
     PressureFields<Real>& fields = simulation.pressure;
     CoarseGrid<Real>& coarse = fields.coarse;
     coarse.shape = {coarse_cells(stored.nx), coarse_cells(stored.ny), coarse.shape.stride};
@@ -73,7 +76,7 @@ Status World<Real>::work_bound(float dt_s, WorkBound* bound, std::int32_t rung) 
     SubstepPlan<Real> plan;
     if (dt > Seconds<Real>{}) {
         plan = plan_substeps(simulation, dt);
-        climb(clamp(rung, 0, kRungs - 1), plan);
+        climb(clamp(rung, 0, kRungs - 1), simulation, plan);
         bound->substeps = plan.substeps;
     }
     plan.viscosity = simulation.settings.viscosity;

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "math/lanes.hpp"
+#include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "step/window.hpp"
 #include "world/validate.hpp"
@@ -69,8 +70,11 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     } else {
         layers.nodes = layers.scratch;
     }
+    if constexpr (kHasWindow<Real>) {
+        layers.walls.stored.bodies = is_windowed(capacity) ? &bodies : nullptr;
+    }
     layers.walls.body = bodies.body;
-    layers.walls.bodies = capacity.bodies;
+    layers.walls.bodies = static_cast<std::int16_t>(capacity.bodies);
     if (capacity.bodies > 0 && capacity.wall_edges > 0) {
         ThinWalls<Real>& thin = layers.thin;
         carver.take(Block::wall_edge, thin.edge);
@@ -151,7 +155,7 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
 #endif
     carve_solids(carver, capacity, simulation);
     carver.take(Block::contact, simulation.contacts.entry);
-    simulation.contacts.capacity = capacity.contacts;
+    simulation.contacts.capacity = static_cast<std::uint16_t>(capacity.contacts);
     const GridShape tank{capacity.cells_x, capacity.cells_y, capacity.cells_x + 2};
     number_cells(is_windowed(capacity) ? least_window(capacity, borders.wrap_x, borders.wrap_y)
                                        : tank,
@@ -180,7 +184,8 @@ Borders<Real> borders_of(const WorldDef& def, Face<Real> cells_per_m) {
 /// After fewer a coarse correction may leave more energy than it found.
 constexpr std::int32_t kLeastSweeps = 4;
 
-/// With an equation of state each particle too many pushes: livelier liquid gains what it stirs.
+/// With an equation of state a blow stores much where the liquid is thin: some share of PIC keeps
+/// that from tearing it apart.
 template <class Real>
 constexpr Real kElasticFlip = Real(0.97);
 
@@ -202,8 +207,8 @@ Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
     settings.second_density = static_cast<Real>(def.second_density_ratio);
     settings.borders = borders_of<Real>(def, cells_per_m);
     settings.cfl = static_cast<Real>(def.cfl);
-    settings.sweeps = maximum(def.pressure_sweeps, kLeastSweeps);
-    settings.max_substeps = def.max_substeps;
+    settings.sweeps = static_cast<std::int16_t>(maximum(def.pressure_sweeps, kLeastSweeps));
+    settings.max_substeps = static_cast<std::int16_t>(def.max_substeps);
     settings.pressure = def.pressure;
     settings.keep_sorted = def.keep_sorted;
     Face<Real> sound_speed = cells_per_m * static_cast<Face<Real>>(def.sound_speed_mps);
@@ -232,6 +237,15 @@ void name_units(WorldState<Real>& state) {
 template <class Number>
 FieldView<Number> view_of(const Number* field, const GridShape& window) {
     return {field + window.index(0, 0), window.nx, window.ny, window.stride, window.i0, window.j0};
+}
+
+/// What is looked at between steps also shows those who sleep.
+template <class Real>
+void show_asleep(WorldState<Real>& state) {
+    Simulation<Real>& simulation = state.simulation;
+    if (simulation.regions != nullptr && !state.stepping) {
+        simulation.regions->stages->show_fields(simulation);
+    }
 }
 
 /// Different for two worlds that live at the same time. Part of names only, never of the state.
@@ -263,8 +277,7 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     simulation.settings = settings_of<Real>(def, state_->cells_per_m);
     carve(Carver(memory, plan), def.capacity, simulation.settings.borders, simulation);
     simulation.pressure.leaps =
-        def.pressure == Pressure::projection &&
-        (simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F);
+        simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F;
     simulation.ticks = def.ticks;
 #if WEIR_PARALLEL
     state_->progress.parallel_for = def.parallel_for;
@@ -272,7 +285,6 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     simulation.stages = &open_stages<Real>();
     simulation.layers.contour = def.contour;
     simulation.layers.walls.binary = def.contour == Contour::mid_edge;
-    simulation.layers.walls.elastic = def.pressure == Pressure::equation_of_state;
     name_units(*state_);
     for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {
         new (simulation.bodies.body + slot) Body<Real>();
@@ -298,6 +310,7 @@ FieldView<Real> World<Real>::pressure() const {
     if (state_ == nullptr) {
         return {};
     }
+    show_asleep(*state_);
     return view_of(state_->simulation.pressure.pressure, stored_part(state_->simulation));
 }
 
@@ -306,6 +319,7 @@ FieldView<DensityOf<Real>> World<Real>::density() const {
     if (state_ == nullptr) {
         return {};
     }
+    show_asleep(*state_);
     return view_of(state_->simulation.pressure.density, stored_part(state_->simulation));
 }
 
@@ -323,8 +337,9 @@ FieldView<DistanceOf<Real>> World<Real>::signed_distance() const {
     if (state_ == nullptr || state_->def.capacity.bodies == 0) {
         return {};
     }
-    const GridShape& s = state_->simulation.layers.shape;
-    return {state_->simulation.layers.walls.distance + s.index(0, 0), s.nx + 1, s.ny + 1, s.stride};
+    const GridShape s = stored_part(state_->simulation);
+    return {state_->simulation.layers.walls.distance + s.index(0, 0), s.nx + 1, s.ny + 1, s.stride,
+            s.i0, s.j0};
 }
 
 template <class Real>

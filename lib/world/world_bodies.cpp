@@ -3,6 +3,7 @@
 
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/moments.hpp"
+#include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "world/sleep.hpp"
 #include "world/validate.hpp"
@@ -56,8 +57,10 @@ void set_velocity(const WorldState<Real>& state, const Motion& motion, Body<Real
 }
 
 template <class Real>
-bool touches_tank(const GridShape& shape, const BodyTable<Real>& table, const Body<Real>& body) {
-    return !nodes_near(table.ring(body), body.vertex_count, Real(0.5), shape.nx, shape.ny).empty();
+NodeBox box_of(const Simulation<Real>& simulation, const Body<Real>& body) {
+    const GridShape& shape = simulation.layers.shape;
+    return nodes_near(simulation.bodies.ring(body), body.vertex_count, Real(0.5), shape.nx,
+                      shape.ny);
 }
 
 /// Distance of the furthest vertex from the body's origin: spin × this is its fastest point.
@@ -110,7 +113,7 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
         return Status::polygon_crosses_itself;
     }
     place(table, body);
-    if (!touches_tank(layers.shape, table, body)) {
+    if (box_of(state.simulation, body).empty()) {
         table.vertices_used -= body.room;
         return Status::polygon_outside_domain;
     }
@@ -138,6 +141,7 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
         merge_moving(layers, table);
     }
     *id = {static_cast<std::uint16_t>(slot), body.generation, state.tag};
+    touch_regions(state.simulation.regions, table.body[slot].drawn);
     wake(state);
     return Status::ok;
 }
@@ -186,7 +190,10 @@ Status World<Real>::set_motion(BodyId id, const Motion& motion) {
     set_velocity(*state_, motion, body);
     if (position.x != body.position.x || position.y != body.position.y || angle != body.angle) {
         body.moved = true;
-        place(state_->simulation.bodies, body);
+        BodyTable<Real>& table = state_->simulation.bodies;
+        place(table, body);
+        touch_regions(state_->simulation.regions, body.drawn);
+        touch_regions(state_->simulation.regions, box_of(state_->simulation, body));
         wake(*state_);
     }
     if (velocity.x != body.velocity.x || velocity.y != body.velocity.y || spin != body.spin) {
@@ -227,6 +234,7 @@ Status World<Real>::remove_body(BodyId id) {
         return known;
     }
     BodyTable<Real>& table = state_->simulation.bodies;
+    touch_regions(state_->simulation.regions, table.body[id.slot].drawn);
     remove_drawn(state_->simulation.layers, table, id.slot);
     if (table.load != nullptr) {
         table.load[id.slot] = BodyLoad<Real>{};

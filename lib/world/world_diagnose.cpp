@@ -3,6 +3,8 @@
 #include "pressure/surface_level.hpp"
 #include "step/grid_update.hpp"
 #include "step/particle_to_grid.hpp"
+#include "step/regions.hpp"
+#include "step/substep.hpp"
 #include "step/window.hpp"
 #include "world/world_state.hpp"
 
@@ -81,6 +83,7 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     const double cell_m = static_cast<double>(state_->def.cell_m);
     *diagnostics = {};
     sum_particles(simulation, cell_m, *diagnostics);
+    simulation.stages->draw_moved(simulation.layers, simulation.bodies);
     if constexpr (kHasWindow<Real>) {
         if (simulation.window.cells > 0 && !look_around(simulation)) {
             return Status::ok;
@@ -93,6 +96,10 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     grid_update(borders, Vec2<Real>{}, Seconds<Real>{}, simulation.pressure.level, simulation.grid);
     sum_cells(simulation, cell_m, *diagnostics);
     simulation.grid.shape = simulation.layers.shape;
+    if (simulation.regions != nullptr) {  // what sleeps was written, too: no substep may see it
+        simulation.occupied = simulation.layers.shape;
+        simulation.regions->stale = true;
+    }
     return Status::ok;
 }
 

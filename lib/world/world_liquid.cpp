@@ -1,5 +1,6 @@
 // The liquid in a world: particles added, removed and seen.
 #include "fluid/seeding.hpp"
+#include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "weir/world.hpp"
 #include "world/sleep.hpp"
@@ -54,6 +55,16 @@ Status check_kind(const WorldState<Real>& state, Liquid kind) {
     return state.def.capacity.second_liquid ? Status::ok : Status::no_second_liquid;
 }
 
+template <class Real>
+void add(Simulation<Real>& simulation, Vec2<Real> at, Vec2<Real> velocity, Liquid kind) {
+    Particles<Real>& particles = simulation.particles;
+    particles.add(at, velocity, kind);
+    if (simulation.regions != nullptr) {
+        simulation.regions->stages->touch_at(*simulation.regions,
+                                             particles.position[particles.count - 1]);
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -74,7 +85,7 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
         return known;
     }
     Simulation<Real>& simulation = state_->simulation;
-    Particles<Real>& particles = simulation.particles;
+    const Particles<Real>& particles = simulation.particles;
     const auto in_cells = [&](Vec2f metres) {
         return convert<Real>(state_->cells_per_m * convert<Face<Real>>(metres));
     };
@@ -83,6 +94,7 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
     const std::int32_t per_axis = lattice_per_axis(state_->def.particles_per_cell);
     const GridShape& shape = simulation.grid.shape;
     const Walls<Real>& walls = simulation.layers.walls;
+    simulation.stages->draw_moved(simulation.layers, simulation.bodies);
     const auto each_seed = [&](auto visit) {
         for_each_seed(shape, low, high, per_axis, [&](Vec2<Real> at) {
             if (!walls.active || !simulation.stages->inside_solid(shape, walls, at)) {
@@ -95,7 +107,7 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
     if (seeds > particles.capacity - particles.count) {
         return Status::no_free_particle;
     }
-    each_seed([&](Vec2<Real> at) { particles.add(at, {}, kind); });
+    each_seed([&](Vec2<Real> at) { add(simulation, at, {}, kind); });
     wake(*state_);
     if (added != nullptr) {
         *added = seeds;
@@ -122,13 +134,14 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         convert<Real>(state_->cells_per_m * convert<Face<Real>>(position_m));
     const Vec2<Real> inside = within_tank(simulation.grid.shape, at);
     const Walls<Real>& walls = simulation.layers.walls;
+    simulation.stages->draw_moved(simulation.layers, simulation.bodies);
     if (walls.active &&
         simulation.stages->inside_solid(simulation.grid.shape, walls, inside)) {
         return Status::particle_inside_solid;
     }
     const Vec2<Real> velocity =
         convert<Real>(state_->cells_per_m * convert<Face<Real>>(velocity_mps));
-    simulation.particles.add(inside, velocity, kind);
+    add(simulation, inside, velocity, kind);
     wake(*state_);
     simulation.max_speed = maximum(simulation.max_speed,
                                    maximum(absolute(velocity.x), absolute(velocity.y)));
@@ -141,9 +154,13 @@ Status World<Real>::remove_particle(std::int32_t index) {
     if (free != Status::ok) {
         return free;
     }
-    Particles<Real>& particles = state_->simulation.particles;
+    Simulation<Real>& simulation = state_->simulation;
+    Particles<Real>& particles = simulation.particles;
     if (index < 0 || index >= particles.count) {
         return Status::no_such_particle;
+    }
+    if (simulation.regions != nullptr) {
+        index = simulation.regions->stages->part_with(simulation, index);
     }
     particles.remove(index);
     wake(*state_);
@@ -152,24 +169,32 @@ Status World<Real>::remove_particle(std::int32_t index) {
 
 template <class Real>
 View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const {
-    return state_ == nullptr ? View<Vec2<PositionOf<Real>>>{}
-                             : View<Vec2<PositionOf<Real>>>{state_->simulation.particles.position,
-                                                state_->simulation.particles.count};
+    if (state_ == nullptr) {
+        return {};
+    }
+    const Particles<Real>& particles = state_->simulation.particles;
+    const std::int32_t hidden = hidden_of(state_->simulation);
+    return {particles.position - hidden, particles.count + hidden};
 }
 
 template <class Real>
 View<Vec2<VelocityOf<Real>>> World<Real>::particle_velocities() const {
-    return state_ == nullptr ? View<Vec2<VelocityOf<Real>>>{}
-                             : View<Vec2<VelocityOf<Real>>>{state_->simulation.particles.velocity,
-                                                state_->simulation.particles.count};
+    if (state_ == nullptr) {
+        return {};
+    }
+    const Particles<Real>& particles = state_->simulation.particles;
+    const std::int32_t hidden = hidden_of(state_->simulation);
+    return {particles.velocity - hidden, particles.count + hidden};
 }
 
 template <class Real>
 View<Liquid> World<Real>::particle_kinds() const {
-    return state_ == nullptr || state_->simulation.particles.kind == nullptr
-               ? View<Liquid>{}
-               : View<Liquid>{state_->simulation.particles.kind,
-                              state_->simulation.particles.count};
+    if (state_ == nullptr || state_->simulation.particles.kind == nullptr) {
+        return {};
+    }
+    const Particles<Real>& particles = state_->simulation.particles;
+    const std::int32_t hidden = hidden_of(state_->simulation);
+    return {particles.kind - hidden, particles.count + hidden};
 }
 
 #define WEIR_INSTANTIATE(Real)                                                      \

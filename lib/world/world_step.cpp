@@ -28,9 +28,11 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
         convert<Real>(state_->cells_per_m * convert<Face<Real>>(limited));
     // The pressure that a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
-    const Real now = length(gravity);
-    if (now < before && simulation.settings.pressure == Pressure::projection &&
-        !is_asleep(*state_)) {
+    const bool elastic = simulation.settings.pressure == Pressure::equation_of_state;
+    const Real now = elastic && before > Real(0)
+                         ? maximum(Real(0), dot(gravity, simulation.settings.gravity) / before)
+                         : length(gravity);
+    if (now < before && !is_asleep(*state_)) {
         simulation.pressure.change = simulation.pressure.change * (now / before);
     }
     simulation.settings.gravity = gravity;
@@ -72,7 +74,8 @@ void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepR
         }
         report.dt_s = static_cast<float>(dt);
         const std::int32_t planned = plan.substeps;
-        climb(report.rung, plan);
+        climb(report.rung, simulation, plan);
+        report.walls_held = plan.walls_held;
         if (plan.substeps < planned) {
             mark(report, Clamped::time_step);
             report.dt_s = static_cast<float>(plan.substeps) * static_cast<float>(plan.dt_s);
@@ -89,6 +92,9 @@ void end(detail::WorldState<Real>& state) {
     Simulation<Real>& simulation = state.simulation;
     StepReport& report = *state.report;
     simulation.layers.walls.active = simulation.bodies.used > 0;
+    if (report.walls_held) {
+        simulation.walls_behind_s = static_cast<Seconds<Real>>(report.dt_s);
+    }
     finish(simulation.contacts);
     report.contacts_missed = simulation.contacts.missed;
     if (report.particles_slowed > 0) {
@@ -105,6 +111,9 @@ void end(detail::WorldState<Real>& state) {
     if (may_sleep(state)) {
         watch_rest(state, report);
         report.asleep = is_asleep(state);
+        const std::int32_t apart =
+            simulation.regions != nullptr ? simulation.regions->asleep : 0;
+        report.particles_asleep = report.asleep ? report.particles : apart;
     }
     state.stepping = false;
 }

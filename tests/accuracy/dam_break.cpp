@@ -144,7 +144,7 @@ Outcome run_until(Scheme& scheme, const Case& c, double end, bool pressures) {
         scheme.advance();
         const double t = k * scheme.interval();
         const Particles now = scheme.particles();
-        const double e = energy(now, setup.gravity, scheme.interval()).total();
+        const double e = energy(now, setup.gravity, scheme.own_step()).total();
         largest = std::max(largest, e);
         energies.add(t, e / initial);
         by_particle.add(t, front(now) * unit);

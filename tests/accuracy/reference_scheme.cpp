@@ -27,6 +27,7 @@ public:
         const double sound = setup.sound_speed * setup.options.sound_scale;
         substeps_ = std::max(1, static_cast<int>(std::ceil(interval_ * sound / kSoundCfl)));
         step_ = interval_ / substeps_;
+        own_step_ = step_;
         config_ = {};
         config_.cells_x = setup.nx;
         config_.cells_y = setup.ny;

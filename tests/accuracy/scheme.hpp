@@ -79,6 +79,8 @@ public:
 
     /// The interval, rounded to what the scheme can represent.
     double interval() const { return interval_; }
+    /// The last of its own steps: velocities are those of half of it before the positions.
+    double own_step() const { return own_step_; }
     /// Wall time spent in the scheme's own steps since the start.
     double seconds() const { return seconds_; }
     /// Physical time since the start, as far as `seconds` counts it.
@@ -95,6 +97,7 @@ public:
 
 protected:
     double interval_ = 0.0;
+    double own_step_ = 0.0;
     double seconds_ = 0.0;
     double time_ = 0.0;
     std::int64_t steps_ = 0;

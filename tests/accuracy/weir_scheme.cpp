@@ -73,6 +73,7 @@ public:
         seconds_ += std::chrono::duration<double>(end - begin).count();
         time_ += interval_;
         steps_ += report.substeps;
+        own_step_ = interval_ / report.substeps;
         reset_ += report.particles_reset;
         if (report.dt_s != step_) {
             throw std::runtime_error("the library shortened a step");

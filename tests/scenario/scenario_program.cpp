@@ -18,6 +18,9 @@
 #ifndef WEIR_SCENARIO_FIXED
 #define WEIR_SCENARIO_FIXED 1
 #endif
+#ifndef WEIR_SCENARIO_SMALL
+#define WEIR_SCENARIO_SMALL 1
+#endif
 
 namespace {
 
@@ -120,6 +123,8 @@ int main() {
     }
     if constexpr (WEIR_SCENARIO_FIXED != 0) {
         ok = run_all<weir::Fixed>(text, most) && ok;
+    }
+    if constexpr (WEIR_SCENARIO_SMALL != 0) {
         ok = run_all<weir::SmallFixed>(text, most) && ok;
     }
     if (g_facts && port::stack_bytes() != 0) {

@@ -30,12 +30,22 @@ struct Scene {
     BodyDef body;
     Vec2f places[3];
     int bodies = 0;
+    int lattice = 0;  ///< bodies along each axis, besides
     bool moving = false;
     bool settle = false;  ///< to be at rest before it is measured
     bool look = false;
     bool diagnose = false;
+    std::int32_t pools = 0;  ///< side by side, into one of which water falls; 0: another scene
+    bool alone = false;      ///< only that pool has water
     int steps = 40;
 };
+
+constexpr std::int32_t kPools = 10;
+constexpr std::int32_t kPoolCells = 24;
+constexpr std::int32_t kPitchCells = 32;  ///< a pool and the wall beside it
+constexpr std::int32_t kSplashed = 4;
+constexpr std::int32_t kParticlesAPool = 4 * kPoolCells * 12;
+constexpr std::int32_t kSplash = 4 * 12 * 12;
 
 constexpr Vec2f kBar[] = {{-3 * kCell, -kCell}, {3 * kCell, -kCell}, {3 * kCell, kCell},
                           {-3 * kCell, kCell}};
@@ -57,6 +67,33 @@ void add_bodies(Scene& scene, float height_m) {
         scene.places[scene.bodies] = {0.2F + 0.3F * static_cast<float>(scene.bodies), height_m};
         ++scene.bodies;
     }
+}
+
+/// Bodies all over a tank, on a lattice that leaves out where the liquid is.
+void add_level(Scene& scene, bool all_over) {
+    constexpr int kLattice = 32;
+    constexpr int kMost = kLattice * kLattice;
+    scene.def.capacity.bodies = 3 + kMost;
+    scene.def.capacity.vertices = 4 * scene.def.capacity.bodies;
+    scene.def.capacity.moving_bodies = false;
+    scene.lattice = all_over ? kLattice : 0;
+}
+
+constexpr Vec2f kWall[] = {{0, 0}, {8 * kCell, 0}, {8 * kCell, 30 * kCell}, {0, 30 * kCell}};
+
+/// Pools with walls between them. Used: all of them go on while water falls into one.
+Scene pools(Way way) {
+    Scene scene = tank(kPools * kPitchCells, 48);
+    scene.pools = kPools;
+    scene.alone = way == Way::absent;
+    Capacity& capacity = scene.def.capacity;
+    capacity.particles = kPools * kParticlesAPool + kSplash;
+    capacity.bodies = kPools;
+    capacity.vertices = 4 * kPools;
+    capacity.sleeping_regions = way == Way::skipped;
+    scene.def.sleep.speed_mps = way == Way::skipped ? 0.02F : 0.0F;
+    scene.def.sleep.after_s = 0.25F;
+    return scene;
 }
 
 Scene scene_of(const char* name, Way way) {
@@ -84,9 +121,16 @@ Scene scene_of(const char* name, Way way) {
             scene.water = {{464 * kCell, 496 * kCell}, {512 * kCell, 512 * kCell}};
             scene.def.gravity_mps2 = {0.0F, 9.81F};
         }
+    } else if (is("level")) {
+        scene = way == Way::absent ? tank(160, 64) : tank(4096, 4096);
+        scene.def.capacity.window_cells = way == Way::skipped ? 162 * 66 : 0;
+        add_bodies(scene, 0.15F);
+        add_level(scene, way != Way::absent);
     } else if (is("sleep")) {
         scene.settle = true;
         def.sleep.speed_mps = way == Way::skipped ? 0.01F : 0.0F;
+    } else if (is("regions")) {
+        scene = pools(way);
     } else if (is("looking")) {
         scene.look = way != Way::absent;
         scene.diagnose = way == Way::used;
@@ -116,13 +160,45 @@ extern "C" __attribute__((noinline)) void weir_skip_measured(World<float>& world
     for (int step = 0; step < scene.steps; ++step) {
         const StepReport report = world.step(kDt);
         const std::int32_t substeps = report.substeps > 0 ? report.substeps : 1;
-        run.particle_substeps += static_cast<std::int64_t>(report.particles) * substeps;
+        const std::int32_t count =
+            scene.pools > 0 ? kParticlesAPool + kSplash : report.particles;
+        run.particle_substeps += static_cast<std::int64_t>(count) * substeps;
+        run.asleep = report.particles_asleep;
         run.nodes += report.nodes_rasterized;
         if (scene.look) {
             look_at(world, scene.diagnose);
         }
     }
 }
+
+namespace {
+
+Box box_of(std::int32_t x, std::int32_t y, std::int32_t width, std::int32_t height) {
+    return {{static_cast<float>(x) * kCell, static_cast<float>(y) * kCell},
+            {static_cast<float>(x + width) * kCell, static_cast<float>(y + height) * kCell}};
+}
+
+void set_up_pools(World<float>& world, const Scene& scene) {
+    for (std::int32_t k = 0; k < scene.pools; ++k) {
+        BodyDef wall;
+        wall.polygon = {kWall, 4};
+        wall.motion.position_m = {static_cast<float>(k * kPitchCells + kPoolCells) * kCell, 0.0F};
+        BodyId id;
+        require(world.add_static_body(wall, &id));
+        if (!scene.alone || k == kSplashed) {
+            require(world.fill(box_of(k * kPitchCells, 0, kPoolCells, 12)));
+        }
+    }
+    if (scene.def.capacity.sleeping_regions) {
+        require(world.let_regions_sleep());
+    }
+    for (int step = 0; step < 200; ++step) {
+        world.step(kDt);
+    }
+    require(world.fill(box_of(kSplashed * kPitchCells + 6, 20, 12, 12)));
+}
+
+}  // namespace
 
 Run run(const Case& which, Way way) {
     Scene scene = scene_of(which.name, way);
@@ -135,7 +211,17 @@ Run run(const Case& which, Way way) {
         require(scene.moving ? world.add_moving_body(scene.body, &id)
                              : world.add_static_body(scene.body, &id));
     }
-    require(world.fill(scene.water));
+    for (int k = 0; k < scene.lattice * scene.lattice; ++k) {
+        BodyId id;
+        const auto place = [](int n) { return (64.0F + 126.0F * static_cast<float>(n)) * kCell; };
+        scene.body.motion.position_m = {place(k % scene.lattice), 2.0F + place(k / scene.lattice)};
+        require(world.add_static_body(scene.body, &id));
+    }
+    if (scene.pools > 0) {
+        set_up_pools(world, scene);
+    } else {
+        require(world.fill(scene.water));
+    }
     for (int step = 0; step < (scene.settle ? 150 : 10); ++step) {
         world.step(kDt);
     }
@@ -143,6 +229,10 @@ Run run(const Case& which, Way way) {
     const auto start = std::chrono::steady_clock::now();
     weir_skip_measured(world, scene, result);
     result.world_bytes = memory.size();
+    if (scene.def.capacity.sleeping_regions && result.asleep != (kPools - 1) * kParticlesAPool) {
+        std::fprintf(stderr, "%d asleep\n", static_cast<int>(result.asleep));
+        std::exit(1);
+    }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

@@ -27,7 +27,9 @@ inline constexpr Case kCases[] = {
     {"tension", "0", {false, true, true}},
     {"second_liquid", "no room for it", {false, true, true}},
     {"domain", "4096 x 4096 cells, of which those around the same water are stored", {true, true, true}},
+    {"level", "the same with 1,024 bodies all over it, three of them in the water", {true, true, false}},
     {"sleep", "a world at rest, asleep", {true, true, false}},
+    {"regions", "a splash beside nine pools at rest, asleep", {true, true, true}},
     {"looking", "views of particles and pressure", {true, true, true}},
 };
 
@@ -37,6 +39,7 @@ struct Run {
     std::int64_t nodes = 0;  ///< rasterized
     std::size_t world_bytes = 0;
     double seconds = 0.0;
+    std::int32_t asleep = 0;  ///< at the end
 };
 
 /// Sets the case up and measures some steps of it, in `weir_skip_measured`.

@@ -151,11 +151,18 @@ const std::vector<Row>& init_rows() {
         {"window below", CHANGED_INIT(capacity.window_cells, -1), Status::window_out_of_range},
         {"window beyond", CHANGED_INIT(capacity.window_cells, 8194 * 8194 + 1),
          Status::window_out_of_range},
-        {"window with bodies", CHANGED_INIT(capacity.window_cells, 200),
-         Status::window_without_bodies},
+        {"window with thin walls", CHANGED_INIT(capacity.wall_edges = 1;
+                                                def.capacity.window_cells, 200),
+         Status::window_without_thin_walls},
+        {"window with forces", CHANGED_INIT(capacity.two_way = true;
+                                            def.capacity.window_cells, 200),
+         Status::window_without_forces},
         {"window too small", CHANGED_INIT(capacity.window_cells = 66 * 18 - 1;
                                           def.capacity.bodies = 0; def.capacity.cells_x, 500),
          Status::window_too_small},
+        {"sleeping regions and forces", CHANGED_INIT(capacity.sleeping_regions = true;
+                                                     def.capacity.two_way, true),
+         Status::regions_out_of_place},
         {"wall restitution below", CHANGED_INIT(walls.left.restitution, -0.01F),
          Status::restitution_out_of_range},
         {"wall restitution beyond", CHANGED_INIT(walls.right.restitution, 1.01F),

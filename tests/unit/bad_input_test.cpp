@@ -172,6 +172,8 @@ const std::vector<Row>& body_rows() {
              return (*world).add_free_body(body_of(kSquare4cm, {0.1F, 0.2F}), &id);
          },
          Status::two_way_missing},
+        {"regions without room for them",
+         [](Fixture& world) { return (*world).let_regions_sleep(); }, Status::regions_missing},
         {"free body in a small world",
          [](Fixture&) {
              WorldDef def = small_def();

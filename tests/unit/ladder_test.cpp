@@ -2,6 +2,7 @@
 // repeated with the recorded rungs has the same bits.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "busy_world.hpp"
@@ -34,12 +35,13 @@ TYPED_TEST(LadderOf, EveryRungCostsLessAndSaysSo) {
         }
         const StepReport report = world->step(kDt, rung);
         EXPECT_EQ(report.rung, rung);
-        EXPECT_EQ(report.has(Clamped::time_step), rung >= 3);
-        EXPECT_EQ(report.dt_s < kDt, rung >= 3);
-        if (rung == 4) {
+        EXPECT_EQ(report.has(Clamped::time_step), rung >= 4);
+        EXPECT_EQ(report.dt_s < kDt, rung >= 4);
+        if (rung == 5) {
             EXPECT_EQ(report.substeps, 1);
         }
-        EXPECT_TRUE(rung == 0 || work_of(report) < before) << rung;
+        EXPECT_FALSE(report.walls_held) << "nothing moves";
+        EXPECT_TRUE(rung == 0 || rung == 3 || work_of(report) < before) << rung;
         before = work_of(report);
     }
 }
@@ -78,6 +80,51 @@ TYPED_TEST(LadderOf, RecordedRungsReplayToTheBit) {
         ASSERT_EQ(cut->state_hash(), live->state_hash()) << step;
     }
     EXPECT_TRUE(seen[0] && seen[kRungs - 1]);
+}
+
+/// On the third rung a bar that turns is drawn every other step, and where it belongs. Nobody comes
+/// through it or is caught by it.
+TYPED_TEST(LadderOf, BodiesAreHeldEveryOtherStep) {
+    WorldDef def = dam_def();
+    def.capacity.bodies = 2;
+    def.capacity.vertices = 8;
+    TestWorld<TypeParam> world(def);
+    TestWorld<TypeParam> exact(def);
+    const Ring ring = rectangle(0.2F, 0.04F);
+    BodyDef bar = body_of(ring, {0.32F, 0.12F});
+    bar.motion.spin_radps = 3.0F;
+    BodyId id;
+    BodyId other;
+    for (TestWorld<TypeParam>* one : {&world, &exact}) {
+        expect_ok((*one)->add_moving_body(bar, one == &world ? &id : &other));
+        expect_ok((*one)->fill({{0, 0}, {0.24F, 0.36F}}));
+    }
+    const std::int32_t all = world->particle_positions().size;
+    std::int32_t stuck = 0;
+    for (int step = 0; step < 200; ++step) {
+        WorkBound bound;
+        expect_ok(world->work_bound(1.0F / 60.0F, &bound, 3));
+        const StepReport report = world->step(1.0F / 60.0F, 3);
+        const StepReport full = exact->step(1.0F / 60.0F, 2);
+        ASSERT_EQ(report.walls_held, step % 2 == 0);
+        EXPECT_EQ(report.nodes_rasterized == 0, report.walls_held);
+        EXPECT_EQ(bound.substep[0] < 50, report.walls_held) << "the bound knows";
+        EXPECT_LE(work_of(report), bound.step);
+        EXPECT_EQ(report.particles, all - report.particles_removed_stuck);
+        stuck += report.particles_stuck + report.particles_removed_stuck;
+        Motion held;
+        Motion told;
+        expect_ok(world->motion(id, &held));
+        expect_ok(exact->motion(other, &told));
+        const float turned = std::remainder(told.angle_rad - held.angle_rad, 6.2831853F);
+        EXPECT_NEAR(turned, report.walls_held ? 3.0F * full.dt_s : 0.0F, 2.0e-3F);
+    }
+    EXPECT_EQ(stuck, 0);
+    expect_ok(world->set_motion(id, {{0.32F, 0.16F}, 0.0F, {}, 1.0F}));
+    EXPECT_FALSE(world->step(1.0F / 60.0F, 3).walls_held) << "it was put elsewhere";
+    expect_ok(world->set_motion(id, {{0.32F, 0.16F}, 0.0F, {4.0F, 0.0F}, 0.0F}));
+    world->step(1.0F / 60.0F, 3);
+    EXPECT_FALSE(world->step(1.0F / 60.0F, 3).walls_held) << "too fast";
 }
 
 /// Whoever stays on a rung for ever gets slower and rougher water, nothing worse.

@@ -106,10 +106,9 @@ constexpr std::int32_t kKinds = kBusyKinds + 1;
 WorldDef small_def(std::int32_t kind) {
     WorldDef def = busy_def(kind);
     if (kind == kBusyKinds) {
-        def.capacity.bodies = 0;
         def.capacity.cells_x = 90;
         def.capacity.cells_y = 60;
-        def.capacity.window_cells = 66 * 18;
+        def.capacity.window_cells = 66 * 26;
     }
     def.capacity.particles = 60;
     def.max_substeps = 2;

@@ -49,13 +49,18 @@ struct Capacity {
     /// Room and time for what liquid does to bodies and tank: `World::force`, `add_free_body`.
     bool two_way = false;
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
+    /// Room for `World::let_regions_sleep`: 8 bytes a cell (double: 16, SmallFixed: 5). Not with
+    /// `two_way`, `window_cells` or periodic borders.
+    bool sleeping_regions = false;
     /// Of a huge tank store only the cells around the liquid, so many; 0, or as many as the tank
     /// has: all of it. They hold the rectangle around all particles and 4 cells more on each side,
     /// out to multiples of 32 columns and 8 rows, and a ring around that; at least 66 × 18, along
-    /// a seam the whole tank. As long as that suffices no bit is different. If it does not, the
-    /// sides that hold the fewest particles are left off: those fall by themselves, meet the
-    /// tank's walls and no other particle, and change places in the views, until they come back
-    /// into reach; `StepReport::particles_beyond` counts them. Not with bodies, nor in SmallFixed.
+    /// a seam the whole tank. With room for bodies a cell more above and on the right, at least
+    /// 66 × 26. As long as that suffices no bit is different. If it does not, the sides that hold
+    /// the fewest particles are left off: those fall by themselves, meet the tank's walls, the
+    /// bodies and no other particle, and change places in the views, until they come back into
+    /// reach; `StepReport::particles_beyond` counts them. What a body buries there stays in it, and
+    /// goes along, until then. Not with thin walls or `two_way`, nor in SmallFixed.
     std::int32_t window_cells = 0;
 };
 
@@ -105,6 +110,7 @@ constexpr TankWalls every_wall(const Surface& surface) {
 
 /// When a world may stop: once nothing in it was faster for that long, its steps do nothing, at
 /// next to no cost, until gravity, a body or a particle is changed. `StepReport::asleep` tells.
+/// Liquid that lies apart sleeps by itself after `World::let_regions_sleep`.
 struct Sleep {
     /// Of any particle along an axis, and of any free body, m/s; 0 (never sleeps) … kMaxSpeed
     /// cells/s. Water without viscosity is long in calming down: try 0.02 √(gh), h the depth.

@@ -73,6 +73,10 @@ enum class Block : std::uint8_t {
     density,
     level,
     coarse_cells,  ///< numbers for each cell of the pressure's coarse grid
+    regions,       ///< what is known of sleeping regions, in one record
+    region_tile,   ///< for each 4 × 4 cells the number of the region that sleeps there
+    kept_pressure,  ///< of sleeping liquid
+    kept_density,
     count
 };
 inline constexpr std::int32_t kBlockCount = static_cast<std::int32_t>(Block::count);
@@ -94,8 +98,9 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? 864 : 1152) + (std::is_same_v<Real, Fixed> ? 16 : 0)
-        : 1368;
+        ? (sizeof(void*) == 4 ? (Stored<Real>::shares_momentum ? 864 : 880) : 1152) +
+              (std::is_same_v<Real, Fixed> ? 16 : 0)
+        : 1376;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
@@ -103,6 +108,8 @@ template <class Real>
 inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
 inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 84 : 168;
+template <class Real>
+inline constexpr std::size_t kRegionsBytes = sizeof(Real) == 4 ? 144 : 160;
 
 /// The pressure's coarse grid: cells along an edge of its cells, and numbers for each of them.
 inline constexpr std::int32_t kCoarseEdge = 4;
@@ -120,6 +127,9 @@ constexpr std::int32_t coarse_cells(std::int32_t cells) {
 /// end there, or with the tank.
 inline constexpr std::int32_t kWindowColumns = 32;
 inline constexpr std::int32_t kWindowRows = 2 * kCoarseEdge;
+
+/// Regions that sleep are known by tiles of so many cells along an edge.
+inline constexpr std::int32_t kTileEdge = kCoarseEdge;
 
 /// No part is lower: a particle's row, and a margin on one side at least.
 inline constexpr std::int32_t kLeastPart = 5;
@@ -173,6 +183,20 @@ constexpr std::int32_t coarse_entries(const Capacity& capacity) {
     return most;
 }
 
+/// Words with a bit a cell.
+template <class Real>
+constexpr std::int32_t near_entries(const Capacity& capacity) {
+    if (Stored<Real>::shares_momentum || !is_windowed(capacity)) {
+        return (capacity.cells_x + 31) / 32 * capacity.cells_y;
+    }
+    std::int32_t most = 0;
+    for_each_window(capacity, [&](std::int32_t columns, std::int32_t rows) {
+        const std::int32_t entries = (columns + 31) / 32 * rows;
+        most = most < entries ? entries : most;
+    });
+    return most;
+}
+
 /// Largest index of a piece list: a triangle per vertex, each a count and three vertex numbers.
 inline constexpr std::size_t kPieceIndicesPerVertex = 4;
 /// Scratch of the decomposition into pieces, numbers.
@@ -191,13 +215,19 @@ struct Layout {
 };
 
 namespace detail {
-struct LayoutRow {
-    Block block;
-    Owner owner;
-    Kept kept;
-    std::size_t element_bytes;
-    std::size_t elements;
-};
+/// Behind those that were placed before.
+constexpr void place(Block block, Owner owner, Kept kept, std::size_t element_bytes,
+                     std::size_t elements, Layout& result) {
+    const std::size_t bytes = (element_bytes * elements + world_alignment - 1) /
+                              world_alignment * world_alignment;
+    const auto slot = static_cast<std::size_t>(block);
+    result.offset[slot] = result.total_bytes;
+    result.bytes[slot] = bytes;
+    result.element_bytes[slot] = static_cast<std::uint16_t>(element_bytes);
+    result.kept[slot] = kept;
+    result.owner_bytes[static_cast<std::size_t>(owner)] += bytes;
+    result.total_bytes += bytes;
+}
 }  // namespace detail
 
 /// Numbers of the pressure's coarse grid, for each of its cells.
@@ -219,74 +249,73 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t coarse_fields = count(coarse_fields_of<Real>(capacity));
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
     const std::size_t moving_cells = capacity.moving_bodies ? solid_cells : 0;
-    const std::size_t near_words =
-        capacity.bodies > 0 ? (count(capacity.cells_x) + 31) / 32 * count(capacity.cells_y) : 0;
+    const std::size_t near_words = capacity.bodies > 0 ? count(near_entries<Real>(capacity)) : 0;
     const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
     const std::size_t thin = wall_edges > 0 ? 1 : 0;
     const std::size_t loads = capacity.two_way ? count(capacity.bodies) + 1 : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
+    const std::size_t kept_cells = capacity.sleeping_regions ? cells : 0;
+    const std::size_t tiles = capacity.sleeping_regions ? count(coarse_cells(capacity.cells_x)) *
+                                                              count(coarse_cells(capacity.cells_y))
+                                                        : 0;
     const std::size_t point = 2 * sizeof(Real);
     const std::size_t bodies = count(capacity.bodies), index = sizeof(std::uint16_t);
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
     const std::size_t speed = sizeof(VelocityOf<Real>);
     const std::size_t distance = sizeof(DistanceOf<Real>);
     const std::size_t share = sizeof(ShareOf<Real>);
-    const detail::LayoutRow rows[] = {
-        {Block::world_state, Owner::world, Kept::members, kWorldStateBytes<Real>, 1},
-        {Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
-         particles},
-        {Block::particle_velocity, Owner::particles, Kept::particles, 2 * speed, particles},
-        {Block::particle_kind, Owner::particles, Kept::particles, 1,
-         capacity.second_liquid ? particles : 0},
-        {Block::body_table, Owner::bodies, Kept::members, kBodyBytes<Real>, bodies},
-        {Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts)},
-        {Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices},
-        {Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices},
-        {Block::piece_index, Owner::vertices, Kept::vertices, kPieceIndicesPerVertex * index,
-         vertices},
-        {Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
-         kScratchPerVertex * vertices},
-        {Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads},
-        {Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0},
-        {Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells},
-        {Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), moving_cells},
-        {Block::merged_distance, Owner::contour, Kept::redrawn, distance, solid_cells},
-        {Block::merged_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), solid_cells},
-        {Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells},
-        {Block::near_wall, Owner::contour, Kept::redrawn, sizeof(std::uint32_t), near_words},
-        {Block::open_u, Owner::cut_cells, Kept::redrawn, share, solid_cells},
-        {Block::open_v, Owner::cut_cells, Kept::redrawn, share, solid_cells},
-        {Block::full_density, Owner::cut_cells, Kept::redrawn, share, solid_cells},
-        {Block::wall_edge, Owner::thin_walls, Kept::redrawn, kWallEdgeBytes, wall_edges},
-        {Block::wall_edge_of_cell, Owner::thin_walls, Kept::redrawn, index, thin * cells},
-        {Block::wall_mark, Owner::thin_walls, Kept::redrawn, 1, thin * cells},
-        {Block::wall_span, Owner::thin_walls, Kept::redrawn, index, thin * vertices},
-        {Block::wall_body, Owner::thin_walls, Kept::redrawn, kThinBodyBytes<Real>, thin * bodies},
-        {Block::velocity_u, Owner::grid, Kept::nothing, sizeof(Real), cells},
-        {Block::mass_u, Owner::grid, Kept::nothing, speed, cells},
-        {Block::velocity_v, Owner::grid, Kept::nothing, sizeof(Real), cells},
-        {Block::mass_v, Owner::grid, Kept::nothing, speed, cells},
-        {Block::inverse_density_u, Owner::grid, Kept::nothing, speed, mixed_cells},
-        {Block::inverse_density_v, Owner::grid, Kept::nothing, speed, mixed_cells},
-        {Block::pressure, Owner::pressure, Kept::whole, sizeof(Real), cells},
-        {Block::divergence, Owner::pressure, Kept::nothing, scratch, cells},
-        {Block::inverse_diagonal, Owner::pressure, Kept::nothing, scratch, cells},
-        {Block::density, Owner::pressure, Kept::nothing, sizeof(DensityOf<Real>), cells},
-        {Block::level, Owner::pressure, Kept::nothing, sizeof(LevelOf<Real>), cells},
-        {Block::coarse_cells, Owner::pressure, Kept::nothing, sizeof(Real), coarse_fields * coarse},
-    };
     Layout result;
-    for (const detail::LayoutRow& row : rows) {
-        const std::size_t bytes = (row.element_bytes * row.elements + world_alignment - 1) /
-                                  world_alignment * world_alignment;
-        const auto slot = static_cast<std::size_t>(row.block);
-        result.offset[slot] = result.total_bytes;
-        result.bytes[slot] = bytes;
-        result.element_bytes[slot] = static_cast<std::uint16_t>(row.element_bytes);
-        result.kept[slot] = row.kept;
-        result.owner_bytes[static_cast<std::size_t>(row.owner)] += bytes;
-        result.total_bytes += bytes;
-    }
+    const auto add = [&result](Block block, Owner owner, Kept kept, std::size_t element_bytes,
+                               std::size_t elements) {
+        detail::place(block, owner, kept, element_bytes, elements, result);
+    };
+    add(Block::world_state, Owner::world, Kept::members, kWorldStateBytes<Real>, 1);
+    add(Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
+        particles);
+    add(Block::particle_velocity, Owner::particles, Kept::particles, 2 * speed, particles);
+    add(Block::particle_kind, Owner::particles, Kept::particles, 1,
+        capacity.second_liquid ? particles : 0);
+    add(Block::body_table, Owner::bodies, Kept::members, kBodyBytes<Real>, bodies);
+    add(Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts));
+    add(Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices);
+    add(Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices);
+    add(Block::piece_index, Owner::vertices, Kept::vertices, kPieceIndicesPerVertex * index,
+        vertices);
+    add(Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
+        kScratchPerVertex * vertices);
+    add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
+    add(Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0);
+    add(Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells);
+    add(Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), moving_cells);
+    add(Block::merged_distance, Owner::contour, Kept::redrawn, distance, solid_cells);
+    add(Block::merged_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), solid_cells);
+    add(Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells);
+    add(Block::near_wall, Owner::contour, Kept::redrawn, sizeof(std::uint32_t), near_words);
+    add(Block::open_u, Owner::cut_cells, Kept::redrawn, share, solid_cells);
+    add(Block::open_v, Owner::cut_cells, Kept::redrawn, share, solid_cells);
+    add(Block::full_density, Owner::cut_cells, Kept::redrawn, share, solid_cells);
+    add(Block::wall_edge, Owner::thin_walls, Kept::redrawn, kWallEdgeBytes, wall_edges);
+    add(Block::wall_edge_of_cell, Owner::thin_walls, Kept::redrawn, index, thin * cells);
+    add(Block::wall_mark, Owner::thin_walls, Kept::redrawn, 1, thin * cells);
+    add(Block::wall_span, Owner::thin_walls, Kept::redrawn, index, thin * vertices);
+    add(Block::wall_body, Owner::thin_walls, Kept::redrawn, kThinBodyBytes<Real>, thin * bodies);
+    add(Block::velocity_u, Owner::grid, Kept::nothing, sizeof(Real), cells);
+    add(Block::mass_u, Owner::grid, Kept::nothing, speed, cells);
+    add(Block::velocity_v, Owner::grid, Kept::nothing, sizeof(Real), cells);
+    add(Block::mass_v, Owner::grid, Kept::nothing, speed, cells);
+    add(Block::inverse_density_u, Owner::grid, Kept::nothing, speed, mixed_cells);
+    add(Block::inverse_density_v, Owner::grid, Kept::nothing, speed, mixed_cells);
+    add(Block::pressure, Owner::pressure, Kept::whole, sizeof(Real), cells);
+    add(Block::divergence, Owner::pressure, Kept::nothing, scratch, cells);
+    add(Block::inverse_diagonal, Owner::pressure, Kept::nothing, scratch, cells);
+    add(Block::density, Owner::pressure, Kept::nothing, sizeof(DensityOf<Real>), cells);
+    add(Block::level, Owner::pressure, Kept::nothing, sizeof(LevelOf<Real>), cells);
+    add(Block::coarse_cells, Owner::pressure, Kept::nothing, sizeof(Real), coarse_fields * coarse);
+    add(Block::regions, Owner::world, Kept::members, kRegionsBytes<Real>,
+        capacity.sleeping_regions ? 1U : 0U);
+    add(Block::region_tile, Owner::world, Kept::whole, 1, tiles);
+    add(Block::kept_pressure, Owner::pressure, Kept::whole, sizeof(Real), kept_cells);
+    add(Block::kept_density, Owner::pressure, Kept::whole, sizeof(DensityOf<Real>), kept_cells);
     return result;
 }
 

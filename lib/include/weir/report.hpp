@@ -36,9 +36,10 @@ enum class Clamped : std::uint32_t {
 };
 
 /// The ladder of a deadline: what steps leave off to cost less. 0: nothing. 1: half of the
-/// pressure's sweeps. 2: three quarters of them. 3: and half of the substeps. 4: all substeps but
-/// one. With fewer substeps less time passes: `dt_s` says how much. Numbers are rounded up.
-inline constexpr std::int32_t kRungs = 5;
+/// pressure's sweeps. 2: three quarters of them. 3: and every other step moving bodies stay where
+/// they are drawn: `walls_held`. 4: and half of the substeps. 5: all substeps but one. With fewer
+/// substeps less time passes: `dt_s` says how much. Numbers are rounded up.
+inline constexpr std::int32_t kRungs = 6;
 
 /// What a step costs at most, whatever the state of the world: every cell full, every particle
 /// that there is room for, every moving body moving. In units of `World::advance`.
@@ -61,9 +62,14 @@ struct StepReport {
     /// Nothing moves, and steps do nothing until something is changed: a device may sleep.
     bool asleep = false;
     std::int32_t rung = 0;            ///< of the ladder, as asked for
+    /// Bodies moved on as the liquid feels it, but were not drawn: with the next step they are
+    /// where they would be. Not if one is free, was put elsewhere, or moves by over a cell a step.
+    bool walls_held = false;
     float dt_s = 0.0F;                ///< time that was simulated, or slept
     float max_speed_mps = 0.0F;       ///< of any particle, at the end
     std::int32_t particles = 0;       ///< alive at the end
+    /// Of these, in regions that sleep (`World::let_regions_sleep`), or all in a world asleep.
+    std::int32_t particles_asleep = 0;
     std::int32_t nodes_rasterized = 0;  ///< contour nodes computed anew; 0 if nothing moved
     std::int32_t particles_tested = 0;     ///< in a cell that a contour line crosses or fills
     std::int32_t particles_reflected = 0;  ///< found behind a contour line, or stopped before it
@@ -75,8 +81,8 @@ struct StepReport {
     std::int32_t particles_beyond = 0;
     std::int32_t contacts_missed = 0;  ///< blows on bodies for which the contacts had no room
     /// Cells of groups of 4 × 4 that hold over 15 % too much at the end: a body leaves the liquid
-    /// no room, as a piston in a full tank does. 0 with the equation of state, with surface
-    /// tension, and without `volume_gain`.
+    /// no room, as a piston in a full tank does. 0 with surface tension, and without
+    /// `volume_gain`.
     std::int32_t cells_overfull = 0;
     /// `World<SmallFixed>`: how often a particle came to faces that hold 32 particles already, and
     /// they count no more. It takes part in the liquid again where there is room.

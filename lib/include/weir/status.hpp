@@ -44,7 +44,9 @@ enum class [[nodiscard]] Status : std::uint8_t {
     small_fixed_has_no_window,
     window_out_of_range,
     window_too_small,
-    window_without_bodies,
+    window_without_thin_walls,
+    window_without_forces,
+    regions_out_of_place,
     memory_missing,
     memory_misaligned,
     memory_too_small,
@@ -73,6 +75,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     output_missing,
     two_way_missing,
     free_body_in_small_world,
+    regions_missing,
     // particles
     no_free_particle,
     no_such_particle,

@@ -70,10 +70,20 @@ public:
     /// @param added number of particles, may be null.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
-    /// Removes the particle at that place in the views; the last particle takes its place.
+    /// Removes the particle at that place in the views; the last particle takes its place, but
+    /// after `let_regions_sleep` a sleeper's is taken by another sleeper, and that one's by it.
     Status remove_particle(std::int32_t index);
 
     Status set_gravity(Vec2f gravity_mps2);
+
+    /// From now on liquid that lies apart from all other falls asleep by itself while the rest goes
+    /// on: once nothing in it was faster than `def.sleep` says it is passed over, at next to no
+    /// cost, `after_s` to twice that later. It wakes when gravity changes by more than
+    /// `sleep.gravity_mps2`, when other liquid or a moving body comes within 4 cells, when a body
+    /// is added, moved or removed there, or a particle. Apart is what 4 to 7 empty cells part, as
+    /// it stands to the lines of every fourth cell; a thinner wall does not. Particles keep no
+    /// place in the views then. Not linked unless called. Wants `capacity.sleeping_regions`.
+    Status let_regions_sleep();
 
     /// Simulates dt seconds. Never fails: see StepReport for what was clamped. A step that was
     /// begun is finished first.

@@ -1,0 +1,52 @@
+// Stage: those that a window leaves out.
+#pragma once
+
+#include "step/gather.hpp"
+#include "step/tank_walls.hpp"
+#include "step/window.hpp"
+
+namespace weir {
+
+/// Moves the particles that are left out: they fall, and meet the tank's walls and the solids.
+template <bool Solids, class Real>
+void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                StepReport& report) {
+    const Settings<Real>& settings = simulation.settings;
+    const GridShape& tank = simulation.layers.shape;
+    Particles<Real>& particles = simulation.particles;
+    const Part part = work.take(simulation.window.beyond, 1);
+    Transfer<Real> transfer = transfer_of(settings, plan.dt_s);
+    transfer.near = Real(1) / plan.dt_s;
+    const Vec2<Real> size{static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)};
+    TransferResult<Real> moved;
+    CollideResult<Real> collisions;
+    // From the last one on: who takes the place of one that is removed has been moved.
+    for (std::int32_t k = -1 - part.first; k > -1 - part.end; --k) {
+        const Vec2<PositionOf<Real>> before = particles.position[k];
+        Vec2<Real> x = before;
+        Vec2<Real> v = particles.velocity[k];
+        v = v + plan.dt_s * settings.gravity;
+        moved.far = 0;
+        advect<Real>(size, {transfer, particles.kind_at(k)}, v, x, v, moved);
+        particles.position[k] = x;
+        particles.velocity[k] = v;
+        if constexpr (Solids) {
+            if (simulation.bodies.used > 0) {
+                collide(tank, simulation.layers.walls,
+                        {&before, moved.far > 0, simulation.walls_moved_s, false, true}, k, 1,
+                        particles, simulation.contacts, collisions);
+            }
+        }
+    }
+    note(moved, simulation, report);
+    note(collisions, simulation, report);
+    if (Solids && work.foreseeing()) {
+        work.expect(kBlock<Real>, 1);  // the others fill a block less
+    }
+    if (work.once(1)) {
+        report.particles_beyond = simulation.window.beyond;
+        show_beyond(simulation);
+    }
+}
+
+}  // namespace weir

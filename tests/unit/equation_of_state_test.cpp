@@ -1,0 +1,105 @@
+// The explicit pressure: what it holds up, that it moves with the liquid, and that it gives back
+// no more than it took.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/vec2.hpp"
+#include "test_world.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kCell = 0.02F;
+
+WorldDef elastic_def(std::int32_t nx, std::int32_t ny, std::int32_t particles) {
+    WorldDef def;
+    def.capacity.cells_x = nx;
+    def.capacity.cells_y = ny;
+    def.capacity.particles = particles;
+    def.cell_m = kCell;
+    def.pressure = Pressure::equation_of_state;
+    return def;
+}
+
+template <class Real>
+double energy_of(const World<Real>& world, double gravity_in_cells) {
+    double sum = 0.0;
+    const auto x = world.particle_positions();
+    const auto v = world.particle_velocities();
+    for (std::int32_t k = 0; k < x.size; ++k) {
+        const auto vx = static_cast<double>(static_cast<float>(v[k].x));
+        const auto vy = static_cast<double>(static_cast<float>(v[k].y));
+        sum += 0.5 * (vx * vx + vy * vy) +
+               gravity_in_cells * static_cast<double>(static_cast<float>(x[k].y));
+    }
+    return sum;
+}
+
+template <class Real>
+class EquationOfState : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed>;
+TYPED_TEST_SUITE(EquationOfState, Scalars, );
+
+TYPED_TEST(EquationOfState, HoldsUpAPoolWithoutLossOfVolume) {
+    TestWorld<TypeParam> world{elastic_def(16, 20, 16 * 12 * 4)};
+    expect_ok(world->fill({{0, 0}, {16 * kCell, 12 * kCell}}));
+    double height = 0.0;
+    for (int k = 0; k < 1200; ++k) {
+        world->step(1.0F / 120.0F);
+    }
+    const auto x = world->particle_positions();
+    for (std::int32_t k = 0; k < x.size; ++k) {
+        height += static_cast<double>(static_cast<float>(x[k].y)) / x.size;
+    }
+    EXPECT_NEAR(height / 6.0, 1.0, 0.01);
+    const auto pressure = world->pressure();
+    const double bottom = static_cast<double>(static_cast<float>(pressure.at(8, 0))) *
+                          static_cast<double>(world->pressure_scale());
+    EXPECT_NEAR(bottom / (9.81 * 11.5 * static_cast<double>(kCell)), 1.0, 0.01);
+}
+
+TYPED_TEST(EquationOfState, GivesBackNoMoreThanItTook) {
+    WorldDef def = elastic_def(40, 24, 16 * 16 * 4);
+    def.max_substeps = 64;
+    TestWorld<TypeParam> world{def};
+    expect_ok(world->fill({{0, 0}, {16 * kCell, 16 * kCell}}));
+    const double gravity = 9.81 / static_cast<double>(kCell);
+    const double start = energy_of(*world, gravity);
+    for (int k = 0; k < 200; ++k) {
+        world->step(1.0F / 120.0F);
+        EXPECT_LT(energy_of(*world, gravity), 1.0001 * start) << k;
+    }
+}
+
+/// Liquid that fills a tank without walls moves at three quarters of the speed of sound.
+TYPED_TEST(EquationOfState, MovesWithTheLiquid) {
+    WorldDef def = elastic_def(24, 24, 24 * 24 * 4);
+    def.gravity_mps2 = {0, 0};
+    def.periodic_x = def.periodic_y = true;
+    def.sound_speed_mps = 100 * kCell;
+    TestWorld<TypeParam> world{def};
+    const auto noise = [](int k, int n) {
+        return 0.1F * static_cast<float>((k * n) % 11 - 5) * kCell;
+    };
+    for (int k = 0; k < 48 * 48; ++k) {
+        const Vec2f at{0.25F + 0.5F * static_cast<float>(k % 48),
+                       0.25F + 0.5F * static_cast<float>(k / 48)};
+        expect_ok(world->add_particle(
+            kCell * at, {45 * kCell + noise(k, 3), 60 * kCell + noise(k, 7)}));
+    }
+    for (int k = 0; k < 300; ++k) {
+        world->step(0.02F);
+    }
+    double shaking = 0.0;
+    const auto v = world->particle_velocities();
+    for (std::int32_t k = 0; k < v.size; ++k) {
+        const double x = static_cast<double>(static_cast<float>(v[k].x)) - 45.0;
+        const double y = static_cast<double>(static_cast<float>(v[k].y)) - 60.0;
+        shaking += (x * x + y * y) / v.size;
+    }
+    EXPECT_LT(std::sqrt(shaking), 0.1);
+}
+
+}  // namespace
+}  // namespace weir

@@ -1,0 +1,88 @@
+// Windows of tanks with bodies: the picture of the solids is drawn again wherever the window goes,
+// and around single particles beyond it.
+#include "window_life.hpp"
+
+namespace weir {
+namespace {
+
+constexpr Capacity kLevel = [] {
+    Capacity c;
+    c.particles = 4096, c.cells_x = 4096, c.cells_y = 4096, c.bodies = 1000, c.vertices = 8000;
+    c.window_cells = 320 * 160;
+    return c;
+}();
+static_assert(world_bytes<float>(kLevel) < 4'200'000, "window and polygons decide, not the tank");
+
+template <class Real>
+class WindowBodies : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed>;
+TYPED_TEST_SUITE(WindowBodies, Scalars, );
+
+TYPED_TEST(WindowBodies, HaveTheBitsOfTheWholeTank) {
+    const char* more = std::getenv("WEIR_WINDOWS");
+    const auto seeds = static_cast<std::uint64_t>(more != nullptr ? std::atoi(more) : 2);
+    for (std::int32_t kind = kKinds; kind < kAllKinds; ++kind) {
+        std::int32_t moves = 0;
+        for (std::uint64_t seed = 1; seed <= seeds && !testing::Test::HasFailure(); ++seed) {
+            moves += expect_same_life<TypeParam>(kind, seed, 100);
+        }
+        EXPECT_GT(moves, 5) << "kind " << kind;
+    }
+}
+
+TYPED_TEST(WindowBodies, LoseNobodyHoweverSmallItIs) {
+    for (std::int32_t kind = kKinds; kind < kAllKinds; ++kind) {
+        expect_nobody_lost<TypeParam>(kind);
+    }
+}
+
+/// Where no picture is stored drops fall into a bowl and on a plate that rises: they come through
+/// neither. Nor is liquid put into them.
+TYPED_TEST(WindowBodies, HoldWhatIsBeyond) {
+    using Real = TypeParam;
+    TestWorld<Real> world(windowed(wide_def(9), 66 * 42));
+    BodyId dam;
+    BodyId bowl;
+    BodyId plate;
+    const Ring wall = rectangle(0.1F, 1.0F);
+    const Ring table = rectangle(0.6F, 0.1F);
+    const Ring ring = {{-0.5F, 0.0F}, {0.5F, 0.0F}, {0.5F, 0.4F}, {0.4F, 0.1F}, {-0.4F, 0.1F},
+                       {-0.5F, 0.4F}};
+    expect_ok(world->add_static_body(body_of(ring, {4.0F, 0.6F}), &bowl));
+    expect_ok(world->add_static_body(body_of(wall, {0.35F, 0.5F}), &dam));
+    BodyDef lift = body_of(table, {4.0F, 1.5F});
+    lift.motion.velocity_mps = {0.0F, 0.4F};
+    expect_ok(world->add_moving_body(lift, &plate));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.20F, 0.20F}}));
+    const std::int32_t near = world->particle_positions().size;
+    expect_ok(world->fill({{3.98F, 1.0F}, {4.04F, 1.06F}}));
+    const std::int32_t below = world->particle_positions().size;
+    expect_ok(world->fill({{3.98F, 1.8F}, {4.04F, 1.86F}}));
+    EXPECT_EQ(world->add_particle({4.0F, 0.65F}, {}), Status::particle_inside_solid);
+    std::int32_t seeds = -1;
+    expect_ok(world->fill({{3.7F, 0.61F}, {4.3F, 0.69F}}, &seeds));
+    EXPECT_EQ(seeds, 0) << "all of it is bowl";
+    const std::int32_t all = world->particle_positions().size;
+    for (std::int32_t step = 0; step < 100; ++step) {
+        const StepReport report = world->step(0.01F);
+        EXPECT_EQ(report.particles, all);
+        EXPECT_GE(report.particles_beyond, all - near);
+        EXPECT_EQ(report.particles_stuck, 0);
+        for (std::int32_t k = 0; k < all; ++k) {
+            const auto x = world->particle_positions()[k];
+            const float height = kCell * static_cast<float>(x.y);
+            if (static_cast<float>(x.x) > 100.0F) {
+                EXPECT_GT(height, 0.69F) << "through the bowl, step " << step;
+            }
+        }
+    }
+    std::int32_t lifted = 0;
+    for (std::int32_t k = 0; k < all; ++k) {
+        const auto x = world->particle_positions()[k];
+        lifted += static_cast<float>(x.y) * kCell > 1.94F ? 1 : 0;
+    }
+    EXPECT_EQ(lifted, all - below) << "on the plate";
+}
+
+}  // namespace
+}  // namespace weir
