@@ -131,6 +131,8 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     const auto one = L::all(1.0F);
     const bool elastic = fields.sound_speed > 0.0F;
     const float least = least_fraction(fields);
+    // So far open, a face passes on the whole rise, as `push_through`.
+    const auto wide = L::all(elastic ? 1.0F : 0.25F);
     const auto any_kind = [&](float* velocity, Floats here, Floats before, Floats rise,
                               Floats open) {
         const auto now = L::load(velocity + c);
@@ -155,7 +157,7 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
         const auto rise_x = p - L::load(fields.pressure + c - 1);
         const auto rise_y = p - L::load(fields.pressure + c - stride);
         const auto liquid = L::minimum(here, L::minimum(left, lower)) > zero;
-        if (has_lower && L::all_true(liquid & (L::minimum(wide_u, wide_v) >= L::all(0.25F)))) {
+        if (has_lower && L::all_true(liquid & (L::minimum(wide_u, wide_v) >= wide))) {
             L::store(grid.u + c, L::load(grid.u + c) - rise_x);
             L::store(grid.v + c, L::load(grid.v + c) - rise_y);
             continue;
