@@ -51,12 +51,15 @@ template <class Real>
 inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32_t before,
                        Real light, const ShareOf<Real>* open, const PressureFields<Real>& fields) {
     const Real through = open != nullptr ? Real(open[face]) : Real(1);
-    const bool liquid = fields.level[before] > Real(0) || fields.level[face] > Real(0);
-    if (liquid && through > Real(0)) {
+    const bool wet_before = fields.level[before] > Real(0);
+    const bool wet = fields.level[face] > Real(0);
+    if ((wet || wet_before) && through > Real(0)) {
         const Real rise = light * pressure_rise(fields, before, face, through);
         const Real was = velocity[face];
         const bool pushes = (was > Real(0)) == (rise < Real(0));
-        velocity[face] = was - (pushes ? push_through(through, fields) * rise : rise);
+        const Real share =
+            pushes ? push_through(through, wet && wet_before, fields) : Real(1);
+        velocity[face] = was - share * rise;
     }
 }
 

@@ -40,11 +40,11 @@ inline Real width_of(Real open) {
 
 /// Share of the pressure's rise that an open face passes on where it pushes, and does not brake:
 /// particles around a narrow gap have more mass than goes through, and what the pressure would give
-/// them in energy nothing has lost. A compressible liquid stores so much that only the open share
-/// itself is safe.
+/// them in energy nothing has lost. At its surface a compressible liquid stores so much that only
+/// the open share itself is safe.
 template <class Real>
-inline Real push_through(Real open, const PressureFields<Real>& fields) {
-    return fields.sound_speed > Real(0) ? open : width_of(open);
+inline Real push_through(Real open, bool amid_liquid, const PressureFields<Real>& fields) {
+    return fields.sound_speed > Real(0) && !amid_liquid ? open : width_of(open);
 }
 
 /// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face

@@ -131,8 +131,6 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     const auto one = L::all(1.0F);
     const bool elastic = fields.sound_speed > 0.0F;
     const float least = least_fraction(fields);
-    // So far open, a face passes on the whole rise, as `push_through`.
-    const auto wide = L::all(elastic ? 1.0F : 0.25F);
     const auto any_kind = [&](float* velocity, Floats here, Floats before, Floats rise,
                               Floats open) {
         const auto now = L::load(velocity + c);
@@ -141,7 +139,9 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
         const auto answer =
             both ? rise : rise / fraction_between<L>(least, here, before, open);
         const auto pushes = (now > zero) == (answer < zero);
-        const auto share = pushes ? (elastic ? open : width_of_lanes<L>(open)) : one;
+        const auto width = width_of_lanes<L>(open);
+        const auto through = elastic ? (both ? width : open) : width;
+        const auto share = pushes ? through : one;
         L::store(velocity + c, moves ? now - share * answer : now);
     };
     for (; c + L::kLanes <= end; c += L::kLanes) {
@@ -157,7 +157,7 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
         const auto rise_x = p - L::load(fields.pressure + c - 1);
         const auto rise_y = p - L::load(fields.pressure + c - stride);
         const auto liquid = L::minimum(here, L::minimum(left, lower)) > zero;
-        if (has_lower && L::all_true(liquid & (L::minimum(wide_u, wide_v) >= wide))) {
+        if (has_lower && L::all_true(liquid & (L::minimum(wide_u, wide_v) >= L::all(0.25F)))) {
             L::store(grid.u + c, L::load(grid.u + c) - rise_x);
             L::store(grid.v + c, L::load(grid.v + c) - rise_y);
             continue;
