@@ -150,8 +150,9 @@ inline Stencil<Real> stencil_v(const GridShape& shape, Vec2<Real> point) {
 template <class Field, class Real>
 inline Real interpolate(const Field* field, std::int32_t stride, const Stencil<Real>& at) {
     const Field* p = field + at.base;
+    const Field* upper = whole(p + stride);  // one address for two numbers
     const Real low = p[0] + at.fx * (p[1] - p[0]);
-    const Real high = p[stride] + at.fx * (p[stride + 1] - p[stride]);
+    const Real high = upper[0] + at.fx * (upper[1] - upper[0]);
     return low + at.fy * (high - low);
 }
 

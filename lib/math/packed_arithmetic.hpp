@@ -10,14 +10,6 @@ inline std::int32_t rounded_shift(std::int32_t value, int shift) {
     return (value + (1 << (shift - 1)) + (value >> 31)) >> shift;
 }
 
-/// A pointer, or a number that counts, which the compiler knows nothing about: it can neither be
-/// taken apart nor replaced by others that count along with it.
-template <class Number>
-inline Number whole(Number number) {
-    __asm__("" : "+r"(number));
-    return number;
-}
-
 /// A number that stays in a register, for processors that make it in several instructions.
 template <class Number>
 inline Number kept(Number number) {

@@ -140,6 +140,24 @@ inline float of_bound_key(std::int32_t key) {
     return value;
 }
 
+/// Of such keys, low ≤ key ≤ high, where low and high are not negative.
+template <class Key>
+inline bool is_between(Key key, Key low, Key high) {
+    return low <= key && key <= high;
+}
+inline bool is_between(std::int32_t key, std::int32_t low, std::int32_t high) {
+    return static_cast<std::uint32_t>(key) - static_cast<std::uint32_t>(low) <=
+           static_cast<std::uint32_t>(high) - static_cast<std::uint32_t>(low);
+}
+
+/// A pointer, or a number that counts, which the compiler knows nothing about: it can neither be
+/// taken apart nor replaced by others that count along with it.
+template <class Number>
+inline Number whole(Number number) {
+    __asm__("" : "+r"(number));
+    return number;
+}
+
 /// Largest integer not above the value; |value| < 2^31.
 template <class Real>
 inline std::int32_t floor_to_int(Real value) {

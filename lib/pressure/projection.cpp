@@ -2,6 +2,7 @@
 
 #include "pressure/coarse_correction.hpp"
 #include "pressure/equation_of_state.hpp"
+#include "pressure/project.hpp"
 #include "pressure/project_packed.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/relax_packed.hpp"
@@ -22,12 +23,67 @@ struct Rows {
     std::int32_t high = -1;
 };
 
+/// p[c] is led to what its equation says. `sum`: of the neighbours, each with its face.
+template <class Real>
+inline void relax_cell(Real& p, Real sum, Real divergence, Real inverse) {
+    const Real target = (sum - divergence) * inverse;
+    p += kRelaxation<Real> * (target - p);
+}
+
+/// A cell that a wall touches, or two liquids. Not inline: most are not.
 template <bool Solids, bool Mixed, class Real>
-void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
-           PressureFields<Real>& fields) {
+[[gnu::noinline]] void relax_weighted(const FaceWeights<Solids, Mixed, Real>& weights,
+                                      std::int32_t c, PressureFields<Real>& fields) {
+    const Real inverse = fields.inverse_diagonal[c];
+    if (inverse != Real(0)) {
+        relax_cell<Real>(fields.pressure[c], weights.weighted(fields.pressure, c, inverse),
+                         fields.divergence[c], Solids ? absolute(inverse) : inverse);
+    }
+}
+
+/// Every other cell of a row.
+template <bool Solids, bool Mixed, class Real>
+inline void relax_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t c,
+                        std::int32_t end, PressureFields<Real>& fields) {
+    const std::int32_t up = weights.grid.shape.stride;
+    const VelocityOf<Real>* inverses = fields.inverse_diagonal + c;
+    const VelocityOf<Real>* divergence = fields.divergence + c;
+    Real* p = fields.pressure + c;
+    Real* above = p + up;
+    Real* below = p - up;
+    const auto one = [&](std::int32_t k) {
+        const Real inverse = inverses[k];
+        if (!Mixed && bound_key(inverse) > bound_key(Real(0))) {
+            relax_cell<Real>(p[k], (p[k - 1] + p[k + 1]) + (below[k] + above[k]), divergence[k],
+                             inverse);
+        } else if ((Mixed || Solids) && inverse != Real(0)) {
+            relax_weighted(weights, c + k, fields);
+        }
+    };
+    const auto advance = [&](std::int32_t cells) {
+        c += cells;
+        inverses += cells;
+        divergence += cells;
+        p += cells;
+        above += cells;
+        below += cells;
+    };
+    for (; c + 8 <= end; advance(8)) {
+        one(0);
+        one(2);
+        one(4);
+        one(6);
+    }
+    for (; c < end; advance(2)) {
+        one(0);
+    }
+}
+
+/// Every other cell of some rows. Not inline: the loop wants all registers.
+template <bool Solids, bool Mixed, class Real>
+[[gnu::noinline]] void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows,
+                             std::int32_t colour, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    Real* const p = fields.pressure;
-    const VelocityOf<Real>* const divergence = fields.divergence;
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         const std::int32_t end = s.index(s.nx, j);
         std::int32_t c = s.index((j + colour) & 1, j);
@@ -35,59 +91,7 @@ void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int3
             c = relax_row<Solids>(fields, weights.walls.open_u, weights.walls.open_v,
                                   kRelaxation<Real>, s.stride, c, end);
         }
-        for (; c < end; c += 2) {
-            const Real inverse = fields.inverse_diagonal[c];
-            if (magnitude_key(inverse) != magnitude_key(Real(0))) {
-                const Real target = (weights.weighted(p, c, inverse) - divergence[c]) *
-                                    (Solids ? absolute(inverse) : inverse);
-                p[c] += kRelaxation<Real> * (target - p[c]);
-            }
-        }
-    }
-}
-
-/// u −= 1/density · ∂p/∂x on the face between two neighbouring cells. `open` null: no solids.
-template <class Real>
-inline void accelerate(VelocityOf<Real>* velocity, std::int32_t face, std::int32_t before,
-                       Real light, const ShareOf<Real>* open, const PressureFields<Real>& fields) {
-    const Real through = open != nullptr ? Real(open[face]) : Real(1);
-    const bool wet_before = fields.level[before] > Real(0);
-    const bool wet = fields.level[face] > Real(0);
-    if ((wet || wet_before) && through > Real(0)) {
-        const Real rise = light * pressure_rise(fields, before, face, through);
-        const Real was = velocity[face];
-        const bool pushes = (was > Real(0)) == (rise < Real(0));
-        const Real share =
-            pushes ? push_through(through, wet && wet_before, fields) : Real(1);
-        velocity[face] = was - share * rise;
-    }
-}
-
-template <bool Solids, bool Mixed, class Real>
-void project(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
-             const PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
-    const GridShape& s = grid.shape;
-    const ShareOf<Real>* open_u = Solids ? weights.walls.open_u : nullptr;
-    const ShareOf<Real>* open_v = Solids ? weights.walls.open_v : nullptr;
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        for (std::int32_t i = 0, row = s.index(0, j); i < s.nx; ++i) {
-            if constexpr (kHasLanes<Real> && !Mixed) {
-                if (weights.has_left(i)) {
-                    i = accelerate_lanes(fields, open_u, open_v, weights.has_lower(j), row + i,
-                                         row + s.nx, grid) - row;
-                    if (i == s.nx) {
-                        break;
-                    }
-                }
-            }
-            const std::int32_t c = s.index(i, j);
-            if (weights.has_left(i)) {
-                accelerate(grid.u, c, c - 1, weights.light_u(c), open_u, fields);
-            }
-            if (weights.has_lower(j)) {
-                accelerate(grid.v, c, c - s.stride, weights.light_v(c), open_v, fields);
-            }
-        }
+        relax_cells(weights, c, end, fields);
     }
 }
 

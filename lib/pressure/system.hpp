@@ -76,67 +76,105 @@ Real divergence_of(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t
     return divergence;
 }
 
-/// Whether a cell's faces are all wide open and lead to liquid, inside the tank.
-template <bool Solids, bool Mixed, class Real>
-inline bool is_plain(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
-                     std::int32_t j, const LevelOf<Real>* level) {
-    const Walls<Real>& walls = weights.walls;
-    const GridShape& s = weights.grid.shape;
-    const std::int32_t c = s.index(i, j);
-    return !Mixed && inside_tank(weights.borders, s, i, i, j) &&
-           liquid_around<Real>(level, s.stride, c) &&
-           (!Solids || (untouched(walls, c, c + s.stride) &&
-                        !(walls.moving && touches_wall(walls, c))));
-}
-
-/// The equation of one liquid cell, and where its solve starts. Adds to the sums of the system.
-template <bool Solids, bool Mixed, class Real>
-void build_cell(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
-                const Leap<Real>& leap, PressureFields<Real>& fields, Solve<Real>& system) {
-    const GridShape& s = weights.grid.shape;
-    const std::int32_t c = s.index(i, j);
-    const std::int32_t up = c + s.stride;
-    Real diagonal = Real(4);
+/// The equation of one liquid cell.
+template <class Real>
+struct Equation {
+    Real diagonal;  ///< 0: no face moves
     Real divergence;
-    if (is_plain(weights, i, j, fields.level)) {
-        const StaggeredGrid<Real>& grid = weights.grid;
-        divergence = (Real(grid.u[c + 1]) - Real(grid.u[c])) +
-                     (Real(grid.v[up]) - Real(grid.v[c]));
-        if (fields.leaps) {
-            divergence += wanted_convergence(grid, c, leap);
-        }
-        fields.inverse_diagonal[c] = Real(0.25);
-    } else {
-        diagonal = diagonal_of(weights, i, j, fields);
-        if (!(diagonal > Real(0))) {
-            fields.inverse_diagonal[c] = Real(0);
-            fields.pressure[c] = Real(0);
-            return;
-        }
-        const bool wide = !Solids || untouched(weights.walls, c, up);
-        divergence = divergence_of(weights, i, j, wide, leap, fields);
-        // The sign tells `relax` which cells a wall touches.
-        fields.inverse_diagonal[c] = Real(wide ? 1 : -1) / diagonal;
+};
+
+/// Of any kind. Writes the inverse diagonal. Not inline: most cells are plain.
+template <bool Solids, bool Mixed, class Real>
+[[gnu::noinline]] Equation<Real> any_equation(const FaceWeights<Solids, Mixed, Real>& weights,
+                                              std::int32_t i, std::int32_t j,
+                                              const Leap<Real>& leap,
+                                              PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t c = s.index(i, j);
+    const Real diagonal = diagonal_of(weights, i, j, fields);
+    if (!(diagonal > Real(0))) {
+        fields.inverse_diagonal[c] = Real(0);
+        return {Real(0), Real(0)};
     }
-    fields.divergence[c] = divergence;
-    // A number that is none would stay for ever: the solve starts from the last pressure.
-    const Real scaled = fields.pressure[c] * system.rescale;
-    const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);
-    fields.pressure[c] = start;
-    system.first_row = minimum(system.first_row, j);
-    system.last_row = j;
-    system.wanted = system.wanted - product(start, divergence);
-    system.there = system.there + product(start * diagonal, start);
+    const bool wide = !Solids || untouched(weights.walls, c, c + s.stride);
+    // The sign tells `relax` which cells a wall touches.
+    fields.inverse_diagonal[c] = Real(wide ? 1 : -1) / diagonal;
+    return {diagonal, divergence_of(weights, i, j, wide, leap, fields)};
 }
 
-#if WEIR_HAS_LANES
+/// Of one with liquid all around, inside the tank, whose faces are all wide open.
+template <class Real>
+inline Equation<Real> plain_equation(const StaggeredGrid<Real>& grid, std::int32_t c,
+                                     const Leap<Real>& leap, PressureFields<Real>& fields) {
+    Real divergence = (Real(grid.u[c + 1]) - Real(grid.u[c])) +
+                      (Real(grid.v[c + grid.shape.stride]) - Real(grid.v[c]));
+    if (fields.leaps) {
+        divergence += wanted_convergence(grid, c, leap);
+    }
+    fields.inverse_diagonal[c] = Real(0.25);
+    return {Real(4), divergence};
+}
 
-inline void note_liquid(bool any, std::int32_t j, Solve<float>& system) {
+template <class Real>
+inline void note_liquid(bool any, std::int32_t j, Solve<Real>& system) {
     if (any) {
         system.first_row = minimum(system.first_row, j);
         system.last_row = j;
     }
 }
+
+/// Equations of cells i … end − 1 of a row, and where their solve starts. Adds to the sums of the
+/// system.
+template <bool Solids, bool Mixed, class Real>
+void build_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
+                 std::int32_t end, std::int32_t j, const Leap<Real>& leap,
+                 PressureFields<Real>& fields, Solve<Real>& system) {
+    const Walls<Real>& walls = weights.walls;
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t up = s.stride;
+    const LevelOf<Real>* level = fields.level;
+    const auto wet = [&](std::int32_t c) { return bound_key(Real(level[c])) > bound_key(Real(0)); };
+    const bool row_inside =
+        !Mixed && (weights.borders.wrap_y || (j > 0 && j + 1 < s.ny));
+    const std::int32_t first_inside = weights.borders.wrap_x ? 0 : 1;
+    const std::int32_t last_inside = s.nx - 1 - first_inside;
+    const Real rescale = system.rescale;
+    Product<Real> wanted = system.wanted;
+    Product<Real> there = system.there;
+    bool any = false;
+    for (std::int32_t c = s.index(i, j); i < end; ++i, ++c) {
+        if (!wet(c)) {
+            fields.inverse_diagonal[c] = Real(0);
+            if (!fields.on_surface) {  // otherwise other rows read it meanwhile
+                fields.pressure[c] = Real(0);
+            }
+            continue;
+        }
+        const bool plain = row_inside && i >= first_inside && i <= last_inside && wet(c - 1) &&
+                           wet(c + 1) && wet(c - up) && wet(c + up) &&
+                           (!Solids || (untouched(walls, c, c + up) &&
+                                        !(walls.moving && touches_wall(walls, c))));
+        const Equation<Real> equation = plain ? plain_equation(weights.grid, c, leap, fields)
+                                              : any_equation(weights, i, j, leap, fields);
+        if (!(equation.diagonal > Real(0))) {
+            fields.pressure[c] = Real(0);
+            continue;
+        }
+        fields.divergence[c] = equation.divergence;
+        // A number that is none would stay for ever: the solve starts from the last pressure.
+        const Real scaled = fields.pressure[c] * rescale;
+        const Real start = is_finite(scaled) ? bounded(scaled) : Real(0);
+        fields.pressure[c] = start;
+        any = true;
+        wanted = wanted - product(start, equation.divergence);
+        there = there + product(start * equation.diagonal, start);
+    }
+    system.wanted = wanted;
+    system.there = there;
+    note_liquid(any, j, system);
+}
+
+#if WEIR_HAS_LANES
 
 /// Cells i … i + 3 of any kind in one. False: to be done one by one.
 template <bool Solids>
@@ -269,17 +307,7 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     Solve<Real> system;
     system.rescale = fields.solve.rescale;
     const auto one_by_one = [&](std::int32_t i, std::int32_t end) {
-        for (; i < end; ++i) {
-            const std::int32_t c = s.index(i, j);
-            if (fields.level[c] > Real(0)) {
-                build_cell(weights, i, j, leap, fields, system);
-                continue;
-            }
-            fields.inverse_diagonal[c] = Real(0);
-            if (!fields.on_surface) {  // otherwise other rows read it meanwhile
-                fields.pressure[c] = Real(0);
-            }
-        }
+        build_cells(weights, i, end, j, leap, fields, system);
     };
     std::int32_t i = 0;
 #if WEIR_HAS_LANES

@@ -206,13 +206,24 @@ struct Clear {
           right(bound_key(size.x - kWallGap<Real>)),
           top(bound_key(size.y - kWallGap<Real>)) {}
 
-    bool moves(Vec2<Real> along, Vec2<Real> to) const {
-        const Bound x = bound_key(to.x);
-        const Bound y = bound_key(to.y);
-        return magnitude_key(along.x) <= near && magnitude_key(along.y) <= near && x >= low &&
-               x <= right && y >= low && y <= top;
+    bool moves(Real along_x, Real along_y, Real x, Real y) const {
+        return magnitude_key(along_x) <= near && magnitude_key(along_y) <= near &&
+               is_between(bound_key(x), low, right) && is_between(bound_key(y), low, top);
     }
 };
+
+/// A particle that meets something, or is too fast. Not inline: few do, and the loop over all wants
+/// the registers.
+template <class Real>
+[[gnu::noinline, gnu::cold]] void advect_rare(Vec2<Real> size, const Transfer<Real>& transfer,
+                                               Vec2<Real> along, Vec2<Real> v, std::int32_t k,
+                                               Particles<Real>& particles,
+                                               TransferResult<Real>& result) {
+    Vec2<Real> x = particles.position[k];
+    advect(size, {transfer, particles.kind_at(k)}, along, x, v, result);
+    particles.position[k] = x;
+    particles.velocity[k] = v;
+}
 
 template <class Real>
 TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
@@ -222,28 +233,38 @@ TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real
     const Clear<Real> clear(size, transfer);
     auto fastest = magnitude_key(Real(0));
     TransferResult<Real> result;
-    for (std::int32_t k = 0; k < particles.count; ++k) {
-        Vec2<Real> x = particles.position[k];
-        Vec2<Real> v = particles.velocity[k];
+    Vec2<PositionOf<Real>>* position = particles.position;
+    Vec2<VelocityOf<Real>>* velocity = particles.velocity;
+    const Vec2<PositionOf<Real>>* const end = position + particles.count;
+    for (; position != end; ++position, ++velocity) {
+        const Vec2<Real> x{position->x, position->y};
         const Stencil<Real> at_u = stencil_u(s, x);
         const Stencil<Real> at_v = stencil_v(s, x);
-        const Vec2<Real> along{interpolate(grid.u, s.stride, at_u),
-                               interpolate(grid.v, s.stride, at_v)};
-        v.x = transfer.flip_ratio * v.x + interpolate(grid.mass_u, s.stride, at_u);
-        v.y = transfer.flip_ratio * v.y + interpolate(grid.mass_v, s.stride, at_v);
-        const Vec2<Real> to = x + transfer.dt_s * along;
-        const auto speed_x = magnitude_key(v.x);
-        const auto speed_y = magnitude_key(v.y);
-        const auto speed = speed_x > speed_y ? speed_x : speed_y;
-        if (speed <= clear.limit && clear.moves(along, to)) {
-            fastest = speed > fastest ? speed : fastest;
-            particles.position[k] = to;
-            particles.velocity[k] = v;
-            continue;
+        // By components: pairs of numbers would go by way of the stack.
+        const Real along_x = interpolate(grid.u, s.stride, at_u);
+        const Real along_y = interpolate(grid.v, s.stride, at_v);
+        const Real change_x = interpolate(grid.mass_u, s.stride, at_u);
+        const Real change_y = interpolate(grid.mass_v, s.stride, at_v);
+        const Real new_x = transfer.flip_ratio * velocity->x + change_x;
+        const Real new_y = transfer.flip_ratio * velocity->y + change_y;
+        const Real to_x = x.x + transfer.dt_s * along_x;
+        const Real to_y = x.y + transfer.dt_s * along_y;
+        const auto speed_x = magnitude_key(new_x);
+        const auto speed_y = magnitude_key(new_y);
+        auto most = fastest;
+        if (speed_x > most || speed_y > most) {  // seldom: a branch costs less than a choice
+            most = speed_x > speed_y ? speed_x : speed_y;
         }
-        advect(size, {transfer, particles.kind_at(k)}, along, x, v, result);
-        particles.position[k] = x;
-        particles.velocity[k] = v;
+        if (most <= clear.limit && clear.moves(along_x, along_y, to_x, to_y)) {
+            fastest = most;
+            position->x = to_x;
+            position->y = to_y;
+            velocity->x = new_x;
+            velocity->y = new_y;
+        } else {
+            const auto k = static_cast<std::int32_t>(position - particles.position);
+            advect_rare(size, transfer, {along_x, along_y}, {new_x, new_y}, k, particles, result);
+        }
     }
     result.max_speed = maximum(result.max_speed, Real(magnitude_of_key(fastest)));
     return result;

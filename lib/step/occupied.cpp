@@ -86,32 +86,32 @@ Extent<float> extent(const Particles<float>& particles) {
     return extent_from(found, position, done + fours, particles.count);
 }
 #else
-/// Places are not negative: they compare as whole numbers do. Of two the lower one can only be the
-/// lowest, the higher one the highest.
+/// Places are not negative: they compare as whole numbers do. Few lie outside what those before
+/// them span.
 template <>
 Extent<float> extent(const Particles<float>& particles) {
     const Vec2<float>* position = particles.position;
-    using Key = decltype(bound_key(0.0F));
     struct Range {
-        Key low;
-        Key high;
-        void add(Key a, Key b) {
-            const bool rises = a < b;
-            low = minimum(low, rises ? a : b);
-            high = maximum(high, rises ? b : a);
+        std::uint32_t low;
+        std::uint32_t span = 0;
+        void add(float place) {
+            const auto key = static_cast<std::uint32_t>(bound_key(place));
+            if (key - low > span) {  // a branch costs less than choices
+                span = key < low ? span + (low - key) : key - low;
+                low = minimum(low, key);
+            }
         }
+        float lowest() const { return of_bound_key(static_cast<std::int32_t>(low)); }
+        float highest() const { return of_bound_key(static_cast<std::int32_t>(low + span)); }
     };
-    const Key first_x = bound_key(position[0].x);
-    const Key first_y = bound_key(position[0].y);
-    Range x{first_x, first_x};
-    Range y{first_y, first_y};
-    std::int32_t k = particles.count & 1;
-    for (; k < particles.count; k += 2) {
-        x.add(bound_key(position[k].x), bound_key(position[k + 1].x));
-        y.add(bound_key(position[k].y), bound_key(position[k + 1].y));
+    Range x{static_cast<std::uint32_t>(bound_key(position->x))};
+    Range y{static_cast<std::uint32_t>(bound_key(position->y))};
+    const Vec2<float>* const end = position + particles.count;
+    for (; position != end; ++position) {
+        x.add(position->x);
+        y.add(position->y);
     }
-    return {{of_bound_key(x.low), of_bound_key(y.low)},
-            {of_bound_key(x.high), of_bound_key(y.high)}};
+    return {{x.lowest(), y.lowest()}, {x.highest(), y.highest()}};
 }
 #endif
 

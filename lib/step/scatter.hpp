@@ -22,10 +22,12 @@ inline void scatter(Mass* mass, Real* momentum, std::int32_t stride, const Stenc
     p[0] += w0 * velocity;
     m[1] += right;
     p[1] += right * velocity;
-    m[stride] += upper;
-    p[stride] += upper * velocity;
-    m[stride + 1] += w1;
-    p[stride + 1] += w1 * velocity;
+    m = whole(m + stride);  // one address for two numbers
+    p = whole(p + stride);
+    m[0] += upper;
+    p[0] += upper * velocity;
+    m[1] += w1;
+    p[1] += w1 * velocity;
 }
 
 /// The same of a particle of some density, to those of the four that `seen` names. `mass` null: one
