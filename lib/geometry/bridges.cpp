@@ -243,7 +243,7 @@ bool join_holes(const Outline<Real>& outline, CornerLinks links, ArrayView<std::
 #define WEIR_INSTANTIATE(Real)                                                            \
     template bool join_holes(const Outline<Real>&, CornerLinks, ArrayView<std::uint16_t>, \
                              ArrayView<std::uint16_t>);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

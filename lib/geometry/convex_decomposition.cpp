@@ -286,7 +286,7 @@ std::int32_t decompose(const Outline<Real>& outline, ArrayView<std::uint16_t> sc
 #define WEIR_INSTANTIATE(Real)                                                      \
     template std::int32_t decompose(const Outline<Real>&, ArrayView<std::uint16_t>, \
                                     ArrayView<std::uint16_t>);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -231,7 +231,7 @@ Ear clip_ear(EarClipper<Real>& clipper) {
     template EarClipper<Real> start_clipping(const CornerRing<Real>&, CornerLinks,                 \
                                               ArrayView<std::uint16_t>, ArrayView<std::uint16_t>); \
     template Ear clip_ear(EarClipper<Real>&);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

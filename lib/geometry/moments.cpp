@@ -41,7 +41,7 @@ Moments<Real> moments_of(const Outline<Real>& outline) {
 
 #define WEIR_INSTANTIATE(Real) \
     template Moments<Real> moments_of(const Outline<Real>&);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -60,7 +60,7 @@ bool inside_convex(const Vec2<Real>* vertices, const std::uint16_t* piece, std::
     template Real twice_signed_area(const Vec2<Real>*, std::int32_t);                  \
     template bool inside_convex(const Vec2<Real>*, const std::uint16_t*, std::int32_t, \
                                 Vec2<Real>);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

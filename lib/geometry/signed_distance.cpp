@@ -78,7 +78,7 @@ Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
                                        const Bounds<Real>&);                                \
     template Real signed_distance(const Outline<Real>&, const std::uint16_t*, std::int32_t, \
                                    Vec2<Real>, Real, const Bounds<Real>&);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -62,7 +62,7 @@ Rotation<Real> rotation(Real angle_rad) {
 }
 
 #define WEIR_INSTANTIATE(Real) template Rotation<Real> rotation(Real);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -11,8 +11,17 @@
 #error "weir needs strict floating point: remove -ffast-math (or -Ofast) for its sources"
 #endif
 
-/// Does it for each scalar that worlds come in.
-#define WEIR_FOR_EACH_SCALAR(DO) DO(float) DO(double) DO(Fixed) DO(SmallFixed)
+/// Boards leave World<double> out: none computes in it.
+#if WEIR_WITHOUT_DOUBLE
+#define WEIR_FOR_DOUBLE(DO)
+#else
+#define WEIR_FOR_DOUBLE(DO) DO(double)
+#endif
+/// Does it for each scalar that is not packed; for each that worlds come in; and for each that
+/// there is: outlines are checked in double everywhere.
+#define WEIR_FOR_EACH_ROOMY_SCALAR(DO) DO(float) WEIR_FOR_DOUBLE(DO) DO(Fixed)
+#define WEIR_FOR_EACH_SCALAR(DO) WEIR_FOR_EACH_ROOMY_SCALAR(DO) DO(SmallFixed)
+#define WEIR_FOR_EACH_NUMBER(DO) DO(float) DO(double) DO(Fixed) DO(SmallFixed)
 
 namespace weir {
 

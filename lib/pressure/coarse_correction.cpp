@@ -304,9 +304,7 @@ void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields
     WEIR_INSTANTIATE_FOR(true, false, Real)                                 \
     WEIR_INSTANTIATE_FOR(false, true, Real)                                 \
     WEIR_INSTANTIATE_FOR(true, true, Real)
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 #undef WEIR_INSTANTIATE_FOR
 

@@ -216,9 +216,7 @@ void relax_coupled(const CoupledSolve<Real>& solve, Real omega, std::int32_t col
     template void set_aside(const CoupledSolve<Real>&);                         \
     template void relax_coupled(const CoupledSolve<Real>&, Real, std::int32_t); \
     template void end_coupling(const CoupledSolve<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -231,9 +231,7 @@ const FreeBodyStages<Real>& free_body_stages() {
 
 #define WEIR_INSTANTIATE(Real) \
     template const FreeBodyStages<Real>& free_body_stages();
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -58,8 +58,8 @@ void PictureBeyond<Real>::draw(const BodyTable<Real>& bodies, const NodeBox& nod
     }
 }
 
-template class PictureBeyond<float>;
-template class PictureBeyond<double>;
-template class PictureBeyond<Fixed>;
+#define WEIR_INSTANTIATE(Real) template class PictureBeyond<Real>;
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 }  // namespace weir

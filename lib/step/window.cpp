@@ -340,9 +340,7 @@ bool look_around(Simulation<Real>& simulation) {
     template void show_beyond(Simulation<Real>&);                                           \
     template std::int32_t move_window(const GridShape&, Simulation<Real>&);                 \
     template bool look_around(Simulation<Real>&);
-WEIR_INSTANTIATE(float)
-WEIR_INSTANTIATE(double)
-WEIR_INSTANTIATE(Fixed)
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 #define WEIR_INSTANTIATE(Real) template void number_cells(const GridShape&, Simulation<Real>&);
