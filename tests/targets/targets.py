@@ -102,9 +102,13 @@ def check(processor, build):
 def accept(builds):
     rows = dict(accepted()) if ACCEPTED.exists() else {}
     for processor, build in builds:
+        found = dict(measure(processor, build))
+        if not found:
+            print(f"{build} has no images for {processor}: nothing accepted", file=sys.stderr)
+            return 1
         rows = {name: value for name, value in rows.items()
                 if not name.startswith(f"{processor} ")}
-        rows.update(measure(processor, build))
+        rows.update(found)
     ACCEPTED.write_text("".join(f"{name} {value:g}\n" for name, value in sorted(rows.items())),
                         encoding="utf-8")
     return 0
