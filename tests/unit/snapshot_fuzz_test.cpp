@@ -100,15 +100,23 @@ void use(World<Real>& world, Dice& dice) {
     EXPECT_TRUE(all_inside(world));
 }
 
-/// The last kind stores a window only.
-constexpr std::int32_t kKinds = kBusyKinds + 1;
+/// Two more kinds: one stores a window only, in one regions sleep.
+constexpr std::int32_t kWindowKind = kBusyKinds;
+constexpr std::int32_t kRegionsKind = kBusyKinds + 1;
+constexpr std::int32_t kKinds = kBusyKinds + 2;
 
 WorldDef small_def(std::int32_t kind) {
     WorldDef def = busy_def(kind);
-    if (kind == kBusyKinds) {
+    if (kind == kWindowKind) {
         def.capacity.cells_x = 90;
         def.capacity.cells_y = 60;
         def.capacity.window_cells = 66 * 26;
+    }
+    if (kind == kRegionsKind) {
+        def.capacity.cells_x = 40;
+        def.capacity.sleeping_regions = true;
+        def.sleep.speed_mps = 0.05F;
+        def.sleep.after_s = 0.2F;
     }
     def.capacity.particles = 60;
     def.max_substeps = 2;
@@ -116,11 +124,33 @@ WorldDef small_def(std::int32_t kind) {
     return def;
 }
 
+/// Two puddles and a divider. The right one falls asleep, above the left one a body turns.
+template <class Real>
+void fall_asleep(World<Real>& world) {
+    BodyDef spinner = body_of(kSquare4cm, {0.1F, 0.2F});
+    spinner.motion.spin_radps = 1.0F;
+    const Ring divider = rectangle(0.2F, 0.28F);
+    BodyId id;
+    EXPECT_EQ(world.add_moving_body(spinner, &id), Status::ok);
+    EXPECT_EQ(world.add_static_body(body_of(divider, {0.4F, 0.0F}), &id), Status::ok);
+    EXPECT_EQ(world.fill({{0.7F, 0}, {0.8F, 0.02F}}), Status::ok);
+    StepReport report;
+    for (int step = 0; step < 600 && report.particles_asleep == 0; ++step) {
+        report = world.step(1.0F / 60.0F);
+    }
+    EXPECT_GT(report.particles_asleep, 0);
+}
+
 /// Of a world that has lived a while.
 template <class Real>
 Bytes saved(World<Real>& world, const WorldDef& def, Dice& dice) {
     EXPECT_EQ(world.fill({{0, 0}, {0.05F, 0.05F}}), Status::ok);
-    live(world, dice, 25);
+    if (def.capacity.sleeping_regions) {
+        EXPECT_EQ(world.let_regions_sleep(), Status::ok);
+        fall_asleep(world);
+    } else {
+        live(world, dice, 25);
+    }
     Bytes bytes(snapshot_bytes<Real>(def.capacity));
     std::size_t written = 0;
     EXPECT_EQ(world.save(bytes.data(), bytes.size(), &written), Status::ok);
