@@ -323,9 +323,11 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
     const std::int32_t origin = s.index(0, 0);
     const std::uint8_t* cases = scene.walls.cell_case + origin;
     const Vec2<float>* position = scene.particles.position + first;
-    NearWall<kBlock<float>> near;
+    std::int32_t numbers[kBlock<float> + 4];
+    std::uint32_t cells[kBlock<float> + 4];
+    NearWall near{0, numbers, cells};
     find_near_wall(cases, s.stride, position, count, near);
-    near.fill_up();
+    fill_up(near);
     for (std::int32_t next = 0; next < near.count; next += 4) {
         const std::uint32_t clear =
             four_clearly_outside(near, next, cases, scene.walls.distance + origin, s.stride,

@@ -1,82 +1,78 @@
-// The cases of four particles' cells in one look.
+// The cases of several particles' cells in one look.
 #pragma once
 
-#include "math/lanes.hpp"
+#include "math/four_lanes.hpp"
 #include "math/vec2.hpp"
+#include "math/wide_lanes.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// Numbers of four particles' cells in a grid of that stride, less than 2¹⁵ along both axes.
-using CellNumbers = std::uint32_t __attribute__((vector_size(16)));
-inline CellNumbers cells_of_four(const Vec2<float>* position, std::int32_t stride) {
-    const Lanes low = load_lanes(&position[0].x);
-    const Lanes high = load_lanes(&position[2].x);
-    CellNumbers numbers;
-#if defined(__SSE2__)
-    using Shorts = short __attribute__((vector_size(16)));
-    const auto width = static_cast<short>(stride);
-    const Shorts steps{1, width, 1, width, 1, width, 1, width};
-    const Shorts columns_and_rows =
-        __builtin_ia32_packssdw128(__builtin_convertvector(low, LaneMask),
-                                   __builtin_convertvector(high, LaneMask));
-    const auto sums = __builtin_ia32_pmaddwd128(columns_and_rows, steps);
-    __builtin_memcpy(&numbers, &sums, sizeof numbers);
-#else
-    const auto width = static_cast<std::uint32_t>(stride);
-    const LaneMask i = __builtin_convertvector((shuffle<0, 2, 4, 6>(low, high)), LaneMask);
-    const LaneMask j = __builtin_convertvector((shuffle<1, 3, 5, 7>(low, high)), LaneMask);
-    numbers = reinterpret_cast<CellNumbers>(j) * width + reinterpret_cast<CellNumbers>(i);
-#endif
-    return numbers;
-}
-
 /// Particles of a block in whose cells there is solid, from the last one on.
-template <std::int32_t Most>
 struct NearWall {
     std::int32_t count = 0;
-    std::int32_t n[Most + 4];     ///< number in the block; a few more than there are
-    std::uint32_t cell[Most + 4]; ///< from the tank's first one on
-
-    void add(std::int32_t number, std::uint32_t in_cell, bool is) {
-        n[count] = number;
-        cell[count] = in_cell;
-        count += is ? 1 : 0;
-    }
-    /// To groups of four: with the first one.
-    void fill_up() {
-        for (std::int32_t k = count; k < count + 3; ++k) {
-            n[k] = n[0];
-            cell[k] = cell[0];
-        }
-    }
+    std::int32_t* n;      ///< number in the block; room for three more than there are
+    std::uint32_t* cell;  ///< from the tank's first one on
 };
 
-/// `cell_case`: of the tank's first cell.
-template <std::int32_t Most>
-inline void find_near_wall(const std::uint8_t* cell_case, std::int32_t stride,
-                           const Vec2<float>* position, std::int32_t count,
-                           NearWall<Most>& found) {
-    for (; count >= 4; count -= 4) {
-        const CellNumbers at = cells_of_four(position + count - 4, stride);
-        std::uint64_t pair[2];
-        __builtin_memcpy(pair, &at, sizeof pair);
-        const std::uint32_t cell[4] = {
-            static_cast<std::uint32_t>(pair[0]), static_cast<std::uint32_t>(pair[0] >> 32U),
-            static_cast<std::uint32_t>(pair[1]), static_cast<std::uint32_t>(pair[1] >> 32U)};
-        if ((cell_case[cell[0]] | cell_case[cell[1]] | cell_case[cell[2]] | cell_case[cell[3]]) !=
-            0) {
-            for (std::int32_t k = 3; k >= 0; --k) {
-                found.add(count - 4 + k, cell[k], cell_case[cell[k]] != 0);
-            }
+/// To groups of four: with the first one.
+inline void fill_up(const NearWall& near) {
+    for (std::int32_t k = near.count; k < near.count + 3; ++k) {
+        near.n[k] = near.n[0];
+        near.cell[k] = near.cell[0];
+    }
+}
+
+/// Looks at the last particles of a block, as long as there are enough left. Returns how many are
+/// left. `cell_case`: of the tank's first cell, in a grid of less than 2¹⁵ along both axes.
+template <class L>
+inline std::int32_t find_near_wall(const std::uint8_t* cell_case, std::int32_t stride,
+                                   const float* position, std::int32_t count, NearWall& found) {
+    const auto factors = L::pairs_of_shorts(1, stride);
+    NearWall near = found;
+    for (; count >= L::kLanes; count -= L::kLanes) {
+        const float* x = position + 2 * (count - L::kLanes);
+        const auto cells = L::sums_of_products(L::whole(L::load(x)),
+                                               L::whole(L::load(x + L::kLanes)), factors);
+        std::uint32_t cell[L::kLanes];
+        L::store_halves(cell, cell + L::kLanes / 2, cells);
+        std::uint32_t any = 0;
+        L::each_group([&](auto group) {
+            const std::uint32_t* four = cell + 4 * group;
+            any |= static_cast<std::uint32_t>(cell_case[four[0]] | cell_case[four[1]] |
+                                              cell_case[four[2]] | cell_case[four[3]]);
+        });
+        for (std::int32_t k = L::kLanes; any != 0 && k-- > 0;) {
+            near.n[near.count] = count - L::kLanes + k;
+            near.cell[near.count] = cell[k];
+            near.count += cell_case[cell[k]] != 0 ? 1 : 0;
         }
     }
+    found.count = near.count;
+    return count;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t find_near_wall_wide(const std::uint8_t* cell_case, std::int32_t stride,
+                                 const float* position, std::int32_t count, NearWall& found);
+#endif
+
+inline void find_near_wall(const std::uint8_t* cell_case, std::int32_t stride,
+                           const Vec2<float>* position, std::int32_t count, NearWall& found) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        count = find_near_wall_wide(cell_case, stride, &position->x, count, found);
+    }
+#endif
+    count = find_near_wall<FourLanes>(cell_case, stride, &position->x, count, found);
     while (--count >= 0) {
         const Vec2<float> x = position[count];
         const auto cell = static_cast<std::uint32_t>(static_cast<std::int32_t>(x.y) * stride +
                                                      static_cast<std::int32_t>(x.x));
-        found.add(count, cell, cell_case[cell] != 0);
+        found.n[found.count] = count;
+        found.cell[found.count] = cell;
+        found.count += cell_case[cell] != 0 ? 1 : 0;
     }
 }
 
@@ -96,8 +92,7 @@ constexpr std::int32_t kClearRules[16] = {
     kBehind,           kCorner | kFlipX,  kCorner,                    kUnknown};
 
 /// `clearly_outside` of the next four: a bit each. `distance`: of the tank's first node.
-template <std::int32_t Most>
-inline std::uint32_t four_clearly_outside(const NearWall<Most>& near, std::int32_t next,
+inline std::uint32_t four_clearly_outside(const NearWall& near, std::int32_t next,
                                           const std::uint8_t* cell_case, const float* distance,
                                           std::int32_t stride, const Vec2<float>* position,
                                           float clear_by) {

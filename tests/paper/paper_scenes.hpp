@@ -35,7 +35,8 @@ struct Scene {
     int cells_y = 0;
     float depth_cells = 0.0F;  ///< height of the liquid at the start
     std::vector<Solid> solids;
-    std::vector<Point> particles;  ///< at rest, 2 × 2 per cell, row by row, none in a solid
+    std::vector<Point> particles;  ///< 2 × 2 per cell, row by row, none in a solid
+    std::vector<Point> velocities_mps;  ///< of particles; none: at rest (Weir's runner alone)
 };
 
 enum class Setting { box, standard, complex };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 #include "measure/world_memory.hpp"
@@ -96,13 +97,29 @@ public:
         }
         for (std::size_t k = 0; status == weir::Status::ok && k < scene.particles.size(); ++k) {
             const Point p = scene.particles[k];
-            status = world_.add_particle({p.x * scene.cell_m, p.y * scene.cell_m}, {});
+            const Point v = scene.velocities_mps.empty() ? Point{} : scene.velocities_mps[k];
+            status = world_.add_particle({p.x * scene.cell_m, p.y * scene.cell_m}, {v.x, v.y});
         }
         return status;
     }
     Progress step() override {
         const weir::StepReport report = world_.step(kFrame_s);
+        stepped_s_ += static_cast<double>(report.dt_s);
         return {report.substeps, static_cast<double>(report.dt_s)};
+    }
+    /// Liquid and turned solids as they are by now.
+    void copy_to(Scene& scene) const {
+        scene.particles.clear();
+        scene.velocities_mps.clear();
+        for (int k = 0; k < particles(); ++k) {
+            const weir::Vec2f p = world_.particle_positions()[k];
+            const weir::Vec2f v = world_.particle_velocities()[k];
+            scene.particles.push_back({p.x, p.y});
+            scene.velocities_mps.push_back({v.x * scene.cell_m, v.y * scene.cell_m});
+        }
+        for (Solid& solid : scene.solids) {
+            solid.angle_rad += solid.spin_radps * static_cast<float>(stepped_s_);
+        }
     }
     int particles() const override { return world_.particle_positions().size; }
     int astray() const override {
@@ -131,6 +148,7 @@ private:
 
     weir::World<float> world_{};
     measure::WorldMemory memory_;
+    double stepped_s_ = 0.0;
 };
 
 }  // namespace
@@ -159,6 +177,20 @@ std::unique_ptr<Runner> make_weir(const Scene& scene, bool interaction) {
         return nullptr;
     }
     return runner;
+}
+
+Scene scene_after(const Scene& scene, int frames) {
+    WeirRunner runner;
+    if (runner.set_up(scene, true) != weir::Status::ok) {
+        std::fprintf(stderr, "weir refuses scene '%s'\n", scene.name.c_str());
+        std::exit(EXIT_FAILURE);
+    }
+    for (int frame = 0; frame < frames; ++frame) {
+        runner.step();
+    }
+    Scene after = scene;
+    runner.copy_to(after);
+    return after;
 }
 
 }  // namespace paper_bench

@@ -37,4 +37,7 @@ std::unique_ptr<Runner> make_reference(const Scene& scene, bool interaction,
 /// Null, after a word on stderr, if the library refuses the scene.
 std::unique_ptr<Runner> make_weir(const Scene& scene, bool interaction);
 
+/// The scene as Weir has it after so many frames with interaction. Ends the program if it refuses one.
+Scene scene_after(const Scene& scene, int frames);
+
 }  // namespace paper_bench

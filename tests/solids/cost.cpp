@@ -1,6 +1,7 @@
 // What solids cost: the paper's scenes with against without them, in instructions (Callgrind) and in
 // time, and many still polygons against few. A step of the one is compared with a step of the other,
-// per particle and substep: the liquid falls differently where there are no solids.
+// per particle and substep. The liquid falls differently where there are no solids (in one block,
+// past where they were), so that a step of the same liquid is compared, too.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -37,27 +38,35 @@ std::string output_of(const std::string& command) {
     return text;
 }
 
-std::string scene_command(const std::string& scene, bool solids, int frames) {
-    return std::string(WEIR_SOLIDS_SCENE) + " " + scene + (solids ? " with " : " without ") +
-           std::to_string(frames);
-}
+/// Frames of a scene. `after`: from the liquid as it is after so many with solids; 0: as poured.
+struct Frames {
+    std::string scene;
+    bool solids = true;
+    int count = 1;
+    int after = 0;
 
-Run timed(const std::string& scene, bool solids, int frames) {
+    std::string command() const {
+        return std::string(WEIR_SOLIDS_SCENE) + " " + scene + (solids ? " with " : " without ") +
+               std::to_string(count) + (after > 0 ? " " + std::to_string(after) : "");
+    }
+};
+
+Run timed(const Frames& frames) {
     Run run;
-    const std::string text = output_of(scene_command(scene, solids, frames));
+    const std::string text = output_of(frames.command());
     if (std::sscanf(text.c_str(), "%lf %lf %lf", &run.substeps, &run.particles, &run.seconds) != 3) {
         throw std::runtime_error("what does this mean: " + text);
     }
     return run;
 }
 
-Run counted(const std::string& scene, bool solids, int frames) {
+Run counted(const Frames& frames) {
     const std::string command =
         "valgrind --tool=callgrind --callgrind-out-file=/dev/null "
         "--toggle-collect='weir::World<float>::step(*' " +
-        scene_command(scene, solids, frames) + " 2>&1";
+        frames.command() + " 2>&1";
     const std::string text = output_of(command);
-    Run run = timed(scene, solids, frames);
+    Run run = timed(frames);
     const std::size_t at = text.find("Collected : ");
     if (at == std::string::npos) {
         throw std::runtime_error("no count: " + text);
@@ -69,20 +78,33 @@ Run counted(const std::string& scene, bool solids, int frames) {
     return run;
 }
 
-/// Instructions per particle and substep, without the first step's long solve.
-double instructions(const std::string& scene, bool solids) {
-    const Run first = counted(scene, solids, 1);
-    const Run all = counted(scene, solids, 13);
+/// Instructions per particle and substep of some frames, without the first one's long solve.
+double instructions(Frames frames) {
+    const Run all = counted(frames);
+    frames.count = 1;
+    const Run first = counted(frames);
     return (all.instructions - first.instructions) /
            ((all.substeps - first.substeps) * all.particles);
+}
+double instructions(const std::string& scene, bool solids) {
+    return instructions({scene, solids, 13});
+}
+
+/// With over without solids, mean of frames that begin with the same liquid.
+double same_liquid_ratio(const std::string& scene) {
+    double sum = 0.0;
+    for (const int after : {4, 8, 12}) {
+        sum += instructions({scene, true, 2, after}) / instructions({scene, false, 2, after});
+    }
+    return sum / 3.0;
 }
 
 /// Median of the ratios of seconds per particle and substep, turn by turn.
 double time_ratio(const std::string& scene) {
     std::vector<double> ratios;
     for (int turn = 0; turn < 5; ++turn) {
-        const Run with = timed(scene, true, 13);
-        const Run without = timed(scene, false, 13);
+        const Run with = timed({scene, true, 13});
+        const Run without = timed({scene, false, 13});
         ratios.push_back((with.seconds / (with.substeps * with.particles)) /
                          (without.seconds / (without.substeps * without.particles)));
     }
@@ -99,6 +121,8 @@ void cost_of_solids(Report& report, const Effort&) {
         const std::string name = std::string("cost.") + scene;
         report.figure(name + ".instructions_with", with, "a particle and substep");
         report.at_most(name + ".instructions_with_over_without", with / without, "1", 1.03);
+        report.at_most(name + ".instructions_of_the_same_liquid", same_liquid_ratio(scene), "1",
+                       1.03);
         report.at_most(name + ".time_with_over_without", time_ratio(scene), "1", 1.03);
     }
     const double few = instructions("250", true);

@@ -1,6 +1,7 @@
-// weir_solids_scene SCENE with|without FRAMES: one scene of the paper's tables, for counting the
+// weir_solids_scene SCENE with|without FRAMES [AFTER]: one scene of the paper's tables, for counting the
 // instructions of its steps. SCENE: box, standard, complex, or a number of hexagons: 250, 250turning,
-// or 250cut, each in four triangles. Prints the number of substeps and of particles, and the seconds
+// or 250cut, each in four triangles. AFTER: begins
+// with the liquid as it is after so many frames with solids, so that both have the same. Prints the number of substeps and of particles, and the seconds
 // that the frames after the first took.
 #include <chrono>
 #include <cstdio>
@@ -49,7 +50,11 @@ int main(int argc, char** argv) {
     if (argc < 4) {
         return 2;
     }
-    const auto runner = paper_bench::make_weir(scene_of(argv[1]), std::string(argv[2]) == "with");
+    paper_bench::Scene scene = scene_of(argv[1]);
+    if (argc > 4) {
+        scene = paper_bench::scene_after(scene, std::atoi(argv[4]));
+    }
+    const auto runner = paper_bench::make_weir(scene, std::string(argv[2]) == "with");
     if (runner == nullptr) {
         return 1;
     }
