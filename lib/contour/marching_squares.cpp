@@ -216,11 +216,10 @@ Vec2<Real> about_centre(Vec2<Real> p) {
 
 template <class Real>
 std::uint8_t contour_case(const Real distance[4]) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t node = 0; node < 4; ++node) {
-        bits |= (distance[node] <= Real(0) ? 1U : 0U) << node;
-    }
-    return static_cast<std::uint8_t>(bits);
+    const auto bit = [&](std::uint32_t node) {
+        return (distance[node] <= Real(0) ? 1U : 0U) << node;
+    };
+    return static_cast<std::uint8_t>((bit(0) | bit(1)) | (bit(2) | bit(3)));
 }
 
 template <class Real>
