@@ -93,8 +93,8 @@ inline FourAround around_four(const std::uint8_t* cell_case, std::int32_t below,
             (apart | apart >> 7U | apart >> 14U | apart >> 21U) & 0xFU};
 }
 
-/// Adds a cut cell's shares of the density kernel to the nine cells around it, `full` in the middle.
-/// Hats as in `Hats`.
+/// Adds a cut cell's shares of the density kernel to the nine cells around it, the middle one of
+/// which is `full`. Hats as in `Hats`.
 inline void add_shares(const float* tx, const float* ty, const float* y_tx, const float* x_ty,
                        std::int32_t stride, float* full) {
     const Lanes half = all_lanes(0.5F);
