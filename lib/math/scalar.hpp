@@ -149,6 +149,16 @@ inline float of_bound_key(std::int32_t key) {
     return value;
 }
 
+template <class Real>
+inline bool is_zero(Real value) {
+    return magnitude_key(value) == magnitude_key(Real(0));
+}
+/// Of numbers that are not NaN.
+template <class Real>
+inline bool is_positive(Real value) {
+    return bound_key(value) > bound_key(Real(0));
+}
+
 /// Of such keys, low ≤ key ≤ high, where low and high are not negative.
 template <class Key>
 inline bool is_between(Key key, Key low, Key high) {

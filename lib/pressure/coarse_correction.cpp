@@ -115,7 +115,7 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
         for (std::int32_t x = 0; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
             const Real inverse = fields.inverse_diagonal[c];
-            if (inverse == Real(0)) {
+            if (is_zero(inverse)) {
                 continue;
             }
             const Real held = fields.pressure[c];
@@ -157,7 +157,7 @@ void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>
         const Real row = own + from.of_above[y] * (e[from.above[y]] - own);
         const std::int32_t c = s.index(patch.i, patch.j + y);
         for (std::int32_t x = 0; x < patch.width; ++x) {
-            if (fields.inverse_diagonal[c + x] != Real(0)) {
+            if (!is_zero(Real(fields.inverse_diagonal[c + x]))) {
                 fields.pressure[c + x] += row + column[x];
             }
         }
@@ -181,7 +181,7 @@ void relax(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
         }
         for (; q < end; q += 2) {
             const Real inverse = coarse.inverse_diagonal[q];
-            if (inverse == Real(0)) {
+            if (is_zero(inverse)) {
                 continue;
             }
             const std::int32_t up = q + s.stride;

@@ -38,7 +38,7 @@ void find_centre(const GridShape& s, const PressureFields<Real>& fields, const P
     for (std::int32_t y = 0; !counted && y < patch.height; ++y) {
         const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
         for (std::int32_t x = 0; x < patch.width; ++x) {
-            if (inverse[x] != Real(0)) {
+            if (!is_zero(Real(inverse[x]))) {
                 count += 1;
                 columns += x;
                 rows += y;
@@ -118,8 +118,8 @@ template <class Real>
 void add_face(const CoarseAxis<Real>& axis, CoarseFace<Real> face, std::int32_t c, std::int32_t at,
               std::int32_t before, std::int32_t q) {
     const std::int32_t b = c - axis.back;
-    const bool wet_b = axis.fields.level[b] > Real(0);
-    const bool wet_c = axis.fields.level[c] > Real(0);
+    const bool wet_b = is_positive(Real(axis.fields.level[b]));
+    const bool wet_c = is_positive(Real(axis.fields.level[c]));
     if (!(face.open > Real(0))) {
         return;
     }
@@ -170,11 +170,12 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
                                    coarse.weight_u, coarse.reach_u, targets};
     const CoarseAxis<Real> along_y{fields,          coarse,         s.stride, up, coarse.centre_y,
                                    coarse.weight_v, coarse.reach_v, targets};
-    if (kHasLanes<Real> && among_full(patch, coarse)) {  // not worth its code where that is scarce
+    // With faces of many kinds not worth its code where that is scarce.
+    if ((kHasLanes<Real> || (!Solids && !Mixed)) && among_full(patch, coarse)) {
         if (!targets.has(patch.q)) {
             return;
         }
-        if (!Solids && !Mixed) {
+        if constexpr (!Solids && !Mixed) {
             coarse.weight_u[patch.q] = Real(1);  // four faces, four cells from middle to middle
             coarse.weight_v[patch.q] = Real(1);
             return;
@@ -214,7 +215,9 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
             return;
         }
     }
-    const auto wet = [&](std::int32_t c) { return fields.level[c] > Real(0); };
+    const auto wet = [&](std::int32_t c) {
+        return is_positive(Real(fields.level[c]));
+    };
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const std::int32_t row = s.index(patch.i, patch.j + y);
         const std::int32_t last = mixed ? patch.width : 1;

@@ -53,8 +53,8 @@ inline Real excess(const PressureFields<Real>& f, Real hanging, std::int32_t c, 
 }
 
 template <class Real>
-inline Real excess(const GridShape& s, const PressureFields<Real>& f, Real hanging,
-                   std::int32_t c) {
+[[gnu::noinline]] Real excess(const GridShape& s, const PressureFields<Real>& f, Real hanging,
+                              std::int32_t c) {
     return excess<Real>(f, hanging, c,
                         minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
                                       minimum<Real>(f.level[c - s.stride], f.level[c + s.stride])));
@@ -81,6 +81,27 @@ inline ExcessLimits excess_limits(const PressureFields<Real>& fields, Real hangi
             static_cast<float>(kWindow<Real>), fields.on_surface, static_cast<float>(hanging)};
 }
 
+/// The same where it is told at once: in air, and in a cell with full ones all around.
+template <class Real>
+inline Real plain_excess(const GridShape& s, const PressureFields<Real>& f, Real hanging,
+                         std::int32_t c) {
+    const auto level = [&](std::int32_t cell) { return bound_key(Real(f.level[cell])); };
+    const auto full = bound_key(Real(0.5));
+    const auto one = bound_key(Real(1));
+    const auto density = bound_key(Real(f.density[c]));
+    if (level(c) <= bound_key(Real(0))) {
+        if (density <= one) {
+            return Real(0);
+        }
+    } else if (level(c - 1) >= full && level(c + 1) >= full && level(c - s.stride) >= full &&
+               level(c + s.stride) >= full &&
+               (density >= one || bound_key(f.pressure[c]) >= bound_key(Real(0)))) {
+        const Real e = f.density[c] - Real(1);
+        return density > bound_key(Real(2)) ? kWindow<Real> : e;
+    }
+    return excess(s, f, hanging, c);
+}
+
 /// Of the cells of some rows, into `divergence`.
 template <class Real>
 void find_excess(const GridShape& s, const Part& rows, Real hanging,
@@ -92,7 +113,7 @@ void find_excess(const GridShape& s, const Part& rows, Real hanging,
             c = excess_lanes(fields, s.stride, excess_limits(fields, hanging), c, end);
         }
         for (; c < end; ++c) {
-            fields.divergence[c] = excess(s, fields, hanging, c);
+            fields.divergence[c] = plain_excess(s, fields, hanging, c);
         }
     }
 }

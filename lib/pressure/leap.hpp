@@ -14,8 +14,8 @@ namespace weir {
 /// Whether a cell and the four around it hold liquid.
 template <class Real>
 inline bool liquid_around(const LevelOf<Real>* level, std::int32_t stride, std::int32_t c) {
-    return level[c] > Real(0) && level[c - 1] > Real(0) && level[c + 1] > Real(0) &&
-           level[c - stride] > Real(0) && level[c + stride] > Real(0);
+    const auto wet = [&](std::int32_t cell) { return is_positive(Real(level[cell])); };
+    return wet(c) && wet(c - 1) && wet(c + 1) && wet(c - stride) && wet(c + stride);
 }
 
 #if WEIR_HAS_LANES

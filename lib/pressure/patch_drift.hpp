@@ -50,29 +50,24 @@ struct Drift {
     bool moves_y(std::int32_t y) const { return patch.j + y > 0 || borders.wrap_y; }
     const Walls<Real>* solids() const { return Solids ? &walls : nullptr; }
 
-    /// visit(face, face before it, drift towards that, on u) for those of a column that are open,
-    /// from below; each(excess) for each of its cells.
-    template <class Visit, class Each>
-    [[gnu::always_inline]] void for_each_face(std::int32_t x, const Visit& visit,
+    /// on_u(face, row of the patch), on_v(face, row) for those faces of a column that are open,
+    /// from below; first each(cell) of each of its cells.
+    template <class OnU, class OnV, class Each>
+    [[gnu::always_inline]] void for_each_face(std::int32_t x, const OnU& on_u, const OnV& on_v,
                                               const Each& each) const {
-        const VelocityOf<Real>* e = fields.divergence;
-        const std::int32_t stride = shape.stride;
         const bool moves_x = x > 0 || first_moves_x();
         const auto open = [](const ShareOf<Real>* share, std::int32_t face) {
-            return !Solids || bound_key(Real(share[face])) > bound_key(Real(0));
+            return !Solids || is_positive(Real(share[face]));
         };
         std::int32_t c = shape.index(patch.i + x, patch.j);
-        Real below = e[c - stride];
-        for (std::int32_t y = 0; y < patch.height; ++y, c += stride) {
-            const Real here = e[c];
+        for (std::int32_t y = 0; y < patch.height; ++y, c += shape.stride) {
+            each(c);
             if (moves_x && open(walls.open_u, c)) {
-                visit(c, c - 1, speed * ((here - e[c - 1]) + along_x[x]), true);
+                on_u(c, y);
             }
-            if (moves_y(y) && open(walls.open_v, c)) {
-                visit(c, c - stride, speed * ((here - below) + along_y[y]), false);
+            if ((y > 0 || moves_y(0)) && open(walls.open_v, c)) {
+                on_v(c, y);
             }
-            each(here);
-            below = here;
         }
     }
 
@@ -118,51 +113,104 @@ inline Real price_of(const Weights<Real>& sums) {
     return moving > -kMostRefund<Real> * work ? work / moving : Real(0);
 }
 
-template <bool Solids, class Real>
-inline Real price_of(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid) {
+/// Drift on each of a patch's open faces, column by column, as `for_each_face` meets them.
+template <class Real>
+struct Ways {
+    Real of[2 * kCoarseEdge * kCoarseEdge];
+};
+
+/// What the drift of a patch does, summed by column, where `weighed` asks for it.
+template <bool Weighed, bool Solids, class Real>
+[[gnu::noinline]] void find_ways(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid,
+                      Ways<Real>& ways, Weights<Real>& sums) {
+    const VelocityOf<Real>* e = drift.fields.divergence;
     const Real* p = drift.fields.pressure;
-    Weights<Real> sums;
-    bool done = false;
-    if constexpr (kHasLanes<Real>) {
-        done = drift.patch.width == kCoarseEdge;
-        if (done) {
-            weigh_rows(drift, grid, sums);
-        }
-    }
-    for (std::int32_t x = 0; !done && x < drift.patch.width; ++x) {
+    const VelocityOf<Real>* u = grid.u;
+    const VelocityOf<Real>* v = grid.v;
+    const Real speed = drift.speed;
+    Real* way = ways.of;
+    for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         Real lifted = Real(0);
         Real moving = Real(0);
         Real disorder = Real(0);
+        const Real along_x = drift.along_x[x];
+        const std::int32_t under = drift.shape.index(drift.patch.i + x, drift.patch.j - 1);
+        Real here = e[under];
+        Real below = here;
+        Real pressure = p[under];
+        Real pressure_below = pressure;
+        const auto add = [&](Real way_here, Real rise, Real velocity) {
+            *way++ = way_here;
+            if (Weighed) {
+                lifted += way_here * rise;
+                moving += velocity * velocity;
+            }
+        };
         drift.for_each_face(
             x,
-            [&](std::int32_t face, std::int32_t before, Real way, bool on_u) {
-                const Real now = on_u ? grid.u[face] : grid.v[face];
-                lifted += way * (p[face] - p[before]);
-                moving += now * now;
+            [&](std::int32_t face, std::int32_t) {
+                add(speed * ((here - e[face - 1]) + along_x), pressure - p[face - 1], u[face]);
             },
-            [&](Real excess) { disorder += excess * excess; });
-        sums.lifted[x] = lifted;
-        sums.moving[x] = moving;
-        sums.disorder[x] = disorder;
+            [&](std::int32_t face, std::int32_t y) {
+                add(speed * ((here - below) + drift.along_y[y]), pressure - pressure_below,
+                    v[face]);
+            },
+            [&](std::int32_t c) {
+                below = here;
+                here = e[c];
+                pressure_below = pressure;
+                pressure = p[c];
+                if (Weighed) {
+                    disorder += here * here;
+                }
+            });
+        if (Weighed) {
+            sums.lifted[x] = lifted;
+            sums.moving[x] = moving;
+            sums.disorder[x] = disorder;
+        }
     }
-    return price_of(sums);
 }
 
 template <bool Pays, bool Solids, class Real>
-inline void drift_columns(const Drift<Solids, Real>& drift, Real price,
+inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& ways, Real price,
                           StaggeredGrid<Real>& grid) {
+    const Real* way = ways.of;
+    const auto move = [&](VelocityOf<Real>& velocity, VelocityOf<Real>& before) {
+        const Real now = velocity;
+        if constexpr (Pays) {
+            before -= price * now;
+        }
+        velocity = now - *way++;
+    };
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         drift.for_each_face(
             x,
-            [&](std::int32_t face, std::int32_t, Real way, bool on_u) {
-                VelocityOf<Real>& velocity = on_u ? grid.u[face] : grid.v[face];
-                if constexpr (Pays) {
-                    (on_u ? grid.mass_u[face] : grid.mass_v[face]) -= price * velocity;
-                }
-                velocity -= way;
-            },
-            [](Real) {});
+            [&](std::int32_t face, std::int32_t) { move(grid.u[face], grid.mass_u[face]); },
+            [&](std::int32_t face, std::int32_t) { move(grid.v[face], grid.mass_v[face]); },
+            [](std::int32_t) {});
     }
+}
+
+/// A patch of any kind.
+template <bool Solids, class Real>
+inline void drift_any(const Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
+    Ways<Real> ways;
+    Weights<Real> sums;
+    if constexpr (kPaysForLifting<Real>) {
+        if (pays) {
+            find_ways<true>(drift, grid, ways, sums);
+            const Real price = price_of(sums);
+            if (price != Real(0)) {
+                drift_columns<true>(drift, ways, price, grid);
+                return;
+            }
+            drift_columns<false>(drift, ways, price, grid);
+            return;
+        }
+    }
+    find_ways<false>(drift, grid, ways, sums);
+    drift_columns<false>(drift, ways, Real(0), grid);
 }
 
 #if WEIR_HAS_LANES
@@ -202,23 +250,19 @@ inline void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGr
             return;
         }
     }
-    Real price = Real(0);
-    if constexpr (kPaysForLifting<Real>) {
-        price = pays ? price_of(drift, grid) : Real(0);
-    }
     if constexpr (kHasLanes<Real>) {
         if (drift.patch.width == kCoarseEdge) {
+            Real price = Real(0);
+            if (pays) {
+                Weights<Real> sums;
+                weigh_rows(drift, grid, sums);
+                price = price_of(sums);
+            }
             drift_rows(drift, price, grid);
             return;
         }
     }
-    if constexpr (kPaysForLifting<Real>) {
-        if (price != Real(0)) {
-            drift_columns<true>(drift, price, grid);
-            return;
-        }
-    }
-    drift_columns<false>(drift, price, grid);
+    drift_any(drift, pays, grid);
 }
 
 }  // namespace weir

@@ -53,7 +53,7 @@ inline void relax_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::in
     Real* below = p - up;
     const auto one = [&](std::int32_t k) {
         const Real inverse = inverses[k];
-        if (!Mixed && bound_key(inverse) > bound_key(Real(0))) {
+        if (!Mixed && is_positive(inverse)) {
             relax_cell<Real>(p[k], (p[k - 1] + p[k + 1]) + (below[k] + above[k]), divergence[k],
                              inverse);
         } else if ((Mixed || Solids) && inverse != Real(0)) {

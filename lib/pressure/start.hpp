@@ -36,7 +36,7 @@ Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     }
     for (; c < end; ++c) {
         const Real inverse = fields.inverse_diagonal[c];
-        if (inverse != Real(0)) {
+        if (!is_zero(inverse)) {
             row.there = row.there - product(p[c], weights.weighted(p, c, inverse));
         }
     }

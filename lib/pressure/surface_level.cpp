@@ -33,6 +33,36 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
             (sees.upper ? grid.mass_v[c + grid.shape.stride] : Real(0)));
 }
 
+/// Of a cell with so much mass on its faces.
+template <class Real>
+inline void set_density(PressureFields<Real>& fields, std::int32_t c, Real mass, Real density) {
+    const bool any = mass > Real(0);
+    fields.density[c] = any ? density : Real(0);
+    fields.level[c] = any ? level_of_density(density) : kEmptyLevel<Real>;
+}
+
+/// Cells of a row, where there are no solids.
+template <class Real>
+[[gnu::noinline]] void open_densities(const StaggeredGrid<Real>& grid, Real per_face,
+                                      std::int32_t c, std::int32_t end,
+                                      PressureFields<Real>& fields) {
+    const VelocityOf<Real>* lower = grid.mass_v + c;
+    const VelocityOf<Real>* upper = lower + grid.shape.stride;
+    const VelocityOf<Real>* right = grid.mass_u + c + 1;
+    DensityOf<Real>* density = fields.density + c;
+    LevelOf<Real>* level = fields.level + c;
+    Real left = right[-1];
+    for (; c < end; ++c) {
+        const Real next = *right++;
+        const Real mass = (left + next) + (*lower++ + *upper++);
+        left = next;
+        const bool any = mass > Real(0);
+        const Real here = any ? mass * per_face : Real(0);
+        *density++ = here;
+        *level++ = any ? level_of_density(here) : kEmptyLevel<Real>;
+    }
+}
+
 template <class Real>
 void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
                         Real rest_count, const Part& rows, PressureFields<Real>& fields) {
@@ -47,24 +77,22 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
                                 : density_row(grid, walls.active ? walls.full_density : nullptr,
                                               kLeastFullDensity<Real>, per_face, c, end, fields);
         }
+        if (thin == nullptr && !walls.active) {
+            open_densities(grid, per_face, c, end, fields);
+            continue;
+        }
         for (; c < end; ++c) {
             const Real mass = thin != nullptr && (thin->mark[c] & kTouching) != 0
                                   ? seen_mass(grid, *thin, c)
                                   : (grid.mass_u[c] + grid.mass_u[c + 1]) +
                                         (grid.mass_v[c] + grid.mass_v[c + s.stride]);
-            if (!(mass > Real(0))) {
-                fields.density[c] = Real(0);
-                fields.level[c] = kEmptyLevel<Real>;
-                continue;
-            }
             Real density = mass * per_face;
-            if (walls.active && walls.full_density[c] < Real(1)) {
+            if (mass > Real(0) && walls.active && walls.full_density[c] < Real(1)) {
                 density = walls.full_density[c] < kLeastFullDensity<Real>
                               ? Real(0)
                               : density / walls.full_density[c];
             }
-            fields.density[c] = density;
-            fields.level[c] = level_of_density(density);
+            set_density(fields, c, mass, density);
         }
     }
 }
@@ -142,11 +170,15 @@ void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<
         if constexpr (kHasLanes<Real>) {
             i = fill_dimples_in_lanes(s, borders, walls, j, level);
         }
-        for (; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
-            if (level[c] <= Real(0) && beside_liquid(level, s.stride, c) &&
-                surrounded(s, borders, walls, level, i, j)) {
-                level[c] = kFilledLevel<Real>;
+        const std::int32_t row = s.index(0, j);
+        const LevelOf<Real>* const end = level + row + s.nx;
+        for (const LevelOf<Real>* at = level + row + i; at < end; ++at) {
+            if (!is_positive(Real(*at))) {
+                const auto c = static_cast<std::int32_t>(at - level);
+                if (beside_liquid(level, s.stride, c) &&
+                    surrounded(s, borders, walls, level, c - row, j)) {
+                    level[c] = kFilledLevel<Real>;
+                }
             }
         }
     }

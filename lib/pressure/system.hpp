@@ -14,7 +14,7 @@ namespace weir {
 template <class Real>
 inline Real face_coefficient(const PressureFields<Real>& fields, Real weight, Real open,
                              Real level, SameAs<Real> neighbour_level) {
-    return neighbour_level > Real(0)
+    return is_positive(neighbour_level)
                ? weight
                : weight / liquid_fraction(fields, level, neighbour_level, open);
 }
@@ -133,7 +133,7 @@ void build_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
     const GridShape& s = weights.grid.shape;
     const std::int32_t up = s.stride;
     const LevelOf<Real>* level = fields.level;
-    const auto wet = [&](std::int32_t c) { return bound_key(Real(level[c])) > bound_key(Real(0)); };
+    const auto wet = [&](std::int32_t c) { return is_positive(Real(level[c])); };
     const bool row_inside =
         !Mixed && (weights.borders.wrap_y || (j > 0 && j + 1 < s.ny));
     const std::int32_t first_inside = weights.borders.wrap_x ? 0 : 1;

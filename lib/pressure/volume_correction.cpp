@@ -36,23 +36,27 @@ bool has_room(const GridShape& s, const Walls<Real>& walls, const Patch& patch) 
 /// Mean excess of a patch's liquid cells; 0 in air. `overfull` grows by the patch's liquid cells if
 /// they have not the room for what is in them.
 template <bool Solids, class Real>
-Real average(const GridShape& s, const Walls<Real>& walls, const Patch& patch,
-             const PressureFields<Real>& f, std::int32_t& overfull) {
+[[gnu::noinline]] Real average(const GridShape& s, const Walls<Real>& walls,
+                               const Patch& patch, const PressureFields<Real>& f,
+                               std::int32_t& overfull) {
     Real sum = Real(0);
-    Real any = Real(0);
+    bool any = false;
     std::int32_t count = 0;
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const std::int32_t row = s.index(patch.i, patch.j + y);
         for (std::int32_t c = row; c < row + patch.width; ++c) {
             const Real e = f.divergence[c];
-            if (bound_key(Real(f.level[c])) > bound_key(Real(0))) {
-                sum += clamp<Real>(e, -kCellWindow<Real>, kCellWindow<Real>);
+            const auto size = magnitude_key(e);
+            if (is_positive(Real(f.level[c]))) {
+                sum += size <= magnitude_key(kCellWindow<Real>)
+                           ? e
+                           : clamp<Real>(e, -kCellWindow<Real>, kCellWindow<Real>);
                 count += 1;
             }
-            any = e != Real(0) ? Real(1) : any;
+            any = any || size != magnitude_key(Real(0));
         }
     }
-    f.coarse.residual[patch.q] = any;  // until the drift
+    f.coarse.residual[patch.q] = Real(any ? 1 : 0);  // until the drift
     if (count == 0) {
         return !Solids || has_room(s, walls, patch) ? Real(0) : kSolidPatch<Real>;
     }

@@ -76,14 +76,39 @@ struct Bending {
         std::uint32_t side_high;
     };
 
+    template <bool OnU>
     void bend_bits(const Bits& bits, std::int32_t place) const {
-        const std::int32_t side = on_u() ? s.stride : 1;
-        for_each_bit(bits.bent, place, [&](std::int32_t face, std::uint32_t bit) {
-            if (!beside_wall(face)) {
-                bend(face, (bits.half & bit) != 0 ? Seconds<Real>(0.5) * bend_s : bend_s,
-                     slope(face, back, (bits.low & bit) != 0, (bits.high & bit) != 0),
-                     slope(face, side, (bits.side_low & bit) != 0, (bits.side_high & bit) != 0));
+        const std::int32_t stride = s.stride;
+        const std::int32_t behind = OnU ? 1 : stride;
+        const std::int32_t beside = OnU ? stride : 1;
+        const bool walled = walls.active || walls.thin != nullptr;
+        const VelocityOf<Real>* const own = along;
+        const VelocityOf<Real>* const other = across;
+        const Seconds<Real> all = bend_s;
+        // As `slope`, of the number at `at`.
+        const auto rise = [](const VelocityOf<Real>* at, std::int32_t step, bool low, bool high) {
+            const Real here = *at;
+            if (low && high) {
+                return Real(0.5) * ((here - *(at - step)) + (*(at + step) - here));
             }
+            return low ? here - *(at - step) : (high ? *(at + step) - here : Real(0));
+        };
+        for_each_bit(bits.bent, place, [&](std::int32_t face, std::uint32_t bit) {
+            if (walled && beside_wall(face)) {
+                return;
+            }
+            const VelocityOf<Real>* at = whole(own + face);
+            const Real slope_along =
+                rise(at, behind, (bits.low & bit) != 0, (bits.high & bit) != 0);
+            const Real slope_across =
+                rise(at, beside, (bits.side_low & bit) != 0, (bits.side_high & bit) != 0);
+            const VelocityOf<Real>* near = whole(other + face);
+            const VelocityOf<Real>* far = whole(OnU ? near + stride : near - stride);
+            const Real mean =
+                Real(0.25) * (OnU ? (near[0] + near[-1]) + (far[0] + far[-1])
+                                  : (near[0] + far[0]) + (near[1] + far[1]));
+            const Seconds<Real> share = (bits.half & bit) != 0 ? Seconds<Real>(0.5) * all : all;
+            out[face] += share * (Real(*at) * slope_along + mean * slope_across);
         });
     }
 
@@ -204,13 +229,16 @@ void bend_rows(const Bending<Real>& of_u, const Bending<Real>& of_v, const Part&
         const std::uint32_t before = straight(at.j - 1, at.under.wet, at.below.wet, at.here.wet);
         const std::uint32_t u = left(at.here);
         const std::uint32_t v = at.here.wet | at.below.wet;
-        of_u.bend_bits({at.of_u & at.here.held & (at.here.held << 1U) & ~(here & (here << 1U)),
-                        here | (here << 1U), u << 1U, u >> 1U, left(at.below), left(at.above)},
-                       at.place);
-        of_v.bend_bits({at.of_v() & at.here.held & at.below.held & ~(here & before),
-                        here | before, at.below.wet | at.under.wet, at.above.wet | at.here.wet,
-                        v << 1U, v >> 1U},
-                       at.place);
+        const std::uint32_t held_u = at.here.held & (at.here.held << 1U);
+        const std::uint32_t held_v = at.here.held & at.below.held;
+        of_u.template bend_bits<true>({at.of_u & held_u & ~(here & (here << 1U)),
+                                       here | (here << 1U), u << 1U, u >> 1U, left(at.below),
+                                       left(at.above)},
+                                      at.place);
+        of_v.template bend_bits<false>({at.of_v() & held_v & ~(here & before), here | before,
+                                        at.below.wet | at.under.wet, at.above.wet | at.here.wet,
+                                        v << 1U, v >> 1U},
+                                       at.place);
     });
 }
 

@@ -54,7 +54,7 @@ private:
         const LevelOf<Real>* level = level_ + place + rows_up * s_.stride;
         CellBits bits;
         for (std::int32_t k = count_ - 1; k >= 0; --k) {
-            const bool wet = bound_key(Real(level[k])) > bound_key(Real(0));
+            const bool wet = is_positive(Real(level[k]));
             const bool held = bound_key(Real(-level[k])) < bound_key(Real(-kEmptyLevel<Real>));
             bits.wet = bits.wet + bits.wet + (wet ? 1U : 0U);
             bits.held = bits.held + bits.held + (held ? 1U : 0U);

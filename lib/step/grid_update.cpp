@@ -124,12 +124,16 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                            bool velocity_itself, const GridShape& s, const Part& rows) {
     const LevelOf<Real>* level = fields.level;
     const std::int32_t back = component.back;
+    const auto height = [&](std::int32_t cell) { return bound_key(Real(level[cell])); };
     const auto wet = [&](std::int32_t face) {
-        return level[face] > Real(0) || level[face - back] > Real(0);
+        return height(face) > bound_key(Real(0)) || height(face - back) > bound_key(Real(0));
     };
-    // A face that has mass shows in both its cells; one that has none is read by no particle.
+    // A face that has mass shows in both its cells; one that has none is read by no particle. Of
+    // cells without liquid.
     const auto empty = [&](std::int32_t face) {
-        return level[face] <= kEmptyLevel<Real> || level[face - back] <= kEmptyLevel<Real>;
+        const auto depth = [&](std::int32_t cell) { return bound_key(Real(-level[cell])); };
+        return depth(face) >= bound_key(Real(-kEmptyLevel<Real>)) ||
+               depth(face - back) >= bound_key(Real(-kEmptyLevel<Real>));
     };
     const auto gained = [&](std::int32_t face) {
         const Real open = component.open != nullptr ? Real(component.open[face]) : Real(1);
@@ -175,9 +179,13 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                 continue;
             }
         }
-        for (; face < row + s.nx; ++face) {
-            if (!wet(face) && !empty(face)) {
-                extend(face - row, j, face);
+        const LevelOf<Real>* const end = level + row + s.nx;
+        for (const LevelOf<Real>* at = level + face; at < end; ++at) {
+            if (!is_positive(Real(*at))) {  // else it is wet
+                face = static_cast<std::int32_t>(at - level);
+                if (!wet(face) && !empty(face)) {
+                    extend(face - row, j, face);
+                }
             }
         }
     }
