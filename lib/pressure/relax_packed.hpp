@@ -194,15 +194,17 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
     const auto* level = fields.level;
     const Walls<SmallFixed>& walls = weights.walls;
     const PackedLeap leap(fields.leaps, fields.last_dt);
+    const bool wraps = weights.borders.wrap_x;
     const auto open = [&](std::int32_t c) {
         return !Solids || (untouched(walls, c, c + s.stride) &&
                            !(walls.moving && touches_wall(walls, c)));
     };
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const bool inner_row = weights.has_lower(j) && weights.has_upper(j);
-        std::int32_t end = s.index(0, j);  // of the row's liquid
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
+        const std::int32_t row = s.index(0, j);
+        const std::int32_t behind = row + s.nx;
+        std::int32_t end = row;  // of the row's liquid
+        for (std::int32_t c = row; c < behind; ++c) {
             const std::int32_t up = c + s.stride;
             if (level[c].raw <= 0) {
                 fields.inverse_diagonal[c].raw = 0;
@@ -210,21 +212,20 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
                 continue;
             }
             if (inner_row && level[c - 1].raw > 0 && level[c + 1].raw > 0 && level[up].raw > 0 &&
-                level[c - s.stride].raw > 0 && weights.has_left(i) && weights.has_right(i) &&
-                open(c)) {
+                level[c - s.stride].raw > 0 && (wraps || (c > row && c + 1 < behind)) && open(c)) {
                 const std::int32_t flow = (grid.u[c + 1].raw - grid.u[c].raw) +
                                           (grid.v[up].raw - grid.v[c].raw);
                 fields.divergence[c].raw = short_of(flow + wanted_convergence(grid, c, leap));
                 fields.inverse_diagonal[c].raw = 512;
                 fields.pressure[c] = rescaled(fields.pressure[c], fields.solve.rescale);
             } else {
-                build_rare<Solids>(weights, i, j, fields);
+                build_rare<Solids>(weights, c - row, j, fields);
             }
             end = fields.inverse_diagonal[c].raw != 0 ? c + 1 : end;
         }
         fields.inverse_diagonal[end].raw = kRowEnd;
         fields.inverse_diagonal[end + 1].raw = kRowEnd;
-        if (end != s.index(0, j)) {
+        if (end != row) {
             fields.solve.first_row = minimum(fields.solve.first_row, j);
             fields.solve.last_row = j;
         }
