@@ -58,13 +58,15 @@ struct Leap {
 template <class Real>
 inline Real wanted_convergence(const StaggeredGrid<Real>& grid, std::int32_t c,
                                const Leap<Real>& leap) {
-    const VelocityOf<Real>* u = grid.mass_u;
-    const VelocityOf<Real>* v = grid.mass_v;
-    const std::int32_t up = c + grid.shape.stride;
-    const std::int32_t down = c - grid.shape.stride;
-    const Real strain = Real(0.5) * ((u[c + 1] - u[c]) - (v[up] - v[c]));
-    const Real u_over_y = Real(0.25) * ((u[up] + u[up + 1]) - (u[down] + u[down + 1]));
-    const Real v_over_x = Real(0.25) * ((v[c + 1] + v[up + 1]) - (v[c - 1] + v[up - 1]));
+    const std::int32_t stride = grid.shape.stride;
+    const VelocityOf<Real>* u = whole(grid.mass_u + c);
+    const VelocityOf<Real>* v = whole(grid.mass_v + c);
+    const VelocityOf<Real>* above = whole(u + stride);
+    const VelocityOf<Real>* below = whole(u - stride);
+    const VelocityOf<Real>* upper = whole(v + stride);
+    const Real strain = Real(0.5) * ((u[1] - u[0]) - (upper[0] - v[0]));
+    const Real u_over_y = Real(0.25) * ((above[0] + above[1]) - (below[0] + below[1]));
+    const Real v_over_x = Real(0.25) * ((v[1] + upper[1]) - (v[-1] + upper[-1]));
     const Real det = -((leap.dt_s * strain) * strain + (leap.dt_s * u_over_y) * v_over_x);
     // Seldom as much, which whole numbers tell.
     return magnitude_key(det) <= magnitude_key(leap.most) ? det

@@ -77,9 +77,8 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid, const Walls<Sm
 /// Most air cells are far from any liquid.
 template <class Level>
 inline bool beside_liquid(const Level* level, std::int32_t stride, std::int32_t c) {
-    const Level none = Level(0);
-    return level[c - 1] > none || level[c + 1] > none || level[c - stride] > none ||
-           level[c + stride] > none;
+    const auto wet = [&](std::int32_t cell) { return is_positive(level[cell]); };
+    return wet(c - 1) || wet(c + 1) || wet(c - stride) || wet(c + stride);
 }
 
 }  // namespace weir

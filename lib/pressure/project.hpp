@@ -39,12 +39,15 @@ void project_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j
     const Real* p = fields.pressure + s.index(0, j);
     VelocityOf<Real>* u = grid.u + s.index(0, j);
     VelocityOf<Real>* v = grid.v + s.index(0, j);
+    const auto wide = [](const ShareOf<Real>* open, std::int32_t face) {
+        return !Solids || bound_key(Real(open[face])) == bound_key(Real(1));
+    };
     bool wet_before = is_positive<Real>(level[columns.first - 1]);
     for (std::int32_t i = columns.first; i < columns.end; ++i) {
         const std::int32_t c = s.index(i, j);
         const bool wet = is_positive<Real>(level[i]);
         if (weights.has_left(i)) {
-            if (wet && wet_before && (!Solids || open_u[c] == Real(1))) {
+            if (wet && wet_before && wide(open_u, c)) {
                 u[i] -= weights.light_u(c) * (p[i] - p[i - 1]);
             } else if (wet || wet_before) {
                 accelerate(grid.u, c, c - 1, weights.light_u(c), open_u, fields);
@@ -53,7 +56,7 @@ void project_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j
         wet_before = wet;
         if (has_lower) {
             const bool wet_below = is_positive<Real>(level[i - s.stride]);
-            if (wet && wet_below && (!Solids || open_v[c] == Real(1))) {
+            if (wet && wet_below && wide(open_v, c)) {
                 v[i] -= weights.light_v(c) * (p[i] - p[i - s.stride]);
             } else if (wet || wet_below) {
                 accelerate(grid.v, c, c - s.stride, weights.light_v(c), open_v, fields);

@@ -33,33 +33,36 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
             (sees.upper ? grid.mass_v[c + grid.shape.stride] : Real(0)));
 }
 
-/// Of a cell with so much mass on its faces.
+/// Density of a cell of which so much is room: `full` is what it shows when that is full.
 template <class Real>
-inline void set_density(PressureFields<Real>& fields, std::int32_t c, Real mass, Real density) {
-    const bool any = mass > Real(0);
-    fields.density[c] = any ? density : Real(0);
-    fields.level[c] = any ? level_of_density(density) : kEmptyLevel<Real>;
+inline Real density_of_room(Real density, Real full) {
+    return full < kLeastFullDensity<Real> ? Real(0) : density / full;
 }
 
-/// Cells of a row, where there are no solids.
+/// Cells c … end − 1 of a row. `full` null: there are no solids.
 template <class Real>
-[[gnu::noinline]] void open_densities(const StaggeredGrid<Real>& grid, Real per_face,
-                                      std::int32_t c, std::int32_t end,
-                                      PressureFields<Real>& fields) {
+[[gnu::noinline]] void densities_of_row(const StaggeredGrid<Real>& grid, Real per_face,
+                                        const ShareOf<Real>* full, std::int32_t c,
+                                        std::int32_t end, PressureFields<Real>& fields) {
     const VelocityOf<Real>* lower = grid.mass_v + c;
     const VelocityOf<Real>* upper = lower + grid.shape.stride;
     const VelocityOf<Real>* right = grid.mass_u + c + 1;
-    DensityOf<Real>* density = fields.density + c;
-    LevelOf<Real>* level = fields.level + c;
     Real left = right[-1];
     for (; c < end; ++c) {
         const Real next = *right++;
         const Real mass = (left + next) + (*lower++ + *upper++);
         left = next;
-        const bool any = mass > Real(0);
-        const Real here = any ? mass * per_face : Real(0);
-        *density++ = here;
-        *level++ = any ? level_of_density(here) : kEmptyLevel<Real>;
+        Real density = Real(0);
+        Real level = kEmptyLevel<Real>;
+        if (mass > Real(0)) {
+            density = mass * per_face;
+            if (full != nullptr && bound_key(Real(full[c])) < bound_key(Real(1))) {
+                density = density_of_room<Real>(density, full[c]);
+            }
+            level = level_of_density(density);
+        }
+        fields.density[c] = density;
+        fields.level[c] = level;
     }
 }
 
@@ -77,22 +80,23 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
                                 : density_row(grid, walls.active ? walls.full_density : nullptr,
                                               kLeastFullDensity<Real>, per_face, c, end, fields);
         }
-        if (thin == nullptr && !walls.active) {
-            open_densities(grid, per_face, c, end, fields);
+        if (thin == nullptr) {
+            densities_of_row(grid, per_face, walls.active ? walls.full_density : nullptr, c, end,
+                             fields);
             continue;
         }
         for (; c < end; ++c) {
-            const Real mass = thin != nullptr && (thin->mark[c] & kTouching) != 0
+            const Real mass = (thin->mark[c] & kTouching) != 0
                                   ? seen_mass(grid, *thin, c)
                                   : (grid.mass_u[c] + grid.mass_u[c + 1]) +
                                         (grid.mass_v[c] + grid.mass_v[c + s.stride]);
-            Real density = mass * per_face;
-            if (mass > Real(0) && walls.active && walls.full_density[c] < Real(1)) {
-                density = walls.full_density[c] < kLeastFullDensity<Real>
-                              ? Real(0)
-                              : density / walls.full_density[c];
+            const bool any = mass > Real(0);
+            Real density = any ? mass * per_face : Real(0);
+            if (any && walls.active && walls.full_density[c] < Real(1)) {
+                density = density_of_room<Real>(density, walls.full_density[c]);
             }
-            set_density(fields, c, mass, density);
+            fields.density[c] = density;
+            fields.level[c] = any ? level_of_density(density) : kEmptyLevel<Real>;
         }
     }
 }

@@ -177,8 +177,9 @@ inline bool touches_wall(const Walls<Real>& walls, std::int32_t cell) {
 /// one: its neighbour is a sliver.
 template <class Real>
 inline bool untouched(const Walls<Real>& walls, std::int32_t cell, std::int32_t up) {
-    return walls.open_u[cell] == Real(1) && walls.open_u[cell + 1] == Real(1) &&
-           walls.open_v[cell] == Real(1) && walls.open_v[up] == Real(1);
+    const auto wide = [](Real open) { return bound_key(open) == bound_key(Real(1)); };
+    return wide(walls.open_u[cell]) && wide(walls.open_u[cell + 1]) && wide(walls.open_v[cell]) &&
+           wide(walls.open_v[up]);
 }
 
 /// What moving walls push into the cell (i, j) through the closed parts of its faces, counted
