@@ -33,11 +33,36 @@ inline Real expected_deficit(Real lowest) {
 template <class Real>
 inline constexpr Real kLeastWeight = Real(1.0e-4);
 
-/// How much too dense a cell is, or too thin where liquid is all around. `lowest`: level of the
-/// lowest cell next to it. Liquid whose pressure is below the air's hangs under gravity: to draw it
-/// together would lift it, and nothing would pay. `hanging`: 1 / weight of a cell of liquid, or 0.
+/// Which share of a deficit counts, by the pressure: liquid whose pressure is below the air's hangs
+/// under gravity: to draw it together would lift it, and nothing would pay. Compressible liquid
+/// knows no tension: there it takes the pressure of a cell's weight.
 template <class Real>
-inline Real excess(const PressureFields<Real>& f, Real hanging, std::int32_t c, Real lowest) {
+struct Held {
+    Real at_rest = Real(1);  ///< without pressure
+    Real rise = Real(0);     ///< 1 / weight of a cell of liquid; 0 without gravity
+    Real enough = Real(0);   ///< pressure from which on all of it does
+
+    Real share(Real pressure) const {
+        return clamp<Real>(at_rest + rise * pressure, Real(0), Real(1));
+    }
+};
+
+template <class Real>
+inline Held<Real> held_by(Real weight, const PressureFields<Real>& f) {
+    if (!(weight > Real(0))) {
+        return {};
+    }
+    const Real least = maximum(weight, kLeastWeight<Real>);
+    const bool slack = f.sound_speed > Real(0);
+    return {Real(slack ? 0 : 1), Real(1) / least,
+            slack ? Real(1.0 + 1.0 / 1024.0) * least : Real(0)};  // more than by rounding
+}
+
+/// How much too dense a cell is, or too thin where liquid is all around. `lowest`: level of the
+/// lowest cell next to it.
+template <class Real>
+inline Real excess(const PressureFields<Real>& f, const Held<Real>& held, std::int32_t c,
+                   Real lowest) {
     Real e = f.density[c] - Real(1);
     if (!(f.level[c] > Real(0) && lowest > Real(0))) {
         return clamp<Real>(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
@@ -47,15 +72,15 @@ inline Real excess(const PressureFields<Real>& f, Real hanging, std::int32_t c, 
         e -= clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
     }
     if (e < Real(0)) {
-        e = clamp<Real>(Real(1) + hanging * f.pressure[c], Real(0), Real(1)) * e;
+        e = held.share(f.pressure[c]) * e;
     }
     return clamp(e, -kWindow<Real>, kWindow<Real>);
 }
 
 template <class Real>
-[[gnu::noinline]] Real excess(const GridShape& s, const PressureFields<Real>& f, Real hanging,
-                              std::int32_t c) {
-    return excess<Real>(f, hanging, c,
+[[gnu::noinline]] Real excess(const GridShape& s, const PressureFields<Real>& f,
+                              const Held<Real>& held, std::int32_t c) {
+    return excess<Real>(f, held, c,
                         minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
                                       minimum<Real>(f.level[c - s.stride], f.level[c + s.stride])));
 }
@@ -63,7 +88,7 @@ template <class Real>
 /// Beside closed faces: what is behind them is no surface.
 template <class Real>
 Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
-                        const PressureFields<Real>& f, Real hanging, std::int32_t c) {
+                        const PressureFields<Real>& f, const Held<Real>& held, std::int32_t c) {
     Real lowest = f.level[c];
     const auto look = [&](Real open, std::int32_t neighbour) {
         lowest = open > Real(0) ? minimum<Real>(lowest, f.level[neighbour]) : lowest;
@@ -72,19 +97,20 @@ Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
     look(walls.open_u[c + 1], c + 1);
     look(walls.open_v[c], c - s.stride);
     look(walls.open_v[c + s.stride], c + s.stride);
-    return excess<Real>(f, hanging, c, lowest);
+    return excess<Real>(f, held, c, lowest);
 }
 
 template <class Real>
-inline ExcessLimits excess_limits(const PressureFields<Real>& fields, Real hanging) {
+inline ExcessLimits excess_limits(const PressureFields<Real>& fields, const Held<Real>& held) {
     return {static_cast<float>(kSurfaceSlack<Real>), static_cast<float>(kSubsurfaceSlack<Real>),
-            static_cast<float>(kWindow<Real>), fields.on_surface, static_cast<float>(hanging)};
+            static_cast<float>(kWindow<Real>), fields.on_surface,
+            static_cast<float>(held.at_rest), static_cast<float>(held.rise)};
 }
 
 /// The same where it is told at once: in air, and in a cell with full ones all around.
 template <class Real>
-inline Real plain_excess(const GridShape& s, const PressureFields<Real>& f, Real hanging,
-                         std::int32_t c) {
+inline Real plain_excess(const GridShape& s, const PressureFields<Real>& f,
+                         const Held<Real>& held, std::int32_t c) {
     const auto level = [&](std::int32_t cell) { return bound_key(Real(f.level[cell])); };
     const auto full = bound_key(Real(0.5));
     const auto one = bound_key(Real(1));
@@ -95,25 +121,25 @@ inline Real plain_excess(const GridShape& s, const PressureFields<Real>& f, Real
         }
     } else if (level(c - 1) >= full && level(c + 1) >= full && level(c - s.stride) >= full &&
                level(c + s.stride) >= full &&
-               (density >= one || bound_key(f.pressure[c]) >= bound_key(Real(0)))) {
+               (density >= one || bound_key(f.pressure[c]) >= bound_key(held.enough))) {
         const Real e = f.density[c] - Real(1);
         return density > bound_key(Real(2)) ? kWindow<Real> : e;
     }
-    return excess(s, f, hanging, c);
+    return excess(s, f, held, c);
 }
 
 /// Of the cells of some rows, into `divergence`.
 template <class Real>
-void find_excess(const GridShape& s, const Part& rows, Real hanging,
+void find_excess(const GridShape& s, const Part& rows, const Held<Real>& held,
                  PressureFields<Real>& fields) {
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t c = s.index(0, j);
         const std::int32_t end = s.index(s.nx, j);
         if constexpr (kHasLanes<Real>) {
-            c = excess_lanes(fields, s.stride, excess_limits(fields, hanging), c, end);
+            c = excess_lanes(fields, s.stride, excess_limits(fields, held), c, end);
         }
         for (; c < end; ++c) {
-            fields.divergence[c] = plain_excess(s, fields, hanging, c);
+            fields.divergence[c] = plain_excess(s, fields, held, c);
         }
     }
 }
@@ -145,16 +171,16 @@ inline void find_excess_by_words(const GridShape& s, const Walls<float>& walls,
 /// The same of the cells beside closed faces. What has little room shows little, and the density of
 /// few particles is known to the slack.
 template <class Real>
-void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls, Real hanging,
-                              PressureFields<Real>& fields, Work work) {
+void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
+                              const Held<Real>& held, PressureFields<Real>& fields, Work work) {
     const Part rows = work.take(s.ny, s.nx);
     if constexpr (kHasLanes<Real>) {
-        find_excess_by_words(s, walls, excess_limits(fields, hanging), rows, fields);
+        find_excess_by_words(s, walls, excess_limits(fields, held), rows, fields);
         return;
     }
     const auto look = [&](std::int32_t c) {
         if (fields.level[c] > Real(0)) {  // else there is none
-            const Real e = excess_beside_wall(s, walls, fields, hanging, c);
+            const Real e = excess_beside_wall(s, walls, fields, held, c);
             const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
             fields.divergence[c] = known * minimum<Real>(Real(1), walls.full_density[c]);
         }

@@ -1,6 +1,7 @@
 // The drift of one patch, and what it costs.
 #pragma once
 
+#include "grid/borders.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/volume_lanes.hpp"
 
@@ -43,6 +44,7 @@ struct Drift {
     const GridShape& shape;
     const Patch& patch;
     Real speed;  ///< where the excess rises by 1 from cell to cell, cells/s
+    Vec2<Real> weight;  ///< what gravity makes of a velocity in the step
     Real along_x[kCoarseEdge];
     Real along_y[kCoarseEdge];
 
@@ -76,6 +78,8 @@ struct Drift {
         return fields.on_surface || fields.coarse.residual[q] != Real(0);
     }
 
+    Real mean_excess() const { return fields.coarse.correction[patch.q]; }
+
     /// Whether nothing drifts: no excess in the patch, before it and below it, nor a rise.
     bool still() const {
         return !has_excess(patch.q) && !has_excess(patch.q - 1) &&
@@ -100,12 +104,35 @@ inline constexpr Real kMostPrice = Real(64);
 template <class Real>
 inline constexpr Real kMostRefund = Real(256);
 
-/// Which share of its velocity a patch gives for what the drift lifts in it against the pressure,
-/// and gets for what it lets down. Liquid in order is not asked: what it does is reversed later.
+/// Work of a patch's drift: against the pressure, or, where it gives way to that, against gravity,
+/// if that is more. Only what falls pays: the pressure of a blow rises in any direction.
+template <class Real>
+inline Real work_of_drift(const Weights<Real>& sums) {
+    const Real lifted = in_turn(sums.lifted);
+    return lifted < Real(0) ? maximum<Real>(lifted, in_turn(sums.raised)) : lifted;
+}
+
+/// From this sum of squares of its excess on a patch counts as torn: liquid that does not reach a
+/// wall. Pools that come to rest have less.
+template <class Real>
+inline constexpr Real kTorn = Real(0.025);
+
+/// Which share of its drift a patch makes. What is torn is drawn up only as far as it can pay:
+/// liquid that falls from a wall has nothing to pay from at first.
+template <class Real>
+inline Real share_of_drift(const Weights<Real>& sums, Real mean_excess) {
+    const Real torn = clamp<Real>(in_turn(sums.disorder) - kTorn<Real>, Real(0), kStirred<Real>);
+    const Real due = kMostPrice<Real> * (in_turn(sums.raised) * (torn / kStirred<Real>));
+    const Real moving = in_turn(sums.moving);
+    return mean_excess < Real(0) && due > Real(0) ? moving / (moving + due) : Real(1);
+}
+
+/// Which share of its velocity a patch gives for what the drift lifts in it, and gets for what it
+/// lets down. Liquid in order is not asked: what it does is reversed later.
 template <class Real>
 inline Real price_of(const Weights<Real>& sums) {
     const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
-    const Real work = in_turn(sums.lifted) * (disorder / kStirred<Real>);
+    const Real work = work_of_drift(sums) * (disorder / kStirred<Real>);
     const Real moving = in_turn(sums.moving);
     if (work > Real(0)) {
         return work / (moving + kMostPrice<Real> * work);
@@ -131,6 +158,7 @@ template <bool Weighed, bool Solids, class Real>
     Real* way = ways.of;
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         Real lifted = Real(0);
+        Real raised = Real(0);
         Real moving = Real(0);
         Real disorder = Real(0);
         const Real along_x = drift.along_x[x];
@@ -139,21 +167,23 @@ template <bool Weighed, bool Solids, class Real>
         Real below = here;
         Real pressure = p[under];
         Real pressure_below = pressure;
-        const auto add = [&](Real way_here, Real rise, Real velocity) {
+        const auto add = [&](Real way_here, Real rise, Real weight, Real velocity) {
             *way++ = way_here;
             if (Weighed) {
                 lifted += way_here * rise;
+                raised += weight * way_here;
                 moving += velocity * velocity;
             }
         };
         drift.for_each_face(
             x,
             [&](std::int32_t face, std::int32_t) {
-                add(speed * ((here - e[face - 1]) + along_x), pressure - p[face - 1], u[face]);
+                add(speed * ((here - e[face - 1]) + along_x), pressure - p[face - 1],
+                    drift.weight.x, u[face]);
             },
             [&](std::int32_t face, std::int32_t y) {
                 add(speed * ((here - below) + drift.along_y[y]), pressure - pressure_below,
-                    v[face]);
+                    drift.weight.y, v[face]);
             },
             [&](std::int32_t c) {
                 below = here;
@@ -166,6 +196,7 @@ template <bool Weighed, bool Solids, class Real>
             });
         if (Weighed) {
             sums.lifted[x] = lifted;
+            sums.raised[x] = raised;
             sums.moving[x] = moving;
             sums.disorder[x] = disorder;
         }
@@ -192,15 +223,26 @@ inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& wa
     }
 }
 
+/// Whether a patch cannot pay for all of its drift: then it makes less of it.
+template <bool Solids, class Real>
+inline bool slows_down(Drift<Solids, Real>& drift, const Weights<Real>& sums) {
+    const Real share = share_of_drift(sums, drift.mean_excess());
+    drift.speed = share * drift.speed;
+    return share < Real(1);
+}
+
 /// A patch of any kind.
 template <bool Solids, class Real>
-inline void drift_any(const Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
+inline void drift_any(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
     Ways<Real> ways;
     Weights<Real> sums;
     if constexpr (kPaysForLifting<Real>) {
         if (pays) {
             find_ways<true>(drift, grid, ways, sums);
             const Real price = price_of(sums);
+            if (slows_down(drift, sums)) {
+                find_ways<false>(drift, grid, ways, sums);
+            }
             if (price != Real(0)) {
                 drift_columns<true>(drift, ways, price, grid);
                 return;
@@ -216,20 +258,22 @@ inline void drift_any(const Drift<Solids, Real>& drift, bool pays, StaggeredGrid
 #if WEIR_HAS_LANES
 /// A whole patch at once, that lies at none of the tank's walls.
 template <bool Closed, class Drift>
-inline void drift_at_once(const Drift& drift, bool pays, StaggeredGrid<float>& grid) {
+inline void drift_at_once(Drift& drift, bool pays, StaggeredGrid<float>& grid) {
     DriftOfPatch way;
     float price = 0.0F;
     if (pays) {
         Weights<float> sums;
         find_drift<true, Closed>(drift, grid, way, sums);
         price = price_of(sums);
-    } else {
+        pays = !slows_down(drift, sums);
+    }
+    if (!pays) {
         find_drift<false, Closed>(drift, grid, way, nullptr);
     }
     apply_drift<Closed>(drift, way, price, grid);
 }
 template <bool Solids>
-inline void drift_inner(const Drift<Solids, float>& drift, bool pays, StaggeredGrid<float>& grid) {
+inline void drift_inner(Drift<Solids, float>& drift, bool pays, StaggeredGrid<float>& grid) {
     if (Solids && !all_open(drift)) {
         drift_at_once<Solids>(drift, pays, grid);
     } else {
@@ -239,7 +283,7 @@ inline void drift_inner(const Drift<Solids, float>& drift, bool pays, StaggeredG
 #endif
 
 template <bool Solids, class Real>
-inline void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
+inline void drift_apart(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
     if (drift.still()) {
         return;
     }
@@ -257,6 +301,7 @@ inline void drift_apart(const Drift<Solids, Real>& drift, bool pays, StaggeredGr
                 Weights<Real> sums;
                 weigh_rows(drift, grid, sums);
                 price = price_of(sums);
+                slows_down(drift, sums);
             }
             drift_rows(drift, price, grid);
             return;

@@ -96,17 +96,18 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
 }
 
 template <bool Solids, class Real>
-void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed, Real weight,
+void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed, Vec2<Real> weight,
              PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
              Work work) {
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
-    const bool pays = weight > Real(0);
-    const Real hanging = pays ? Real(1) / maximum(weight, kLeastWeight<Real>) : Real(0);
+    const Real weight_of_cell = maximum(absolute(weight.x), absolute(weight.y));
+    const bool pays = weight_of_cell > Real(0);
+    const Held<Real> held = held_by(weight_of_cell, fields);
     work.share(work.take(s.ny, s.nx), s.nx, 1,
-               [&](const Part& rows, std::int32_t) { find_excess(s, rows, hanging, fields); });
+               [&](const Part& rows, std::int32_t) { find_excess(s, rows, held, fields); });
     if constexpr (Solids) {
-        find_excess_beside_walls(s, walls, hanging, fields, work);
+        find_excess_beside_walls(s, walls, held, fields, work);
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
@@ -128,7 +129,7 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     }
     share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
         static_assert(kCoarseEdge == 4, "rises() knows four faces");
-        Drift<Solids, Real> drift{borders, walls, fields, s, patch, speed, {}, {}};
+        Drift<Solids, Real> drift{borders, walls, fields, s, patch, speed, weight, {}, {}};
         rises(fields.coarse.correction, patch.q, 1, drift.along_x);
         rises(fields.coarse.correction, patch.q, big.stride, drift.along_y);
         drift_apart(drift, pays, grid);
@@ -137,8 +138,8 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 
 template <bool Solids, class Real>
 void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                 Real gain, Real weight, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
-                 std::int32_t& overfull, Work work) {
+                 Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
+                 StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
     if constexpr (Stored<Real>::coarse) {
         correct_packed<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
     } else {
@@ -153,7 +154,7 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
 
 template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, Real weight, PressureFields<Real>& fields,
+                       Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
                        StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
     const auto stage = walls.active ? keep_volume<true, Real> : keep_volume<false, Real>;
     stage(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
@@ -161,19 +162,20 @@ void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, S
 
 template <class Real>
 void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                               Seconds<Real> dt_s, Real gain, Real weight,
+                               Seconds<Real> dt_s, Real gain, Vec2<Real> weight,
                                PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
                                std::int32_t& overfull, Work work) {
     keep_volume<false, Real>(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                          \
-    template void volume_correction(const Borders<Real>&, const Walls<Real>&,           \
-                                    Seconds<Real>, Real, Real, PressureFields<Real>&,   \
-                                    StaggeredGrid<Real>&, std::int32_t&, Work);         \
-    template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,   \
-                                            Seconds<Real>, Real, Real, PressureFields<Real>&, \
-                                            StaggeredGrid<Real>&, std::int32_t&, Work);
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template void volume_correction(const Borders<Real>&, const Walls<Real>&,               \
+                                    Seconds<Real>, Real, Vec2<Real>, PressureFields<Real>&, \
+                                    StaggeredGrid<Real>&, std::int32_t&, Work);             \
+    template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,       \
+                                            Seconds<Real>, Real, Vec2<Real>,                \
+                                            PressureFields<Real>&, StaggeredGrid<Real>&,    \
+                                            std::int32_t&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -13,8 +13,9 @@ struct ExcessLimits {
     float surface_slack;
     float subsurface_slack;
     float window;
-    bool exact_below;  ///< no allowance below the surface
-    float hanging;     ///< 1 / weight of a cell of liquid; 0 without gravity
+    bool exact_below;    ///< no allowance below the surface
+    float held_at_rest;  ///< as `Held`
+    float held_rise;
 };
 
 /// What the excess of cells and of patches is cut to, and of what a patch is overfull.
@@ -29,6 +30,7 @@ struct PatchLimits {
 template <class Real>
 struct Weights {
     Real lifted[kCoarseEdge] = {};    ///< work of the drift against the pressure
+    Real raised[kCoarseEdge] = {};    ///< the same against gravity
     Real moving[kCoarseEdge] = {};    ///< squares of the velocity
     Real disorder[kCoarseEdge] = {};  ///< squares of the excess
 };
@@ -60,9 +62,9 @@ inline typename L::Floats excess_of_cells(const PressureFields<float>& f,
         const auto more = e + L::all(0.125F) * missing * missing;
         inside = below ? more - L::clamp(more, -slack, slack) : e;
     }
-    const auto under = one + L::all(limits.hanging) * L::load(f.pressure + c);
-    const auto held = L::clamp(under, zero, one);
-    inside = inside < zero ? held * inside : inside;
+    const auto rise = L::all(limits.held_rise) * L::load(f.pressure + c);
+    const auto share = L::clamp(L::all(limits.held_at_rest) + rise, zero, one);
+    inside = inside < zero ? share * inside : inside;
     return inner ? L::clamp(inside, -window, window) : at_surface;
 }
 
@@ -255,10 +257,12 @@ inline void weigh_rows(const Drift& drift, const StaggeredGrid<float>& grid,
     const float* p = drift.fields.pressure;
     const Lanes zero = all_lanes(0.0F);
     Lanes lifted = zero;
+    Lanes raised = zero;
     Lanes moving = zero;
     for_each_four(drift, [&](std::int32_t c, DriftOfFour of, std::int32_t back, bool on_u) {
         const Lanes now = load_lanes((on_u ? grid.u : grid.v) + c);
         lifted = lifted + of.way * (load_lanes(p + c) - load_lanes(p + c - back));
+        raised = raised + all_lanes(on_u ? drift.weight.x : drift.weight.y) * of.way;
         moving = moving + (of.moves ? now * now : zero);
     });
     Lanes disorder = zero;
@@ -268,6 +272,7 @@ inline void weigh_rows(const Drift& drift, const StaggeredGrid<float>& grid,
         disorder = disorder + here * here;
     }
     store_lanes(sums.lifted, lifted);
+    store_lanes(sums.raised, raised);
     store_lanes(sums.moving, moving);
     store_lanes(sums.disorder, disorder);
 }
@@ -332,6 +337,7 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
     const Lanes along_x = load_lanes(drift.along_x);
     const Lanes speed = all_lanes(drift.speed);
     [[maybe_unused]] Lanes lifted = all_lanes(0.0F);
+    [[maybe_unused]] Lanes raised = lifted;
     [[maybe_unused]] Lanes moving = lifted;
     [[maybe_unused]] Lanes disorder = lifted;
     Lanes e_below = load_lanes(e - stride);
@@ -350,6 +356,8 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
             const Lanes v = if_open<Closed>(open_v, load_lanes(grid.v + c));
             lifted = lifted + way.u[y] * (held - load_lanes(p - 1));
             lifted = lifted + way.v[y] * (held - p_below);
+            raised = raised + all_lanes(drift.weight.x) * way.u[y];
+            raised = raised + all_lanes(drift.weight.y) * way.v[y];
             moving = (moving + u * u) + v * v;
             disorder = disorder + here * here;
             p_below = held;
@@ -361,6 +369,7 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
     }
     if constexpr (Weighed) {
         store_lanes(sums.lifted, lifted);
+        store_lanes(sums.raised, raised);
         store_lanes(sums.moving, moving);
         store_lanes(sums.disorder, disorder);
     }

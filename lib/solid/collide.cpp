@@ -128,29 +128,29 @@ bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at, Vec2<Real> 
     return true;
 }
 
-/// In a notch the velocity that a blow leaves may lead into the solid again. Then there is no way
-/// on, and what is left of it goes, too: it would grow without end while the particle stays.
+/// In a notch the velocity that a blow leaves may lead into the solid again, or the particle is
+/// `wedged`. Then there is no way on, and what is left of it goes, too: it would grow for ever.
 template <class Real>
-void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> place) {
-    constexpr Real kAhead = Real(1.0 / 32.0);
-    const Body<Real>& body = scene.walls.body[slot];
-    const Vec2<Real> velocity = scene.particles.velocity[k];
-    const Vec2<Real> relative = velocity - velocity_at(body, place);
+void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> place,
+                     bool wedged) {
+    const Vec2<Real> wall = velocity_at(scene.walls.body[slot], place);
+    const Vec2<Real> relative = Vec2<Real>(scene.particles.velocity[k]) - wall;
     const Real speed = length(relative);
     if (!(speed > Real(0))) {
         return;
     }
     const Vec2<Real> back = (Real(-1) / speed) * relative;
-    const Vec2<Real> ahead = within_tank(scene.shape, place - kAhead * back);
-    if (standing(scene.shape, scene.walls, ahead).inside) {
+    const Vec2<Real> ahead = within_tank(scene.shape, place - Real(1.0 / 32.0) * back);
+    if (wedged || standing(scene.shape, scene.walls, ahead).inside) {
         answer(scene, k, slot, place, back);
     }
 }
 
 /// Stops a particle where its path, seen from the body, first meets a solid. `slot`: the body that
-/// it is in, or kNoBody. False: the path began inside a solid, or off the tank.
+/// it is in, or kNoBody. `far`: nobody tried to set it back. False: the path began inside a solid.
 template <class Real>
-bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> before) {
+bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> before,
+                  bool far) {
     const Vec2<Real> x = scene.particles.position[k];
     Vec2<Real> from = before;
     Entry<Real> entry;
@@ -171,7 +171,8 @@ bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<R
     ++scene.result.reflected;
     scene.particles.position[k] = entry.place;
     answer(scene, k, entry.at.slot, entry.place, entry.at.hit.normal);
-    stop_if_blocked(scene, k, entry.at.slot, entry.place);
+    const bool stays = Real(16) * length(entry.place - from) <= length(x - from);
+    stop_if_blocked(scene, k, entry.at.slot, entry.place, stays && !far);
     return true;
 }
 
@@ -231,7 +232,7 @@ bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool fa
         ++scene.result.reflected;
         return true;
     }
-    if ((at.inside || far) && stop_on_path(scene, k, at.slot, before)) {
+    if ((at.inside || far) && stop_on_path(scene, k, at.slot, before, far)) {
         return true;
     }
     return !at.inside || lead_out(scene, k, at.slot, before);

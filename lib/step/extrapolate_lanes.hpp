@@ -8,8 +8,13 @@
 
 namespace weir {
 
-/// Spray that is faster than pushed liquid by this factor is out of its reach.
-constexpr float kOutOfReach = 1.5F;
+/// A push on liquid makes spray at most this much faster than the liquid is by it: what turns is
+/// faster beyond its surface, by the curvature. What a compressible liquid stores is no rotation's:
+/// it squeezes out jets, which its push would follow.
+template <class Real>
+inline Real reach_of_push(const PressureFields<Real>& fields) {
+    return Real(fields.sound_speed > Real(0) ? 1.0F : 1.2F);
+}
 
 #if WEIR_HAS_LANES
 
@@ -22,6 +27,7 @@ struct ExtrapolateTask {
     std::int32_t back;
     std::int32_t stride;
     float least_fraction;
+    float reach;  ///< `reach_of_push`
     bool velocity_itself;
     bool has_lower;      ///< whether the rows beside it are the tank's
     bool has_upper;
@@ -42,12 +48,13 @@ inline auto lanes_from(std::int32_t k) {
 /// As `push_on_spray`.
 template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
-                                typename L::Floats spray) {
+                                typename L::Floats spray, float most) {
     const auto zero = L::all(0.0F);
-    const auto ahead = spray - L::all(kOutOfReach) * liquid;
-    const auto leaves = push > zero ? L::minimum(spray, ahead) > zero
-                                    : L::maximum(spray, ahead) < zero;
-    return leaves ? zero : push;
+    const auto reach = L::all(most) * liquid;
+    const auto speed = L::absolute(spray);
+    const auto faster = L::minimum(push, L::maximum(speed, reach) - spray);
+    const auto back = L::maximum(push, L::minimum(zero - speed, reach) - spray);
+    return push > zero ? faster : back;
 }
 
 /// Sum and count of what goes on from the faces beside some faces.
@@ -77,7 +84,7 @@ struct Beside {
         const auto push =
             zero - (both ? rise
                          : rise / fraction_between<L>(task.least_fraction, level, before, open));
-        sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own) : zero;
+        sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own, task.reach) : zero;
     }
 };
 

@@ -109,14 +109,14 @@ struct Component {
     const ThinWalls<Real>* thin;    ///< through which nothing goes on; null: there are none
 };
 
-/// What a push on liquid does to a face in the air beside it: it does not reach spray that runs
-/// ahead.
+/// What a push on liquid does to a face in the air beside it: it makes it as fast as the liquid is
+/// by it, or turns it round, and no faster: spray that runs ahead has had its push.
 template <class Real>
-Real push_on_spray(Real push, Real liquid, Real spray) {
-    const Real ahead = spray - Real(kOutOfReach) * liquid;
-    const bool leaves = push > Real(0) ? minimum(spray, ahead) > Real(0)
-                                       : maximum(spray, ahead) < Real(0);
-    return leaves ? Real(0) : push;
+Real push_on_spray(Real push, Real liquid, Real spray, Real most) {
+    const Real reach = most * liquid;
+    const Real speed = absolute(spray);
+    return push > Real(0) ? minimum<Real>(push, maximum<Real>(speed, reach) - spray)
+                          : maximum<Real>(push, minimum<Real>(Real(0) - speed, reach) - spray);
 }
 
 template <class Real>
@@ -124,6 +124,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                            bool velocity_itself, const GridShape& s, const Part& rows) {
     const LevelOf<Real>* level = fields.level;
     const std::int32_t back = component.back;
+    const Real reach = reach_of_push(fields);
     const auto height = [&](std::int32_t cell) { return bound_key(Real(level[cell])); };
     const auto wet = [&](std::int32_t face) {
         return height(face) > bound_key(Real(0)) || height(face - back) > bound_key(Real(0));
@@ -151,7 +152,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                 const Real liquid = component.velocity[neighbour];
                 sum += velocity_itself ? liquid
                                        : push_on_spray(-gained(neighbour), liquid,
-                                                       Real(component.velocity[face]));
+                                                       Real(component.velocity[face]), reach);
                 count += Real(1);
             }
         };
@@ -174,8 +175,8 @@ void extrapolate_component(const Component<Real>& component, const PressureField
             if (amid && component.light == nullptr && component.thin == nullptr &&
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
                                    back, s.stride, least_fraction(fields),
-                                   velocity_itself, j > component.first_j,
-                                   j + 1 < s.ny, face, row + s.nx})) {
+                                   static_cast<float>(reach), velocity_itself,
+                                   j > component.first_j, j + 1 < s.ny, face, row + s.nx})) {
                 continue;
             }
         }

@@ -294,10 +294,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
     if (settings.volume_gain > Real(0) && !plan.settling) {
         const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
-        const Vec2<Real> g = settings.gravity;
-        const Real weight = maximum(absolute(g.x), absolute(g.y)) * dt_s;
-        stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s), weight,
-              simulation.pressure, grid, report.cells_overfull, work);
+        stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
+              dt_s * settings.gravity, simulation.pressure, grid, report.cells_overfull, work);
     }
     clock.charge(Stage::volume);
 

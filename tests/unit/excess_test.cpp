@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "pressure/excess.hpp"
+#include "pressure/patch_drift.hpp"
 
 namespace weir {
 namespace {
@@ -26,8 +27,7 @@ struct Cell {
         pressure[4] = how_pressed;
     }
     float excess_under(float weight) {
-        const float hanging = weight > 0.0F ? 1.0F / weight : 0.0F;
-        return excess<float>(fields, hanging, 4, 2.0F);
+        return excess<float>(fields, held_by(weight, fields), 4, 2.0F);
     }
 };
 
@@ -41,6 +41,34 @@ TEST(Excess, OfWhatHangsIsNoDeficit) {
     EXPECT_FLOAT_EQ(Cell(0.75F, -2.0F).excess_under(1.0F), 0.0F);
     EXPECT_FLOAT_EQ(Cell(1.25F, -2.0F).excess_under(1.0F), 0.25F) << "it may yet be too dense";
     EXPECT_FLOAT_EQ(Cell(0.75F, -2.0F).excess_under(0.0F), -0.25F) << "without gravity";
+}
+
+TEST(Excess, OfCompressibleLiquidWantsPressureToBeADeficit) {
+    const auto excess_of = [](float density, float pressure, float weight) {
+        Cell cell(density, pressure);
+        cell.fields.sound_speed = 10.0F;
+        return cell.excess_under(weight);
+    };
+    EXPECT_FLOAT_EQ(excess_of(0.75F, 0.0F, 1.0F), 0.0F) << "nothing holds it";
+    EXPECT_FLOAT_EQ(excess_of(0.75F, 0.5F, 1.0F), -0.125F) << "half a cell's weight";
+    EXPECT_FLOAT_EQ(excess_of(0.75F, 2.0F, 1.0F), -0.25F);
+    EXPECT_FLOAT_EQ(excess_of(1.25F, 0.0F, 1.0F), 0.25F) << "it may yet be too dense";
+    EXPECT_FLOAT_EQ(excess_of(0.75F, 0.0F, 0.0F), -0.25F) << "without gravity";
+}
+
+TEST(Drift, GetsBackNoMoreThanFalls) {
+    const auto price = [](float lifted, float raised) {
+        Weights<float> sums;
+        sums.lifted[0] = lifted;
+        sums.raised[0] = raised;
+        sums.moving[0] = 1.0e4F;
+        sums.disorder[0] = 1.0F;
+        return price_of(sums);
+    };
+    EXPECT_GT(price(1.0F, 0.0F), 0.0F);
+    EXPECT_FLOAT_EQ(price(-1.0F, -2.0F), -1.0e-4F) << "by what it gave way to";
+    EXPECT_FLOAT_EQ(price(-1.0F, -0.25F), -0.25e-4F) << "by what has fallen";
+    EXPECT_GT(price(-1.0F, 0.25F), 0.0F) << "the pressure pushed it up";
 }
 
 }  // namespace

@@ -53,15 +53,16 @@ class SprayOf : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed>;
 TYPED_TEST_SUITE(SprayOf, Scalars, );
 
-TYPED_TEST(SprayOf, IsPushedUnlessItRunsAhead) {
+TYPED_TEST(SprayOf, IsPushedToTheLiquidsSpeedAndTurnedRound) {
     // A pressure of 1 a quarter of a cell below the surface: 4 cells/s.
     for (std::int32_t i = 0; i < 16; ++i) {  // in groups of lanes and at their ends
         SCOPED_TRACE(i);
-        EXPECT_NEAR(Spray<TypeParam>().after(10.0, 10.0, i), 14.0, 1e-3);
-        EXPECT_NEAR(Spray<TypeParam>().after(10.0, 14.9, i), 18.9, 1e-3);
-        EXPECT_NEAR(Spray<TypeParam>().after(10.0, 15.1, i), 15.1, 1e-3) << "out of reach";
+        EXPECT_NEAR(Spray<TypeParam>().after(10.0, 5.0, i), 9.0, 1e-3);
+        EXPECT_NEAR(Spray<TypeParam>().after(10.0, 10.0, i), 12.0, 1e-3) << "a fifth faster";
+        EXPECT_NEAR(Spray<TypeParam>().after(10.0, 13.0, i), 13.0, 1e-3) << "out of reach";
         EXPECT_NEAR(Spray<TypeParam>().after(-1.0, 2.0, i), 2.0, 1e-3) << "the other way";
-        EXPECT_NEAR(Spray<TypeParam>().after(-1.0, -2.0, i), 2.0, 1e-3) << "falls on it";
+        EXPECT_NEAR(Spray<TypeParam>().after(-1.0, -3.0, i), 1.0, 1e-3) << "falls on it";
+        EXPECT_NEAR(Spray<TypeParam>().after(-1.0, -1.0, i), 1.0, 1e-3) << "no faster than before";
     }
 }
 
