@@ -207,14 +207,14 @@ std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table) {
     return nodes + refresh(layers, table, everywhere(layers));
 }
 
-/// The most nodes of a body that moves, wherever it is.
+/// The most nodes of a body that moves, wherever it is, and the window in the substep to come.
 template <class Real>
 std::int64_t nodes_of_moving(const Layers<Real>& layers, const Body<Real>& body) {
-    const GridShape part = stored_part(layers);
+    const GridShape& tank = layers.shape;
     // Floor and 1: that many nodes come upon an interval. A hundredth for rounding.
     const Real reach = body.radius + kBand<Real> + Real(0.01);
     const std::int64_t width = floor_to_int(reach + reach) + 1;
-    return minimum<std::int64_t>(width, part.nx + 1) * minimum<std::int64_t>(width, part.ny + 1);
+    return minimum<std::int64_t>(width, tank.nx + 1) * minimum<std::int64_t>(width, tank.ny + 1);
 }
 
 /// Thin walls are looked at where there are any.
@@ -345,7 +345,6 @@ std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table
 
 template <class Real>
 std::int32_t most_stored_nodes(const Layers<Real>& layers, const BodyTable<Real>& table) {
-    const GridShape part = stored_part(layers);
     std::int64_t nodes = 0;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
@@ -353,8 +352,7 @@ std::int32_t most_stored_nodes(const Layers<Real>& layers, const BodyTable<Real>
             nodes += nodes_of_moving(layers, body);
         } else if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
             const NodeBox& box = body.drawn;
-            nodes += static_cast<std::int64_t>(minimum(box.i1 - box.i0, part.nx) + 1) *
-                     (minimum(box.j1 - box.j0, part.ny) + 1);
+            nodes += static_cast<std::int64_t>(box.i1 - box.i0 + 1) * (box.j1 - box.j0 + 1);
         }
     }
     return static_cast<std::int32_t>(minimum<std::int64_t>(nodes, 0x3FFFFFFF));
