@@ -87,9 +87,9 @@ inline void clear_rows(const GridShape& s, const Part& rows, Field* field) {
 template <class Real>
 inline constexpr bool kHasWindow = !Stored<Real>::shares_momentum;
 
-/// Level of a cell that no particle reaches (level_of_density(0)), cells.
+/// Level of a cell that no particle reaches, cells.
 template <class Real>
-inline constexpr Real kEmptyLevel = Real(-1.5);
+inline constexpr Real kEmptyLevel = Real(Stored<Real>::coarse ? -1.5 : -1.55);
 
 template <class Real>
 struct StaggeredGrid {

@@ -67,8 +67,8 @@ inline Real excess(const PressureFields<Real>& f, const Held<Real>& held, std::i
     if (!(f.level[c] > Real(0) && lowest > Real(0))) {
         return clamp<Real>(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
     }
-    if (lowest < Real(0.5) && !f.on_surface) {
-        e += expected_deficit(lowest);
+    if (lowest + least_head(f) < Real(0.5) && !f.on_surface) {
+        e += expected_deficit<Real>(lowest + least_head(f));
         e -= clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
     }
     if (e < Real(0)) {

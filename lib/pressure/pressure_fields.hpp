@@ -42,7 +42,7 @@ struct PressureFields {
     VelocityOf<Real>* divergence = nullptr;        ///< net flow out of the cell, cells/s
     VelocityOf<Real>* inverse_diagonal = nullptr;  ///< 0 where the cell is not liquid
     DensityOf<Real>* density = nullptr;            ///< 1 = full at rest
-    LevelOf<Real>* level = nullptr;    ///< height of the surface over the centre, cells; > 0 liquid
+    LevelOf<Real>* level = nullptr;    ///< of the surface over `least_head`, cells; > 0 liquid
     CoarseGrid<Real> coarse;
     bool on_surface = false;           ///< but with surface tension air cells hold the surface's
     /// Whether paths are straight where the pressure sees to it (leap.hpp): with liquid of one
@@ -66,5 +66,20 @@ template <class Real>
 inline Real least_fraction(const PressureFields<Real>& fields) {
     return Real(fields.sound_speed > Real(0) ? 0.25F : 0.05F);
 }
+
+/// A cell is liquid where the surface stands so high over its centre at least, cells: levels count
+/// from there on; from the centre with surface tension, with an equation of state and in packed
+/// worlds. The pressure on a nearer surface would have a lever that is stiffer than the surface is
+/// known, and where the lever is limited instead, leaning surfaces stir the liquid: pressure is
+/// then not hydrostatic.
+template <class Real>
+inline Real least_head(const PressureFields<Real>& fields) {
+    const bool from_centre = fields.on_surface || fields.sound_speed > Real(0);
+    return Real(Stored<Real>::coarse || from_centre ? 0.0F : 0.05F);
+}
+
+/// Where the surface is hardly lower in the next cell it may lie beyond that; no further than this.
+template <class Real>
+inline constexpr Real kLargestFraction = Real(2);
 
 }  // namespace weir

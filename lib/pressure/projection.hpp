@@ -47,15 +47,16 @@ inline Real push_through(Real open, bool amid_liquid, const PressureFields<Real>
     return fields.sound_speed > Real(0) && !amid_liquid ? open : width_of(open);
 }
 
-/// Share of the way from a liquid cell's centre to its air neighbour's that is liquid. The face
-/// between them answers to the pressure by its inverse.
+/// Way from a liquid cell's centre to the surface, over that to its air neighbour's centre. The
+/// face between them answers to the pressure by its inverse.
 template <class Real>
 inline Real liquid_fraction(const PressureFields<Real>& fields, Real level_liquid, Real level_air,
                             Real open) {
     // A narrow gap hardly moves the liquid that drives it: with a small share as its lever it would
     // shoot particles through, each of them with its whole mass.
     const Real least = maximum(least_fraction(fields), Real(1) - width_of(open));
-    return maximum(least, level_liquid / (level_liquid - level_air));
+    const Real fraction = (level_liquid + least_head(fields)) / (level_liquid - level_air);
+    return clamp(fraction, least, kLargestFraction<Real>);
 }
 
 /// What a face adds to the diagonal of a liquid cell beside air, in 128ths as `weight` and `open`:

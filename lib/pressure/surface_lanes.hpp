@@ -55,7 +55,8 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float*
             density = (wet & (full < L::all(1.0F))) ? shown : density;
         }
         L::store(fields.density + c, density);
-        L::store(fields.level + c, wet ? level_of_density_lanes<L>(density) : empty);
+        const auto level = level_of_density_lanes<L>(density) - L::all(least_head(fields));
+        L::store(fields.level + c, wet ? level : empty);
     }
     return c;
 }

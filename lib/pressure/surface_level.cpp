@@ -59,7 +59,7 @@ template <class Real>
             if (full != nullptr && bound_key(Real(full[c])) < bound_key(Real(1))) {
                 density = density_of_room<Real>(density, full[c]);
             }
-            level = level_of_density(density);
+            level = level_of_density(density) - least_head(fields);
         }
         fields.density[c] = density;
         fields.level[c] = level;
@@ -96,7 +96,8 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
                 density = density_of_room<Real>(density, walls.full_density[c]);
             }
             fields.density[c] = density;
-            fields.level[c] = any ? level_of_density(density) : kEmptyLevel<Real>;
+            fields.level[c] =
+                any ? level_of_density(density) - least_head(fields) : kEmptyLevel<Real>;
         }
     }
 }

@@ -25,13 +25,24 @@ inline Floats width_of_lanes(Floats open) {
     return L::minimum(L::all(1.0F), L::all(4.0F) * open);
 }
 
+/// What `liquid_fraction` asks of the pressure.
+struct Lever {
+    float least;
+    float head;
+};
+inline Lever lever_of(const PressureFields<float>& fields) {
+    return {least_fraction(fields), least_head(fields)};
+}
+
 /// As `liquid_fraction`, where one of the levels is above 0 and the other not.
 template <class L, class Floats>
-inline Floats fraction_between(float nearest, Floats a, Floats b, Floats open) {
+inline Floats fraction_between(Lever lever, Floats a, Floats b, Floats open) {
     const auto liquid = L::maximum(a, b);
     const auto least =
-        L::maximum(L::all(nearest), L::all(1.0F) - width_of_lanes<L>(open));
-    return L::maximum(least, liquid / (liquid - L::minimum(a, b)));
+        L::maximum(L::all(lever.least), L::all(1.0F) - width_of_lanes<L>(open));
+    const auto fraction =
+        (liquid + L::all(lever.head)) / (liquid - L::minimum(a, b));
+    return L::clamp(fraction, least, L::all(kLargestFraction<float>));
 }
 
 /// What four cells are to their equations.
@@ -54,7 +65,7 @@ inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& fa
     const auto coefficient = [&](Lanes weight, std::int32_t at) {
         const Lanes beside = load_lanes(fields.level + at);
         return beside > zero ? weight
-                             : weight / fraction_between<FourLanes>(least_fraction(fields), level,
+                             : weight / fraction_between<FourLanes>(lever_of(fields), level,
                                                                     beside, weight);
     };
     const Lanes diagonal = (coefficient(faces.left, c - 1) + coefficient(faces.right, c + 1)) +
@@ -130,14 +141,14 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
     const bool elastic = fields.sound_speed > 0.0F;
-    const float least = least_fraction(fields);
+    const Lever lever = lever_of(fields);
     const auto any_kind = [&](float* velocity, Floats here, Floats before, Floats rise,
                               Floats open) {
         const auto now = L::load(velocity + c);
         const auto both = L::minimum(here, before) > zero;
         const auto moves = (L::maximum(here, before) > zero) & (open > zero);
         const auto answer =
-            both ? rise : rise / fraction_between<L>(least, here, before, open);
+            both ? rise : rise / fraction_between<L>(lever, here, before, open);
         const auto pushes = (now > zero) == (answer < zero);
         const auto width = width_of_lanes<L>(open);
         const auto through = elastic ? (both ? width : open) : width;

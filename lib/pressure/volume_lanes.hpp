@@ -48,7 +48,6 @@ inline typename L::Floats excess_of_cells(const PressureFields<float>& f,
                                           const ExcessLimits& limits, std::int32_t c,
                                           typename L::Floats lowest) {
     const auto zero = L::all(0.0F);
-    const auto half = L::all(0.5F);
     const auto one = L::all(1.0F);
     const auto slack = L::all(limits.subsurface_slack);
     const auto window = L::all(limits.window);
@@ -56,9 +55,9 @@ inline typename L::Floats excess_of_cells(const PressureFields<float>& f,
     const auto inner = (L::load(f.level + c) > zero) & (lowest > zero);
     const auto at_surface = L::clamp(e - L::all(limits.surface_slack), zero, window);
     auto inside = e;
-    const auto below = lowest < half;
+    const auto missing = L::all(0.5F) - (lowest + L::all(least_head(f)));
+    const auto below = missing > zero;
     if (!limits.exact_below && L::any_true(inner & below)) {
-        const auto missing = half - lowest;
         const auto more = e + L::all(0.125F) * missing * missing;
         inside = below ? more - L::clamp(more, -slack, slack) : e;
     }

@@ -26,7 +26,7 @@ struct ExtrapolateTask {
     float* velocity;
     std::int32_t back;
     std::int32_t stride;
-    float least_fraction;
+    Lever lever;
     float reach;  ///< `reach_of_push`
     bool velocity_itself;
     bool has_lower;      ///< whether the rows beside it are the tank's
@@ -83,7 +83,7 @@ struct Beside {
         const auto both = L::minimum(level, before) > zero;
         const auto push =
             zero - (both ? rise
-                         : rise / fraction_between<L>(task.least_fraction, level, before, open));
+                         : rise / fraction_between<L>(task.lever, level, before, open));
         sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own, task.reach) : zero;
     }
 };

@@ -174,7 +174,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
             const bool amid = j > rows.first && j + 1 < rows.end;
             if (amid && component.light == nullptr && component.thin == nullptr &&
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
-                                   back, s.stride, least_fraction(fields),
+                                   back, s.stride, lever_of(fields),
                                    static_cast<float>(reach), velocity_itself,
                                    j > component.first_j, j + 1 < s.ny, face, row + s.nx})) {
                 continue;

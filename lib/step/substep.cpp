@@ -85,6 +85,17 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
                 settings.surface_tension > Real(0), simulation.grid, work);
 }
 
+/// Levels count from cells' centres where there is surface tension (`least_head`).
+template <class Real>
+void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
+    const Settings<Real>& settings = simulation.settings;
+    PressureFields<Real>& fields = simulation.pressure;
+    fields.on_surface = fields.on_surface ||
+                        (!Stored<Real>::coarse && plan.surface_tension > Real(0));
+    surface_level(simulation.grid, settings.borders, simulation.layers.walls, settings.rest_count,
+                  fields, work);
+}
+
 /// The gain holds for a substep in which something moves half a cell, or a wave of the size of a
 /// cell would, under gravity or surface tension. Shorter ones, as viscosity asks for, get their
 /// share.
@@ -266,7 +277,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
                                                  settings.second_density, grid, thin, work);
     clock.charge(Stage::particle_to_grid);
 
-    surface_level(grid, settings.borders, walls, settings.rest_count, simulation.pressure, work);
+    find_surface(simulation, plan, work);
     grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid, work);
     if (plan.viscosity > Real(0)) {
         Impulse<Real>* tank = two_way ? &tank_received(simulation.bodies) : nullptr;

@@ -32,7 +32,8 @@ struct Spray {
             for (std::int32_t i = -1; i <= shape.nx; ++i) {
                 const std::int32_t c = shape.index(i, j);
                 const float above = j == kWet ? -0.75F : -1.25F;
-                fields.level[c] = Real(j + 1 < kWet ? 1.0F : (j < kWet ? 0.25F : above));
+                fields.level[c] = Real(j + 1 < kWet ? 1.0F : (j < kWet ? 0.25F : above)) -
+                                  least_head(fields);
                 fields.pressure[c] = j < kWet ? Real(1) : Real(0);
             }
         }

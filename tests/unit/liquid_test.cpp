@@ -220,8 +220,10 @@ TEST(Density, LevelOfAPool) {
     bench.scatter();
     surface_level(bench.grid, bench.borders, bench.walls, 16.0F, bench.fields);
     for (std::int32_t i = 0; i < 10; ++i) {
-        EXPECT_NEAR(bench.level[std::size_t(bench.shape.index(i, 4))], 0.5F, 0.02F);
-        EXPECT_NEAR(bench.level[std::size_t(bench.shape.index(i, 5))], -0.5F, 0.02F);
+        EXPECT_NEAR(bench.level[std::size_t(bench.shape.index(i, 4))], 0.5F - least_head(bench.fields),
+                    0.02F);
+        EXPECT_NEAR(bench.level[std::size_t(bench.shape.index(i, 5))], -0.5F - least_head(bench.fields),
+                    0.02F);
         EXPECT_GT(bench.level[std::size_t(bench.shape.index(i, 3))], 1.0F);
     }
 }
