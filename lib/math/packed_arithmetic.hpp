@@ -14,17 +14,19 @@ inline std::int32_t rounded_shift(std::int32_t value, int shift) {
 template <class Number>
 inline Number kept(Number number) {
 #if defined(__ARM_ARCH_6M__)
-    __asm__("" : "+r"(number));
-#endif
+    return whole(number);
+#else
     return number;
+#endif
 }
 
 /// A number that is added to a product, for processors that do so in one instruction.
 inline std::int32_t beside_product(std::int32_t number) {
-#if !defined(__ARM_ARCH_6M__)
-    __asm__("" : "+r"(number));
-#endif
+#if defined(__ARM_ARCH_6M__)
     return number;
+#else
+    return whole(number);
+#endif
 }
 
 /// As a number of so many bits.
@@ -57,7 +59,7 @@ inline std::int32_t scaled(std::int32_t factor, std::int32_t value) {
 /// processor that can loads and stores both at once.
 inline void add_two(SmallFixed* at, std::int32_t first, std::int32_t second) {
 #if defined(__thumb2__)
-    __asm__("" : "+r"(at));
+    at = whole(at);
     std::int32_t sum = at[0].raw;
     std::int32_t next = at[1].raw;
     __asm__("" : "+r"(sum), "+r"(next));

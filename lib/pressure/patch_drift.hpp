@@ -245,9 +245,9 @@ inline void drift_any(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>
             }
             if (price != Real(0)) {
                 drift_columns<true>(drift, ways, price, grid);
-                return;
+            } else {
+                drift_columns<false>(drift, ways, price, grid);
             }
-            drift_columns<false>(drift, ways, price, grid);
             return;
         }
     }

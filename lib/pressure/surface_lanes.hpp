@@ -39,6 +39,7 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float*
     const std::int32_t up = grid.shape.stride;
     const auto zero = L::all(0.0F);
     const auto empty = L::all(kEmptyLevel<float>);
+    const auto head = L::all(least_head(fields));
     for (; c + L::kLanes <= end; c += L::kLanes) {
         const auto mass = (L::load(grid.mass_u + c) + L::load(grid.mass_u + c + 1)) +
                           (L::load(grid.mass_v + c) + L::load(grid.mass_v + c + up));
@@ -55,7 +56,7 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float*
             density = (wet & (full < L::all(1.0F))) ? shown : density;
         }
         L::store(fields.density + c, density);
-        const auto level = level_of_density_lanes<L>(density) - L::all(least_head(fields));
+        const auto level = level_of_density_lanes<L>(density) - head;
         L::store(fields.level + c, wet ? level : empty);
     }
     return c;

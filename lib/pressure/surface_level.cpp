@@ -47,6 +47,7 @@ template <class Real>
     const VelocityOf<Real>* lower = grid.mass_v + c;
     const VelocityOf<Real>* upper = lower + grid.shape.stride;
     const VelocityOf<Real>* right = grid.mass_u + c + 1;
+    const Real head = least_head(fields);
     Real left = right[-1];
     for (; c < end; ++c) {
         const Real next = *right++;
@@ -59,7 +60,7 @@ template <class Real>
             if (full != nullptr && bound_key(Real(full[c])) < bound_key(Real(1))) {
                 density = density_of_room<Real>(density, full[c]);
             }
-            level = level_of_density(density) - least_head(fields);
+            level = level_of_density(density) - head;
         }
         fields.density[c] = density;
         fields.level[c] = level;
@@ -72,6 +73,7 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
     const GridShape& s = grid.shape;
     const ThinWalls<Real>* thin = walls.thin;
     const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * rest_count);
+    const Real head = least_head(fields);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t c = s.index(0, j);
         const std::int32_t end = s.index(s.nx, j);
@@ -96,8 +98,7 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& wall
                 density = density_of_room<Real>(density, walls.full_density[c]);
             }
             fields.density[c] = density;
-            fields.level[c] =
-                any ? level_of_density(density) - least_head(fields) : kEmptyLevel<Real>;
+            fields.level[c] = any ? level_of_density(density) - head : kEmptyLevel<Real>;
         }
     }
 }

@@ -107,7 +107,6 @@ void surface_tension(const GridShape& s, const Borders<Real>& borders, const Wal
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.pressure);
-        fields.on_surface = true;
     }
 }
 

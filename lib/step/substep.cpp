@@ -85,7 +85,7 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
                 settings.surface_tension > Real(0), simulation.grid, work);
 }
 
-/// Levels count from cells' centres where there is surface tension (`least_head`).
+/// Whoever looks at levels has to know whether there is surface tension (`least_head`).
 template <class Real>
 void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     const Settings<Real>& settings = simulation.settings;
