@@ -110,6 +110,8 @@ struct FourLanes {
     static Floats odd_before(Floats before, Floats odd) {
         return weir::shuffle<3, 4, 5, 6>(before, odd);
     }
+    /// Which of `even`, or of `odd`, are not among the first k.
+    static Ints alternate_from(std::int32_t k) { return Ints{0, 1, 2, 3} >= k; }
     static Floats absolute(Floats a) { return weir::absolute(a); }
     static Floats square_root(Floats a) { return weir::square_root(a); }
     static Floats minimum(Floats a, Floats b) { return weir::minimum(a, b); }

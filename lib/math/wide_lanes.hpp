@@ -158,6 +158,7 @@ struct EightLanes {
     static Floats odd_before(Floats before, Floats odd) {
         return __builtin_shufflevector(before, odd, 7, 8, 13, 10, 9, 12, 11, 14);
     }
+    static Ints alternate_from(std::int32_t k) { return Ints{0, 1, 4, 5, 2, 3, 6, 7} >= k; }
     static Floats absolute(Floats a) {
         return reinterpret_cast<Floats>(reinterpret_cast<Ints>(a) & (Ints{} + 0x7FFFFFFF));
     }

@@ -164,22 +164,19 @@ void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>
     }
 }
 
+/// Every other coarse cell of some rows.
 template <class Real>
-void relax(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
+void relax(const Part& rows, std::int32_t colour, Real omega, CoarseGrid<Real>& coarse) {
     const GridShape& s = coarse.shape;
     Real* p = coarse.correction;
-    const std::int32_t depth = maximum(0, coarse.last_row - coarse.first_row + 1);
-    const Real omega = over_relaxation<Real>(depth);
-    const Part part = work.take(2 * kCoarseSweeps * depth, (s.nx + 1) / 2);
-    std::int32_t colour = part.empty() ? 0 : part.first / depth;
-    std::int32_t j = coarse.first_row + part.first - colour * depth;
-    for (std::int32_t at = part.first; at < part.end; ++at) {
-        const std::int32_t end = s.index(s.nx, j);
-        std::int32_t q = s.index((j + colour) & 1, j);
-        if constexpr (kHasLanes<Real>) {
-            q = relax_coarse_row(coarse, omega, q, end);
+    if constexpr (kHasLanes<Real>) {
+        if (relax_coarse_rows(coarse, omega, (rows.first + colour) & 1, rows)) {
+            return;
         }
-        for (; q < end; q += 2) {
+    }
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        const std::int32_t end = s.index(s.nx, j);
+        for (std::int32_t q = s.index((j + colour) & 1, j); q < end; q += 2) {
             const Real inverse = coarse.inverse_diagonal[q];
             if (is_zero(inverse)) {
                 continue;
@@ -189,11 +186,25 @@ void relax(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
                              (coarse.weight_v[q] * p[q - s.stride] + coarse.weight_v[up] * p[up]);
             p[q] += omega * ((sum + coarse.residual[q]) * inverse - p[q]);
         }
-        if (j++ == coarse.last_row) {
-            extend_cells(borders, s, p);
-            j = coarse.first_row;
-            ++colour;
+    }
+}
+
+template <class Real>
+void sweep(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
+    const GridShape& s = coarse.shape;
+    const std::int32_t lowest = coarse.first_row;
+    const std::int32_t depth = maximum(0, coarse.last_row - lowest + 1);
+    const Real omega = over_relaxation<Real>(depth);
+    const Part part = work.take(2 * kCoarseSweeps * depth, (s.nx + 1) / 2);
+    for (std::int32_t at = part.first; at < part.end;) {
+        const std::int32_t colour = at / depth;
+        const std::int32_t begin = colour * depth;
+        const std::int32_t end = minimum(part.end, begin + depth);
+        relax({lowest + at - begin, lowest + end - begin}, colour, omega, coarse);
+        if (end == begin + depth) {
+            extend_cells(borders, s, coarse.correction);
         }
+        at = end;
     }
 }
 
@@ -270,7 +281,7 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
     if (work.once(big.border())) {
         join_cells(weights.borders, big, coarse.residual);
     }
-    relax(weights.borders, work, coarse);
+    sweep(weights.borders, work, coarse);
     share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
         if (coarse.inverse_diagonal[patch.q] != Real(0)) {
             add_correction(s, patch, fields);

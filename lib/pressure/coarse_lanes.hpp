@@ -5,6 +5,7 @@
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "pressure/relax_lanes.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -176,25 +177,23 @@ inline void correct_patch(const PressureFields<float>& fields, std::int32_t stri
     }
 }
 
-/// Relaxes cells c, c + 2 … of a row of coarse cells as long as enough are left before `end`;
-/// returns the next one to do.
+/// Every other cell of some rows of coarse cells: in the lowest one from column `i` on, in the next
+/// one from the other column on, and so forth.
 template <class L>
-inline std::int32_t relax_coarse_cells(const CoarseGrid<float>& coarse, float omega,
-                                       std::int32_t c, std::int32_t end) {
-    const std::int32_t stride = coarse.shape.stride;
-    float* p = coarse.correction;
+inline void relax_coarse_cells(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
+                               const Part& rows) {
+    const GridShape& s = coarse.shape;
+    const std::int32_t stride = s.stride;
+    float* const p = coarse.correction;
     const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
-    // A load across the last two stores would wait for both: the other colour is carried along.
-    auto odd_before = L::all(p[c - 1]);
-    for (; c + 2 * L::kLanes <= end; c += 2 * L::kLanes) {
+    const auto group = [&](std::int32_t c, typename L::Floats before, typename L::Ints asked) {
         const auto inverse = every_second(coarse.inverse_diagonal + c);
-        const auto dry = inverse == L::all(0.0F);
+        const auto wet = (inverse != L::all(0.0F)) & asked;
         const auto here = L::load_alternate(p + c);
-        const auto left = L::odd_before(odd_before, here.odd);
-        odd_before = here.odd;
-        if (L::all_true(dry)) {
-            continue;
+        if (!L::any_true(wet)) {
+            return here.odd;
         }
+        const auto left = L::odd_before(before, here.odd);
         const auto u = L::load_alternate(coarse.weight_u + c);
         const auto sum = (u.even * left + u.odd * here.odd) +
                          (every_second(coarse.weight_v + c) * every_second(p + c - stride) +
@@ -203,24 +202,34 @@ inline std::int32_t relax_coarse_cells(const CoarseGrid<float>& coarse, float om
         const auto relaxed =
             here.even +
             L::all(omega) * ((sum + every_second(coarse.residual + c)) * inverse - here.even);
-        L::store_alternate(p + c, dry ? here.even : relaxed, here.odd);
+        L::store_alternate(p + c, wet ? relaxed : here.even, here.odd);
+        return here.odd;
+    };
+    for (std::int32_t j = rows.first; j < rows.end; ++j, i = 1 - i) {
+        each_alternate_group<L>(p, s.index(i, j), s.index(s.nx, j), group);
     }
-    return c;
 }
 
 #if WEIR_HAS_WIDE_LANES
-std::int32_t relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t c,
-                               std::int32_t end);
+void relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
+                       const Part& rows);
 #endif
 
-inline std::int32_t relax_coarse_row(const CoarseGrid<float>& coarse, float omega,
-                                     std::int32_t c, std::int32_t end) {
+/// False: rows are too short, nothing was done.
+inline bool relax_coarse_rows(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
+                              const Part& rows) {
+    const std::int32_t cells = coarse.shape.nx;
 #if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = relax_coarse_wide(coarse, omega, c, end);
+    if (enough_alternate(1, cells, 8) && has_wide_lanes()) {
+        relax_coarse_wide(coarse, omega, i, rows);
+        return true;
     }
 #endif
-    return relax_coarse_cells<FourLanes>(coarse, omega, c, end);
+    if (enough_alternate(1, cells, 4)) {
+        relax_coarse_cells<FourLanes>(coarse, omega, i, rows);
+        return true;
+    }
+    return false;
 }
 
 #endif

@@ -1,5 +1,5 @@
-// The projection's equations four or eight cells at a time where all are alike, amid liquid or air:
-// the plain loops' sums, and so their bits.
+// The projection's equations four or eight cells at a time where all are alike, amid liquid: the
+// plain loops' sums, and so their bits.
 #pragma once
 
 #include "math/wide_lanes.hpp"
@@ -12,13 +12,17 @@ namespace weir {
 #if WEIR_HAS_LANES
 
 /// What the equations of a row are told, and their sums.
-struct PlainTask {
+struct RowTask {
     const StaggeredGrid<float>& grid;
     const Walls<float>* walls;  ///< null: no solids
     PressureFields<float>& fields;
     Leap<float> leap;
     Solve<float>& system;
-    bool any;                   ///< whether there was liquid
+    bool has_lower;             ///< whether the rows beside it are the tank's
+    bool has_upper;
+    std::int32_t first;         ///< cells at the tank's walls; beyond a seam it goes on
+    std::int32_t last;
+    bool any = false;           ///< whether there was liquid
 };
 
 /// Whether all faces of some cells are wide open and no contour that moves is in them.
@@ -59,46 +63,26 @@ inline void add_to_sums(typename L::Floats taken, typename L::Floats given,
     system.there = sums[1];
 }
 
-/// Cells c, c + 1 … as long as enough are left before `end` and alike. `inside`: none of them
-/// touches the tank's walls. Returns the next one to do.
+/// Cells from c on that have liquid all around and open faces. False: the start is no number.
 template <class L>
-inline std::int32_t build_plain_cells(PlainTask& task, std::int32_t c, std::int32_t end,
-                                      bool inside) {
+inline bool build_plain(RowTask& task, std::int32_t c) {
     const StaggeredGrid<float>& grid = task.grid;
     PressureFields<float>& fields = task.fields;
-    const std::int32_t stride = grid.shape.stride;
-    const auto zero = L::all(0.0F);
-    for (; c + L::kLanes <= end; c += L::kLanes) {
-        const auto here = L::load(fields.level + c) > zero;
-        if (!L::any_true(here) && !fields.on_surface) {
-            L::store(fields.inverse_diagonal + c, zero);
-            L::store(fields.pressure + c, zero);
-            continue;
-        }
-        if (!inside || !L::all_true(lowest_around<L>(fields.level, stride, c) > zero) ||
-            (task.walls != nullptr && !are_untouched<L>(*task.walls, stride, c))) {
-            break;
-        }
-        const auto start = L::load(fields.pressure + c) * L::all(task.system.rescale);
-        if (!L::all_true(L::absolute(start) < L::all(__builtin_inff()))) {
-            break;
-        }
-        const std::int32_t up = c + stride;
-        const auto divergence = ((L::load(grid.u + c + 1) - L::load(grid.u + c)) +
-                                 (L::load(grid.v + up) - L::load(grid.v + c))) +
-                                wanted_convergence_lanes<L>(grid, c, task.leap);
-        L::store(fields.divergence + c, divergence);
-        L::store(fields.inverse_diagonal + c, L::all(0.25F));
-        L::store(fields.pressure + c, start);
-        add_to_sums<L>(start * divergence, (start * L::all(4.0F)) * start, task.system);
-        task.any = true;
+    const auto start = L::load(fields.pressure + c) * L::all(task.system.rescale);
+    if (!L::all_true(L::absolute(start) < L::all(__builtin_inff()))) {
+        return false;
     }
-    return c;
+    const std::int32_t up = c + grid.shape.stride;
+    const auto divergence = ((L::load(grid.u + c + 1) - L::load(grid.u + c)) +
+                             (L::load(grid.v + up) - L::load(grid.v + c))) +
+                            wanted_convergence_lanes<L>(grid, c, task.leap);
+    L::store(fields.divergence + c, divergence);
+    L::store(fields.inverse_diagonal + c, L::all(0.25F));
+    L::store(fields.pressure + c, start);
+    add_to_sums<L>(start * divergence, (start * L::all(4.0F)) * start, task.system);
+    task.any = true;
+    return true;
 }
-
-#if WEIR_HAS_WIDE_LANES
-std::int32_t build_plain_wide(PlainTask& task, std::int32_t c, std::int32_t end, bool inside);
-#endif
 
 #endif
 

@@ -11,21 +11,24 @@
 
 namespace weir {
 
-std::int32_t relax_wide(const PressureFields<float>& fields, const float* open_u,
-                        const float* open_v, float omega, std::int32_t stride, std::int32_t c,
-                        std::int32_t end) {
-    const auto cells = open_u != nullptr ? relax_cells<EightLanes, true>
-                                         : relax_cells<EightLanes, false>;
-    return cells(fields, open_u, open_v, omega, stride, c, end);
+void relax_wide(const RelaxTask& task) {
+    const auto rows = task.open_u != nullptr ? relax_rows<EightLanes, true>
+                                             : relax_rows<EightLanes, false>;
+    rows(task);
 }
 
-std::int32_t relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t c,
-                               std::int32_t end) {
-    return relax_coarse_cells<EightLanes>(coarse, omega, c, end);
+void relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
+                       const Part& rows) {
+    relax_coarse_cells<EightLanes>(coarse, omega, i, rows);
 }
 
-std::int32_t build_plain_wide(PlainTask& task, std::int32_t c, std::int32_t end, bool inside) {
-    return build_plain_cells<EightLanes>(task, c, end, inside);
+std::int32_t build_wide(RowTask& task, std::int32_t c, std::int32_t end) {
+    const auto no_flow = [](auto...) {};
+    while (c + 8 <= end && !walls_may_push<EightLanes>(task, c) &&
+           build_group<EightLanes>(task, c, no_flow)) {
+        c += 8;
+    }
+    return c;
 }
 
 std::int32_t weigh_wide(const PressureFields<float>& fields, const float* open_u,

@@ -79,19 +79,35 @@ inline void relax_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::in
     }
 }
 
-/// Every other cell of some rows. Not inline: the loop wants all registers.
+/// Every other cell of row j from column `i` on, then of as many rows below it as make `rows`. Not
+/// inline: the loop wants all registers.
 template <bool Solids, bool Mixed, class Real>
-[[gnu::noinline]] void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows,
-                             std::int32_t colour, PressureFields<Real>& fields) {
+[[gnu::noinline]] void relax_down(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
+                                  std::int32_t j, std::int32_t rows,
+                                  PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    for (std::int32_t j = rows.low; j <= rows.high; ++j) {
-        const std::int32_t end = s.index(s.nx, j);
-        std::int32_t c = s.index((j + colour) & 1, j);
-        if constexpr (kHasLanes<Real> && !Mixed) {
-            c = relax_row<Solids>(fields, weights.walls.open_u, weights.walls.open_v,
-                                  kRelaxation<Real>, s.stride, c, end);
+    const std::int32_t c = s.index(i, j);
+    const std::int32_t end = s.index(s.nx, j);
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real> && !Mixed) {
+        if (relax_in_lanes<Solids>({fields, Solids ? weights.walls.open_u : nullptr,
+                                    weights.walls.open_v, kRelaxation<Real>, s.stride, c, end,
+                                    rows})) {
+            return;
         }
-        relax_cells(weights, c, end, fields);
+    }
+#endif
+    for (std::int32_t below = 0; below < rows * s.stride; below += s.stride) {
+        relax_cells(weights, c - below, end - below, fields);
+    }
+}
+
+/// Every other cell of some rows.
+template <bool Solids, bool Mixed, class Real>
+void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
+           PressureFields<Real>& fields) {
+    for (std::int32_t j = rows.low; j <= rows.high; ++j) {
+        relax_down(weights, (j + colour) & 1, j, 1, fields);
     }
 }
 
@@ -130,15 +146,16 @@ template <bool Solids, bool Mixed, class Real>
 void relax_fronts(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, bool goes_on_below,
                   bool goes_on_above, std::int32_t count, PressureFields<Real>& fields) {
     for (std::int32_t front = rows.low; front < rows.high + count; ++front) {
+        // Of half sweep n row front − n, whose first cell is in the same column for all n.
         const std::int32_t first = maximum(0, front - rows.high);
-        for (std::int32_t half = first; half < count && front - half >= rows.low; ++half) {
-            const std::int32_t j = front - half;
-            const std::int32_t less = half + 1;
-            if (j >= rows.low + (goes_on_below ? less : 0) &&
-                j <= rows.high - (goes_on_above ? less : 0)) {
-                relax(weights, Rows{j, j}, half & 1, fields);
-            }
+        std::int32_t last = minimum(count - 1, front - rows.low);
+        if (goes_on_above && front >= rows.high) {
+            continue;
         }
+        if (goes_on_below) {
+            last = minimum(last, (front - rows.low + 1) / 2 - 1);
+        }
+        relax_down(weights, front & 1, front - first, last - first + 1, fields);
     }
 }
 

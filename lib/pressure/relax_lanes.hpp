@@ -1,5 +1,5 @@
-// One row of a relaxation sweep, four cells of a colour at a time. Reads and sums as the plain loop
-// in projection.cpp, and so with its bits.
+// Rows of a relaxation sweep, four or eight cells of a colour at a time. Reads and sums as the
+// plain loop in projection.cpp, and so with its bits.
 #pragma once
 
 #include "math/four_lanes.hpp"
@@ -9,68 +9,97 @@
 
 namespace weir {
 
-/// Relaxes cells c, c + 2 … of a row as long as eight cells are left before `end`. Returns the next
-/// cell to do. `open_u` and `open_v`: open fractions, read beside cells whose inverse diagonal is
-/// negative; elsewhere they are 1.
-template <bool Solids>
-std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
-                       const float* open_v, float omega, std::int32_t stride, std::int32_t c,
-                       std::int32_t end);
-
 #if WEIR_HAS_LANES
 
-#if WEIR_HAS_WIDE_LANES
-/// `relax_cells` with eight lanes. `open_u` null: no solids.
-std::int32_t relax_wide(const PressureFields<float>& fields, const float* open_u,
-                        const float* open_v, float omega, std::int32_t stride, std::int32_t c,
-                        std::int32_t end);
-#endif
+/// Every other cell of a row, c, c + 2 … before `end`, and then of rows below it.
+struct RelaxTask {
+    const PressureFields<float>& fields;
+    const float* open_u;  ///< open fractions, read beside cells whose inverse diagonal is negative;
+    const float* open_v;  ///< elsewhere they are 1
+    float omega;
+    std::int32_t stride;
+    std::int32_t c;
+    std::int32_t end;
+    std::int32_t rows;
+};
+
+/// Calls relax(first cell, odd numbers before it, which lanes are asked for) until c, c + 2 …
+/// before `end` are done, the last few beside some that are; relax returns its odd numbers. There
+/// have to be enough for one group.
+template <class L, class Relax>
+inline void each_alternate_group(const float* p, std::int32_t c, std::int32_t end,
+                                 const Relax& relax) {
+    // A load across the last two stores would wait for both: the other colour is carried along.
+    auto before = L::all(p[c - 1]);
+    for (; c + 2 * L::kLanes <= end + 1; c += 2 * L::kLanes) {
+        before = relax(c, before, L::alternate_from(0));
+    }
+    if (c < end) {
+        const std::int32_t at = end - 2 * L::kLanes + ((end - c) & 1);
+        relax(at, L::all(p[at - 1]), L::alternate_from((c - at) / 2));
+    }
+}
+
+/// Whether these are enough for a group of so many lanes.
+constexpr bool enough_alternate(std::int32_t c, std::int32_t end, std::int32_t lanes) {
+    return c + 2 * lanes <= end + 1;
+}
 
 template <class L, bool Solids>
-inline std::int32_t relax_cells(const PressureFields<float>& fields, const float* open_u,
-                                const float* open_v, float omega, std::int32_t stride,
-                                std::int32_t c, std::int32_t end) {
-    float* p = fields.pressure;
+inline void relax_rows(const RelaxTask& task) {
+    const PressureFields<float>& fields = task.fields;
+    const std::int32_t stride = task.stride;
+    float* const p = fields.pressure;
     const auto zero = L::all(0.0F);
-    const auto factor = L::all(omega);
     const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
-    // A load across the last two stores would wait for both: the other colour is carried along.
-    auto odd_before = L::all(p[c - 1]);
-    for (; c + 2 * L::kLanes <= end; c += 2 * L::kLanes) {
+    const auto group = [&](std::int32_t c, typename L::Floats before, typename L::Ints asked) {
         auto inverse = every_second(fields.inverse_diagonal + c);
-        const auto dry = inverse == zero;
+        const auto wet = (inverse != zero) & asked;
         const auto here = L::load_alternate(p + c);
-        const auto left = L::odd_before(odd_before, here.odd);
-        odd_before = here.odd;
-        if (L::all_true(dry)) {
-            continue;
+        if (!L::any_true(wet)) {
+            return here.odd;
         }
+        const auto left = L::odd_before(before, here.odd);
         const auto lower = every_second(p + c - stride);
         const auto upper = every_second(p + c + stride);
         auto sum = (left + here.odd) + (lower + upper);
         if (Solids && L::any_negative(inverse)) {
-            const auto u = L::load_alternate(open_u + c);
+            const auto u = L::load_alternate(task.open_u + c);
             sum = (u.even * left + u.odd * here.odd) +
-                  (every_second(open_v + c) * lower + every_second(open_v + c + stride) * upper);
+                  (every_second(task.open_v + c) * lower +
+                   every_second(task.open_v + c + stride) * upper);
             inverse = L::absolute(inverse);
         }
         const auto target = (sum - every_second(fields.divergence + c)) * inverse;
-        const auto relaxed = here.even + factor * (target - here.even);
-        L::store_alternate(p + c, dry ? here.even : relaxed, here.odd);
+        const auto relaxed = here.even + L::all(task.omega) * (target - here.even);
+        L::store_alternate(p + c, wet ? relaxed : here.even, here.odd);
+        return here.odd;
+    };
+    for (std::int32_t row = 0; row < task.rows; ++row) {
+        const std::int32_t below = row * stride;
+        each_alternate_group<L>(p, task.c - below, task.end - below, group);
     }
-    return c;
 }
 
-template <bool Solids>
-std::int32_t relax_row(const PressureFields<float>& fields, const float* open_u,
-                       const float* open_v, float omega, std::int32_t stride, std::int32_t c,
-                       std::int32_t end) {
 #if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = relax_wide(fields, Solids ? open_u : nullptr, open_v, omega, stride, c, end);
+/// `relax_rows` with eight lanes. `open_u` null: no solids.
+void relax_wide(const RelaxTask& task);
+#endif
+
+/// False: rows are too short, nothing was done.
+template <bool Solids>
+inline bool relax_in_lanes(const RelaxTask& task) {
+#if WEIR_HAS_WIDE_LANES
+    if (enough_alternate(task.c, task.end, 8) && has_wide_lanes()) {
+        relax_wide(task);
+        return true;
     }
 #endif
-    return relax_cells<FourLanes, Solids>(fields, open_u, open_v, omega, stride, c, end);
+    if (enough_alternate(task.c, task.end, 4)) {
+        relax_rows<FourLanes, Solids>(task);
+        return true;
+    }
+    return false;
 }
 
 #endif

@@ -176,85 +176,38 @@ void build_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
 
 #if WEIR_HAS_LANES
 
-/// Cells i … i + 3 of any kind in one. False: to be done one by one.
-template <bool Solids>
-bool build_any_four(const FaceWeights<Solids, false, float>& weights, std::int32_t i,
-                    std::int32_t j, const Leap<float>& leap, PressureFields<float>& fields,
-                    Solve<float>& system) {
-    const Walls<float>& walls = weights.walls;
+/// Cells of row j, four or eight at a time; returns the next one to do. one_by_one(i, end) does
+/// others.
+template <bool Solids, class OneByOne>
+std::int32_t build_in_lanes(const FaceWeights<Solids, false, float>& weights, std::int32_t j,
+                            RowTask& task, const OneByOne& one_by_one) {
     const GridShape& s = weights.grid.shape;
-    const std::int32_t c = s.index(i, j);
-    const Lanes one = all_lanes(1.0F);
-    const auto is = [](bool there) { return there ? 1.0F : 0.0F; };
-    FourFaces faces{{is(weights.has_left(i)), 1.0F, 1.0F, 1.0F},
-                    {1.0F, 1.0F, 1.0F, is(weights.has_right(i + 3))},
-                    all_lanes(is(weights.has_lower(j))),
-                    all_lanes(is(weights.has_upper(j)))};
-    FourKinds kinds{one == one, {}};
-    if constexpr (Solids) {
-        const std::int32_t up = c + s.stride;
-        const FourFaces open{load_lanes(walls.open_u + c), load_lanes(walls.open_u + c + 1),
-                             load_lanes(walls.open_v + c), load_lanes(walls.open_v + up)};
-        kinds.wide = least_of(open) == one;
-        faces = {faces.left * open.left, faces.right * open.right, faces.lower * open.lower,
-                 faces.upper * open.upper};
-    }
-    if (fields.leaps) {
-        kinds.straight = (lowest_around<FourLanes>(fields.level, s.stride, c) > all_lanes(0.0F)) &
-                         (least_of(faces) == one);
-    }
-    const auto add_flow = [&]([[maybe_unused]] std::int32_t cell, [[maybe_unused]] Lanes& flow,
-                              [[maybe_unused]] LaneMask wet) {
+    const std::int32_t row = s.index(0, j);
+    const auto add_flow = [&]([[maybe_unused]] std::int32_t c, [[maybe_unused]] Lanes& flow,
+                              [[maybe_unused]] LaneMask wet, [[maybe_unused]] LaneMask wide) {
         if constexpr (Solids) {
+            const Walls<float>& walls = weights.walls;
             for (std::int32_t k = 0; walls.moving && k < 4; ++k) {
-                if (wet[k] != 0 && (kinds.wide[k] == 0 || touches_wall(walls, cell + k))) {
-                    flow[k] += wall_flow(s, walls, i + k, j);
+                if (wet[k] != 0 && (wide[k] == 0 || touches_wall(walls, c + k))) {
+                    flow[k] += wall_flow(s, walls, c + k - row, j);
                 }
             }
         }
     };
-    bool any = false;
-    if (!build_any_four(weights.grid, faces, kinds, leap, system.rescale, c, fields, system,
-                        add_flow, any)) {
-        return false;
-    }
-    note_liquid(any, j, system);
-    return true;
-}
-
-/// Cells from i on, eight at a time as long as they are alike; returns the next one to do.
-template <bool Solids>
-std::int32_t build_eights([[maybe_unused]] const FaceWeights<Solids, false, float>& weights,
-                          std::int32_t i, [[maybe_unused]] std::int32_t j,
-                          [[maybe_unused]] PlainTask& task) {
+    std::int32_t i = 0;
+    while (i + 4 <= s.nx) {
 #if WEIR_HAS_WIDE_LANES
-    const GridShape& s = weights.grid.shape;
-    const std::int32_t end = i > 0 ? s.nx - 1 : minimum(s.nx, 8);
-    if (i + 8 <= end && has_wide_lanes()) {
-        const std::int32_t c = s.index(i, j);
-        task.any = false;
-        const bool inside = inside_tank(weights.borders, s, i, end - 1, j);
-        i += build_plain_wide(task, c, c + end - i, inside) - c;
-        note_liquid(task.any, j, task.system);
-    }
+        if (has_wide_lanes()) {
+            i = build_wide(task, row + i, row + s.nx) - row;
+        }
 #endif
-    return i;
-}
-
-/// Cells i … i + 3 in one. False: to be done one by one.
-template <bool Solids>
-bool build_four(const FaceWeights<Solids, false, float>& weights, std::int32_t i, std::int32_t j,
-                PlainTask& task) {
-    const GridShape& s = weights.grid.shape;
-    const std::int32_t c = s.index(i, j);
-    const bool inside = inside_tank(weights.borders, s, i, i + 3, j);
-    task.any = false;
-    if (build_plain_cells<FourLanes>(task, c, c + 4, inside) > c) {
-        note_liquid(task.any, j, task.system);
-        return true;
+        for (const std::int32_t end = i + 8; i < end && i + 4 <= s.nx; i += 4) {
+            if (!build_group<FourLanes>(task, row + i, add_flow)) {
+                one_by_one(i, i + 4);
+            }
+        }
     }
-    return !task.fields.on_surface &&
-           build_any_four(weights, i, j, task.leap, task.fields, task.system);
+    return i;
 }
 
 #endif
@@ -312,16 +265,12 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     std::int32_t i = 0;
 #if WEIR_HAS_LANES
     if constexpr (kHasLanes<Real> && !Mixed) {
-        PlainTask task{weights.grid, Solids ? &weights.walls : nullptr, fields, leap, system,
-                       false};
-        while (i + 4 <= s.nx) {
-            i = build_eights(weights, i, j, task);
-            for (const std::int32_t end = i + 8; i < end && i + 4 <= s.nx; i += 4) {
-                if (!build_four(weights, i, j, task)) {
-                    one_by_one(i, i + 4);
-                }
-            }
-        }
+        const bool seam = weights.borders.wrap_x;
+        RowTask task{weights.grid, Solids ? &weights.walls : nullptr, fields, leap, system,
+                     weights.has_lower(j), weights.has_upper(j), seam ? -1 : s.index(0, j),
+                     seam ? kMostWork : s.index(s.nx - 1, j)};
+        i = build_in_lanes(weights, j, task, one_by_one);
+        note_liquid(task.any, j, system);
     }
 #endif
     one_by_one(i, s.nx);

@@ -1,4 +1,5 @@
-// The projection's equations four cells at a time: the plain loops' sums, and so their bits.
+// The projection's equations four or eight cells at a time: the plain loops' sums, and so their
+// bits.
 #pragma once
 
 #include "pressure/plain_lanes.hpp"
@@ -6,18 +7,6 @@
 namespace weir {
 
 #if WEIR_HAS_LANES
-
-/// The open share of each face of four cells; 0 on the tank's walls.
-struct FourFaces {
-    Lanes left;
-    Lanes right;
-    Lanes lower;
-    Lanes upper;
-};
-
-inline Lanes least_of(const FourFaces& faces) {
-    return minimum(minimum(faces.left, faces.right), minimum(faces.lower, faces.upper));
-}
 
 /// As `width_of`.
 template <class L, class Floats>
@@ -45,54 +34,99 @@ inline Floats fraction_between(Lever lever, Floats a, Floats b, Floats open) {
     return L::clamp(fraction, least, L::all(kLargestFraction<float>));
 }
 
-/// What four cells are to their equations.
-struct FourKinds {
-    LaneMask wide;      ///< all faces are open, but for the tank's walls
-    LaneMask straight;  ///< and the pressure sees to what straight paths do (`goes_straight`)
-};
+/// Nine faces of which the first, or the last, is a wall. Not inline: a file compiled for AVX2
+/// gives others nothing.
+constexpr float kFirstClosed[] = {0.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+constexpr float kLastClosed[] = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 0.0F};
 
-/// The equations of four cells of any kind. add_flow(c, divergence, which of them are wet): what
-/// moving walls push into them. `any`: whether one of them is wet. False: the start is no number.
-template <class Flow>
-inline bool build_any_four(const StaggeredGrid<float>& grid, const FourFaces& faces,
-                           const FourKinds& kinds, const Leap<float>& leap, float rescale,
-                           std::int32_t c, PressureFields<float>& fields, Solve<float>& system,
-                           const Flow& add_flow, bool& any) {
+/// Whether what moving walls push into cells that are not plain is to be asked for.
+template <class L>
+inline bool walls_may_push(const RowTask& task, std::int32_t c) {
+    return task.walls != nullptr && task.walls->moving &&
+           !are_untouched<L>(*task.walls, task.grid.shape.stride, c);
+}
+
+/// The equations of cells of any kind. add_flow(c, divergence, which are wet, which have all their
+/// faces open) adds what moving walls push into them. False: the start is no number.
+template <class L, class Flow>
+inline bool build_any(RowTask& task, std::int32_t c, const Flow& add_flow) {
+    using Floats = typename L::Floats;
+    const StaggeredGrid<float>& grid = task.grid;
+    PressureFields<float>& fields = task.fields;
     const std::int32_t stride = grid.shape.stride;
     const std::int32_t up = c + stride;
-    const Lanes zero = all_lanes(0.0F);
-    const Lanes level = load_lanes(fields.level + c);
-    const auto coefficient = [&](Lanes weight, std::int32_t at) {
-        const Lanes beside = load_lanes(fields.level + at);
+    const auto zero = L::all(0.0F);
+    const auto one = L::all(1.0F);
+    Floats left = L::load(kFirstClosed + (c == task.first ? 0 : 1));
+    Floats right = L::load(kLastClosed + (c + L::kLanes - 1 == task.last ? 9 - L::kLanes : 0));
+    Floats lower = task.has_lower ? one : zero;
+    Floats upper = task.has_upper ? one : zero;
+    auto wide = one == one;
+    if (task.walls != nullptr) {
+        const auto open_left = L::load(task.walls->open_u + c);
+        const auto open_right = L::load(task.walls->open_u + c + 1);
+        const auto open_lower = L::load(task.walls->open_v + c);
+        const auto open_upper = L::load(task.walls->open_v + up);
+        wide = L::minimum(L::minimum(open_left, open_right),
+                          L::minimum(open_lower, open_upper)) == one;
+        left = left * open_left;
+        right = right * open_right;
+        lower = lower * open_lower;
+        upper = upper * open_upper;
+    }
+    const auto level = L::load(fields.level + c);
+    const Lever lever = lever_of(fields);
+    const auto coefficient = [&](Floats weight, std::int32_t at) {
+        const auto beside = L::load(fields.level + at);
         return beside > zero ? weight
-                             : weight / fraction_between<FourLanes>(lever_of(fields), level,
-                                                                    beside, weight);
+                             : weight / fraction_between<L>(lever, level, beside, weight);
     };
-    const Lanes diagonal = (coefficient(faces.left, c - 1) + coefficient(faces.right, c + 1)) +
-                           (coefficient(faces.lower, c - stride) + coefficient(faces.upper, up));
-    const LaneMask wet = (level > zero) & (diagonal > zero);
-    const Lanes scaled = load_lanes(fields.pressure + c) * all_lanes(rescale);
-    if (!all_true((absolute(scaled) < all_lanes(__builtin_inff())) | (wet == 0))) {
+    const auto diagonal = (coefficient(left, c - 1) + coefficient(right, c + 1)) +
+                          (coefficient(lower, c - stride) + coefficient(upper, up));
+    const auto wet = (level > zero) & (diagonal > zero);
+    const auto scaled = L::load(fields.pressure + c) * L::all(task.system.rescale);
+    if (!L::all_true((L::absolute(scaled) < L::all(__builtin_inff())) | ~wet)) {
         return false;
     }
-    Lanes divergence =
-        (faces.right * load_lanes(grid.u + c + 1) - faces.left * load_lanes(grid.u + c)) +
-        (faces.upper * load_lanes(grid.v + up) - faces.lower * load_lanes(grid.v + c));
-    if (any_true(kinds.straight)) {
-        const Lanes wanted = divergence + wanted_convergence_lanes<FourLanes>(grid, c, leap);
-        divergence = kinds.straight ? wanted : divergence;
+    Floats divergence = (right * L::load(grid.u + c + 1) - left * L::load(grid.u + c)) +
+                        (upper * L::load(grid.v + up) - lower * L::load(grid.v + c));
+    const auto straight =
+        (lowest_around<L>(fields.level, stride, c) > zero) &
+        (L::minimum(L::minimum(left, right), L::minimum(lower, upper)) == one);
+    if (fields.leaps && L::any_true(straight)) {
+        const auto wanted = divergence + wanted_convergence_lanes<L>(grid, c, task.leap);
+        divergence = straight ? wanted : divergence;
     }
-    add_flow(c, divergence, wet);
-    const Lanes start = wet ? scaled : zero;
-    const Lanes one = all_lanes(1.0F);
-    store_lanes(fields.divergence + c, wet ? divergence : load_lanes(fields.divergence + c));
-    store_lanes(fields.inverse_diagonal + c,
-                wet ? (kinds.wide ? one : -one) / (wet ? diagonal : one) : zero);
-    store_lanes(fields.pressure + c, start);
-    add_to_sums<FourLanes>(wet ? start * divergence : zero,
-                           wet ? (start * diagonal) * start : zero, system);
-    any = any_true(wet);
+    add_flow(c, divergence, wet, wide);
+    const auto start = wet ? scaled : zero;
+    L::store(fields.divergence + c, wet ? divergence : L::load(fields.divergence + c));
+    L::store(fields.inverse_diagonal + c,
+             wet ? (wide ? one : -one) / (wet ? diagonal : one) : zero);
+    L::store(fields.pressure + c, start);
+    add_to_sums<L>(wet ? start * divergence : zero, wet ? (start * diagonal) * start : zero,
+                   task.system);
+    task.any = task.any || L::any_true(wet);
     return true;
+}
+
+/// Equations of some cells from c on. False: they are to be done otherwise.
+template <class L, class Flow>
+inline bool build_group(RowTask& task, std::int32_t c, const Flow& add_flow) {
+    PressureFields<float>& fields = task.fields;
+    const std::int32_t stride = task.grid.shape.stride;
+    const auto zero = L::all(0.0F);
+    if (!fields.on_surface && !L::any_true(L::load(fields.level + c) > zero)) {
+        L::store(fields.inverse_diagonal + c, zero);
+        L::store(fields.pressure + c, zero);
+        return true;
+    }
+    const bool inside = task.has_lower && task.has_upper && c > task.first &&
+                        c + L::kLanes - 1 < task.last;
+    if (inside && L::all_true(lowest_around<L>(fields.level, stride, c) > zero) &&
+        (task.walls == nullptr || are_untouched<L>(*task.walls, stride, c))) {
+        return build_plain<L>(task, c);
+    }
+    return !fields.on_surface && build_any<L>(task, c, add_flow);
 }
 
 /// Takes pᵀ(neighbours of p) from `there`, cells c … as long as enough are left before `end`.
@@ -182,6 +216,9 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
 }
 
 #if WEIR_HAS_WIDE_LANES
+/// `build_group` of cells c … with eight lanes as long as they are done, and enough are left
+/// before `end`. Returns the next one to do.
+std::int32_t build_wide(RowTask& task, std::int32_t c, std::int32_t end);
 std::int32_t weigh_wide(const PressureFields<float>& fields, const float* open_u,
                         const float* open_v, std::int32_t stride, std::int32_t c,
                         std::int32_t end, float& there);
