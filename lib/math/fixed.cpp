@@ -97,6 +97,12 @@ std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor) {
     if (high >= divisor) {
         return 0xFFFFFFFFU;
     }
+    if (high == 0) {  // as shares below 1 are: one division does
+        const auto all = static_cast<std::uint32_t>(numerator);
+        const std::uint32_t whole = all / divisor;
+        const std::uint32_t rest = all - whole * divisor;
+        return rest >= divisor - rest ? whole + 1U : whole;
+    }
     const auto zeros = static_cast<unsigned>(__builtin_clz(divisor));
     const std::uint32_t scaled = divisor << zeros;
     const std::uint64_t top = numerator << zeros;
@@ -118,26 +124,42 @@ std::int32_t quotient(std::int32_t a, std::int32_t b, int shift) {
     return negative ? -limited : limited;
 }
 
-std::uint32_t square_root(std::uint64_t value) {
-    if (value == 0) {
-        return 0;
-    }
-    // Two bits of the value give one of the root: start at the highest pair that is not 0.
-    std::uint64_t rest = value;
-    std::uint64_t root = 0;
-    const auto zeros = static_cast<unsigned>(__builtin_clzll(value)) & ~1U;
-    std::uint64_t bit = std::uint64_t{1} << (62U - zeros);
-    while (bit != 0) {
-        if (rest >= root + bit) {
-            rest -= root + bit;
-            root = (root >> 1U) + bit;
-        } else {
-            root >>= 1U;
+Root root_below(std::uint32_t value) {
+    std::uint32_t root = 0;
+    for (std::uint32_t bit = 1U << 30U; bit != 0; bit >>= 2U) {
+        const std::uint32_t trial = root + bit;
+        root >>= 1U;
+        if (value >= trial) {
+            value -= trial;
+            root += bit;
         }
-        bit >>= 2U;
     }
-    const auto whole = static_cast<std::uint32_t>(root);
-    return rest > root && whole != 0xFFFFFFFFU ? whole + 1U : whole;
+    return {root, value};
+}
+
+// The root of the upper half is half of the bits, a division by it gives the others, or one too
+// many (Zimmermann, Karatsuba Square Root, INRIA 1999).
+std::uint32_t square_root(std::uint64_t value) {
+    if (value >> 32U == 0) {
+        const Root found = root_below(static_cast<std::uint32_t>(value));
+        return found.rest > found.root ? found.root + 1U : found.root;
+    }
+    const auto zeros =
+        static_cast<unsigned>(__builtin_clz(static_cast<std::uint32_t>(value >> 32U))) & ~1U;
+    const std::uint64_t scaled = value << zeros;
+    const Root upper = root_below(static_cast<std::uint32_t>(scaled >> 32U));
+    const std::uint32_t next = (upper.rest << 15U) | (static_cast<std::uint32_t>(scaled) >> 17U);
+    const std::uint32_t lower = next / upper.root;
+    std::uint32_t root = (upper.root << 16U) + (lower < 0xFFFFU ? lower : 0xFFFFU);
+    std::uint64_t square = static_cast<std::uint64_t>(root) * root;
+    if (square > scaled) {
+        --root;
+        square -= 2U * static_cast<std::uint64_t>(root) + 1U;
+    }
+    if (zeros != 0) {
+        return (root >> zeros / 2U) + (root >> (zeros / 2U - 1U) & 1U);
+    }
+    return scaled - square > root && root != 0xFFFFFFFFU ? root + 1U : root;
 }
 
 }  // namespace fixed

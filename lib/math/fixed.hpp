@@ -58,6 +58,13 @@ std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor);
 /// a · 2^shift / b.
 std::int32_t quotient(std::int32_t a, std::int32_t b, int shift);
 
+/// Root rounded down, bit by bit, and what its square leaves.
+struct Root {
+    std::uint32_t root;
+    std::uint32_t rest;
+};
+Root root_below(std::uint32_t value);
+
 /// Square root rounded to nearest.
 std::uint32_t square_root(std::uint64_t value);
 

@@ -100,16 +100,26 @@ template <bool Solids, class Real>
         relaxed(here, fixed::subtract(sum - flow, times_diagonal(diagonal, here)), factor);
 }
 
+/// ω in 1/2^15ths, so that ω / n has 8 bits, and that of cells with four and with three sides.
+struct Relaxation {
+    std::int32_t step;
+    std::int32_t of_4;
+    std::int32_t of_3;
+
+    template <class Real>
+    explicit Relaxation(Real omega)
+        : step(omega.raw >> 1), of_4(step / 512), of_3(step / 384) {}
+};
+
 /// Relaxes cells c, c + 2 … of a row.
 template <bool Solids, class Real>
-void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls, Real omega,
-                      std::int32_t stride, std::int32_t c) {
+void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls,
+                      const Relaxation& factor, std::int32_t stride, std::int32_t c) {
     Real* here = fields.pressure + c;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;
     // Both lie in the caller's memory.
     const std::ptrdiff_t to_divergence = fields.divergence - fields.inverse_diagonal;
-    const std::int32_t step = omega.raw >> 1;  // ω in 1/2^15ths, so that ω / n has 8 bits
-    const std::int32_t step_of_4 = step / 512;
+    const std::int32_t of_4 = factor.of_4;
     const std::int32_t amid = kept(512);
     const std::int32_t half = beside_product(128);
     const auto raw = [](Real pressure) { return static_cast<std::uint32_t>(pressure.raw); };
@@ -125,15 +135,15 @@ void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& wal
     };
     for (; own != kRowEnd; next()) {
         while (own == amid) {
-            relax_plain<4>(here, around(), diagonal[to_divergence].raw, step_of_4, half);
+            relax_plain<4>(here, around(), diagonal[to_divergence].raw, of_4, half);
             next();
         }
         if (own == 384) {
-            relax_plain<3>(here, around(), diagonal[to_divergence].raw, step / 384, half);
+            relax_plain<3>(here, around(), diagonal[to_divergence].raw, factor.of_3, half);
         } else if (own == kRowEnd) {
             return;
         } else if (own != 0) {
-            relax_rare<Solids>(fields, walls, step, stride,
+            relax_rare<Solids>(fields, walls, factor.step, stride,
                                static_cast<std::int32_t>(here - fields.pressure));
         }
     }
@@ -295,8 +305,9 @@ template <bool Solids, bool Mixed, class Real>
                                     std::int32_t low, std::int32_t high, Real omega,
                                     std::int32_t colour, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
+    const Relaxation factor(omega);
     for (std::int32_t j = low; j <= high; ++j) {
-        relax_packed_row<Solids>(fields, weights.walls, omega, s.stride,
+        relax_packed_row<Solids>(fields, weights.walls, factor, s.stride,
                                  s.index((j + colour) & 1, j));
     }
 }

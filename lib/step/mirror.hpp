@@ -60,7 +60,7 @@ Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<
     const Real depth = mirror.sticks ? -distance : -minimum(distance, Real(0));
     const Real reach = maximum(depth, kLeastReach<Real>);
     mirror.point = within_tank(s, face + (depth + reach) * mirror.normal);
-    mirror.ratio = depth / reach;
+    mirror.ratio = minimum(depth, kLeastReach<Real>);  // depth / reach: that least is 1
     return mirror;
 }
 

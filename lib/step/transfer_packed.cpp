@@ -273,16 +273,6 @@ constexpr std::int32_t kStrip = 32;
     return fastest;
 }
 
-/// Of the square of a velocity.
-std::int32_t root_of(std::int32_t square) {
-    std::int32_t root = 0;
-    for (std::int32_t bit = 1 << 15; bit != 0; bit >>= 1) {
-        const std::int32_t more = root + bit;
-        root = more <= 0x8000 && more * more <= square ? more : root;
-    }
-    return root;
-}
-
 }  // namespace
 
 std::int32_t scatter_packed(const Particles<Real>& particles, StaggeredGrid<Real>& grid) {
@@ -310,7 +300,8 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
         fastest = gather_u(gather, strip, way_x, fastest);
         fastest = gather_v(gather, strip, way_x, fastest, result);
     }
-    result.max_speed = Real::of_raw(512 * root_of(fastest));
+    const std::uint32_t speed = fixed::root_below(static_cast<std::uint32_t>(fastest)).root;
+    result.max_speed = Real::of_raw(512 * static_cast<std::int32_t>(speed));
     if (result.max_speed > transfer.limit) {
         limit_all(particles, transfer.limit, result);
         result.max_speed = transfer.limit;

@@ -74,6 +74,25 @@ TEST(FixedPoint, RootsAreTheNearest) {
     EXPECT_EQ(fixed::square_root(~std::uint64_t{0}), 0xFFFFFFFFU);
 }
 
+TEST(FixedPoint, SquareRootsOfAllLengthsAreTheNearest) {
+    std::mt19937_64 random(11);
+    const auto is_nearest = [](std::uint64_t value) {
+        const auto twice = 2 * static_cast<Wide>(fixed::square_root(value));
+        const auto four_times = 4 * static_cast<Wide>(value);
+        const bool low = twice == 0 || (twice - 1) * (twice - 1) <= four_times;
+        return low && four_times <= (twice + 1) * (twice + 1);
+    };
+    for (int k = 0; k < 400'000; ++k) {
+        const std::uint64_t value = random() >> (k % 64);
+        ASSERT_TRUE(is_nearest(value)) << value;
+        const std::uint64_t root = value >> 32U | 1U;  // squares, and between them
+        for (const std::uint64_t near : {root * root, root * root + root, root * root + root + 1}) {
+            ASSERT_TRUE(is_nearest(near)) << near;
+            ASSERT_TRUE(is_nearest(near - 1)) << near - 1;
+        }
+    }
+}
+
 TEST(FixedPoint, FloatsConvertToTheNearestAndSaturate) {
     std::mt19937 random(10);
     for (int k = 0; k < 200'000; ++k) {
