@@ -19,6 +19,11 @@ inline Line row(const GridShape& s, std::int32_t j) { return {s.index(-1, j), 1,
 
 template <class Field>
 void copy(Field* field, Line to, Line from) {
+    if (to.step == 1) {  // rows
+        std::memcpy(static_cast<void*>(field + to.first), field + from.first,
+                    static_cast<std::size_t>(to.count) * sizeof(Field));
+        return;
+    }
     Field* at = field + to.first;
     const Field* other = field + from.first;
     for (std::int32_t k = 0; k < to.count; ++k, at += to.step, other += from.step) {

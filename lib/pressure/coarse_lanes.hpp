@@ -5,7 +5,6 @@
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
-#include "pressure/relax_lanes.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -175,61 +174,6 @@ inline void correct_patch(const PressureFields<float>& fields, std::int32_t stri
         const LaneMask wet = load_lanes(fields.inverse_diagonal + c) != all_lanes(0.0F);
         store_lanes(fields.pressure + c, wet ? now + (all_lanes(of_row[y]) + column) : now);
     }
-}
-
-/// Every other cell of some rows of coarse cells: in the lowest one from column `i` on, in the next
-/// one from the other column on, and so forth.
-template <class L>
-inline void relax_coarse_cells(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
-                               const Part& rows) {
-    const GridShape& s = coarse.shape;
-    const std::int32_t stride = s.stride;
-    float* const p = coarse.correction;
-    const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
-    const auto group = [&](std::int32_t c, typename L::Floats before, typename L::Ints asked) {
-        const auto inverse = every_second(coarse.inverse_diagonal + c);
-        const auto wet = (inverse != L::all(0.0F)) & asked;
-        const auto here = L::load_alternate(p + c);
-        if (!L::any_true(wet)) {
-            return here.odd;
-        }
-        const auto left = L::odd_before(before, here.odd);
-        const auto u = L::load_alternate(coarse.weight_u + c);
-        const auto sum = (u.even * left + u.odd * here.odd) +
-                         (every_second(coarse.weight_v + c) * every_second(p + c - stride) +
-                          every_second(coarse.weight_v + c + stride) *
-                              every_second(p + c + stride));
-        const auto relaxed =
-            here.even +
-            L::all(omega) * ((sum + every_second(coarse.residual + c)) * inverse - here.even);
-        L::store_alternate(p + c, wet ? relaxed : here.even, here.odd);
-        return here.odd;
-    };
-    for (std::int32_t j = rows.first; j < rows.end; ++j, i = 1 - i) {
-        each_alternate_group<L>(p, s.index(i, j), s.index(s.nx, j), group);
-    }
-}
-
-#if WEIR_HAS_WIDE_LANES
-void relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
-                       const Part& rows);
-#endif
-
-/// False: rows are too short, nothing was done.
-inline bool relax_coarse_rows(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
-                              const Part& rows) {
-    const std::int32_t cells = coarse.shape.nx;
-#if WEIR_HAS_WIDE_LANES
-    if (enough_alternate(1, cells, 8) && has_wide_lanes()) {
-        relax_coarse_wide(coarse, omega, i, rows);
-        return true;
-    }
-#endif
-    if (enough_alternate(1, cells, 4)) {
-        relax_coarse_cells<FourLanes>(coarse, omega, i, rows);
-        return true;
-    }
-    return false;
 }
 
 #endif

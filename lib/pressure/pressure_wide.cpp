@@ -1,6 +1,6 @@
 // Loops over cells with eight lanes.
 #include "math/wide_lanes.hpp"
-#include "pressure/coarse_lanes.hpp"
+#include "pressure/coarse_sweep_lanes.hpp"
 #include "pressure/plain_lanes.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/surface_lanes.hpp"
@@ -17,9 +17,9 @@ void relax_wide(const RelaxTask& task) {
     rows(task);
 }
 
-void relax_coarse_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
-                       const Part& rows) {
-    relax_coarse_cells<EightLanes>(coarse, omega, i, rows);
+void relax_apart_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
+                      const Part& rows) {
+    relax_apart<EightLanes>(coarse, omega, i, rows);
 }
 
 std::int32_t build_wide(RowTask& task, std::int32_t c, std::int32_t end) {
@@ -47,6 +47,10 @@ std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_de
                           float least_full, float per_face, std::int32_t c, std::int32_t end,
                           PressureFields<float>& fields) {
     return density_cells<EightLanes>(grid, full_density, least_full, per_face, c, end, fields);
+}
+
+std::int32_t fill_wide(const DimpleTask& task, std::int32_t c, std::int32_t end) {
+    return fill_cells<EightLanes>(task, c, end);
 }
 
 std::int32_t excess_wide(const PressureFields<float>& f, std::int32_t stride,

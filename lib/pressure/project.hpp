@@ -72,12 +72,14 @@ void project(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t i = 0;
         if constexpr (kHasLanes<Real> && !Mixed) {
-            const std::int32_t first = weights.has_left(0) ? 0 : 1;
-            project_row(weights, j, {0, first}, fields, grid);
             const std::int32_t row = s.index(0, j);
+            const Real on_wall = grid.u[row];
             i = accelerate_lanes(fields, Solids ? weights.walls.open_u : nullptr,
-                                 weights.walls.open_v, weights.has_lower(j), row + first,
-                                 row + s.nx, grid) - row;
+                                 weights.walls.open_v, weights.has_lower(j), row, row + s.nx,
+                                 grid) - row;
+            if (!weights.has_left(0)) {
+                grid.u[row] = on_wall;
+            }
         }
         project_row(weights, j, {i, s.nx}, fields, grid);
     }

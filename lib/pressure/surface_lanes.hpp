@@ -3,6 +3,7 @@
 
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
+#include "pressure/some_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -79,23 +80,9 @@ inline std::int32_t density_row(const StaggeredGrid<float>& grid, const float* f
     return density_cells<FourLanes>(grid, full_density, least_full, per_face, c, end, fields);
 }
 
-/// Which of four cells are air and have a liquid neighbour; `all_around`: nothing else.
-inline LaneMask beside_liquid(const float* level, std::int32_t stride, std::int32_t c,
-                              bool all_around) {
-    const Lanes zero = all_lanes(0.0F);
-    const Lanes left = load_lanes(level + c - 1);
-    const Lanes right = load_lanes(level + c + 1);
-    const Lanes lower = load_lanes(level + c - stride);
-    const Lanes upper = load_lanes(level + c + stride);
-    const Lanes highest =
-        all_around ? minimum(minimum(left, right), minimum(lower, upper))
-                   : maximum(maximum(left, right), maximum(lower, upper));
-    return (load_lanes(level + c) <= zero) & (highest > zero);
-}
-
-/// What `surrounded` asks of four cells.
+/// What `fill_dimples` asks of the cells of a row.
 struct DimpleTask {
-    const float* level;
+    float* level;
     const float* open_u;  ///< null: no solids
     const float* open_v;
     const std::uint8_t* cell_case;
@@ -103,31 +90,87 @@ struct DimpleTask {
     float share;         ///< of open faces that liquid must cover
     float share_of_cut;  ///< the same for a cell that a contour crosses
     float filled;        ///< a level that is no evidence
+    bool has_lower;      ///< whether the rows beside it are the tank's
+    bool has_upper;
+    std::int32_t first;  ///< cells at the tank's walls; beyond a seam it goes on
+    std::int32_t last;
 };
 
-/// Which of four cells liquid surrounds. `left` … `upper`: 1 for each face within the tank, or 0.
-inline LaneMask surrounded_four(const DimpleTask& task, std::int32_t c, Lanes left, Lanes right,
-                                float lower, float upper) {
-    Lanes open = all_lanes(0.0F);
-    Lanes covered = all_lanes(0.0F);
-    const auto face = [&](Lanes inside, const float* share, std::int32_t neighbour) {
-        const Lanes fraction = task.open_u != nullptr ? inside * load_lanes(share) : inside;
-        const Lanes there = load_lanes(task.level + neighbour);
-        const LaneMask liquid = (there > all_lanes(0.0F)) & (there != all_lanes(task.filled));
+/// Which cells are air and have a liquid neighbour; `all_around`: nothing else.
+template <class L>
+inline auto beside_liquid(const float* level, std::int32_t stride, std::int32_t c,
+                          bool all_around) {
+    const auto left = L::load(level + c - 1);
+    const auto right = L::load(level + c + 1);
+    const auto lower = L::load(level + c - stride);
+    const auto upper = L::load(level + c + stride);
+    const auto highest =
+        all_around ? L::minimum(L::minimum(left, right), L::minimum(lower, upper))
+                   : L::maximum(L::maximum(left, right), L::maximum(lower, upper));
+    return (L::load(level + c) <= L::all(0.0F)) & (highest > L::all(0.0F));
+}
+
+/// Which cells liquid surrounds.
+template <class L>
+inline auto surrounded_cells(const DimpleTask& task, std::int32_t c) {
+    using Floats = typename L::Floats;
+    const auto zero = L::all(0.0F);
+    const auto one = L::all(1.0F);
+    Floats open = zero;
+    Floats covered = zero;
+    const auto face = [&](Floats inside, const float* share, std::int32_t neighbour) {
+        const Floats fraction = task.open_u != nullptr ? inside * L::load(share) : inside;
+        const auto there = L::load(task.level + neighbour);
+        const auto liquid = (there > zero) & (there != L::all(task.filled));
         open = open + fraction;
-        covered = covered + (liquid ? fraction : all_lanes(0.0F));
+        covered = covered + (liquid ? fraction : zero);
     };
-    face(left, task.open_u + c, c - 1);
-    face(right, task.open_u + c + 1, c + 1);
-    face(all_lanes(lower), task.open_v + c, c - task.stride);
-    face(all_lanes(upper), task.open_v + c + task.stride, c + task.stride);
-    Lanes share = all_lanes(task.share);
+    face(open_before<L>(c == task.first), task.open_u + c, c - 1);
+    face(open_behind<L>(c + L::kLanes - 1 == task.last), task.open_u + c + 1, c + 1);
+    face(task.has_lower ? one : zero, task.open_v + c, c - task.stride);
+    face(task.has_upper ? one : zero, task.open_v + c + task.stride, c + task.stride);
+    Floats share = L::all(task.share);
     if (task.open_u != nullptr) {
-        const std::uint8_t* cases = task.cell_case + c;
-        const LaneMask cut = LaneMask{cases[0], cases[1], cases[2], cases[3]} != 0;
-        share = cut ? all_lanes(task.share_of_cut) : share;
+        float cut[L::kLanes];
+        for (std::int32_t k = 0; k < L::kLanes; ++k) {
+            cut[k] = task.cell_case[c + k] != 0 ? task.share_of_cut : task.share;
+        }
+        share = L::load(cut);
     }
-    return (open > all_lanes(0.0F)) & (covered >= share * open);
+    return (open > zero) & (covered >= share * open);
+}
+
+/// `fill_dimples` of cells c … as long as enough are left before `end`. Returns the next one to do.
+template <class L>
+inline std::int32_t fill_cells(const DimpleTask& task, std::int32_t c, std::int32_t end) {
+    const bool inner_row = task.open_u == nullptr && task.has_lower && task.has_upper;
+    for (; c + L::kLanes <= end; c += L::kLanes) {
+        const auto level = L::load(task.level + c);
+        if (!L::any_true(level <= L::all(0.0F))) {
+            continue;
+        }
+        // Four open faces want liquid behind all of them.
+        const bool inner = inner_row && c > task.first && c + L::kLanes - 1 < task.last;
+        const auto beside = beside_liquid<L>(task.level, task.stride, c, inner);
+        if (L::any_true(beside)) {
+            const auto filled = beside & surrounded_cells<L>(task, c);
+            L::store(task.level + c, filled ? L::all(task.filled) : level);
+        }
+    }
+    return c;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t fill_wide(const DimpleTask& task, std::int32_t c, std::int32_t end);
+#endif
+
+inline std::int32_t fill_lanes(const DimpleTask& task, std::int32_t c, std::int32_t end) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        c = fill_wide(task, c, end);
+    }
+#endif
+    return fill_cells<FourLanes>(task, c, end);
 }
 
 #endif

@@ -133,10 +133,12 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
 }
 
 #if WEIR_HAS_LANES
-/// `fill_dimples` of a row, four at a time. Returns the next cell to do.
+/// `fill_dimples` of a row, four or eight at a time. Returns the next cell to do.
 inline std::int32_t fill_dimples_in_lanes(const GridShape& s, const Borders<float>& borders,
                                           const Walls<float>& walls, std::int32_t j,
                                           float* level) {
+    const std::int32_t row = s.index(0, j);
+    const std::int32_t end = row + s.nx;
     const DimpleTask task{level,
                           walls.active ? walls.open_u : nullptr,
                           walls.open_v,
@@ -144,26 +146,12 @@ inline std::int32_t fill_dimples_in_lanes(const GridShape& s, const Borders<floa
                           s.stride,
                           kFilledShare<float>,
                           kFilledShareOfCut<float>,
-                          kFilledLevel<float>};
-    const auto is = [](bool there) { return there ? 1.0F : 0.0F; };
-    const float lower = is(j > 0 || borders.wrap_y);
-    const float upper = is(j + 1 < s.ny || borders.wrap_y);
-    const bool inner_row = !walls.active && j > 0 && j + 1 < s.ny;
-    std::int32_t i = 0;
-    for (; i + 4 <= s.nx; i += 4) {
-        // Four open faces want liquid behind all of them.
-        const bool inner = inner_row && i > 0 && i + 4 < s.nx;
-        const std::int32_t c = s.index(i, j);
-        const LaneMask beside = beside_liquid(level, s.stride, c, inner);
-        if (any_true(beside)) {
-            const Lanes left{is(i > 0 || borders.wrap_x), 1.0F, 1.0F, 1.0F};
-            const Lanes right{1.0F, 1.0F, 1.0F, is(i + 4 < s.nx || borders.wrap_x)};
-            const LaneMask filled = beside & surrounded_four(task, c, left, right, lower, upper);
-            store_lanes(level + c,
-                        filled ? all_lanes(kFilledLevel<float>) : load_lanes(level + c));
-        }
-    }
-    return i;
+                          kFilledLevel<float>,
+                          j > 0 || borders.wrap_y,
+                          j + 1 < s.ny || borders.wrap_y,
+                          borders.wrap_x ? -1 : row,
+                          borders.wrap_x ? kMostWork : end - 1};
+    return fill_lanes(task, row, end) - row;
 }
 #endif
 

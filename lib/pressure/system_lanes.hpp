@@ -2,6 +2,7 @@
 // bits.
 #pragma once
 
+#include "pressure/some_lanes.hpp"
 #include "pressure/plain_lanes.hpp"
 
 namespace weir {
@@ -34,11 +35,6 @@ inline Floats fraction_between(Lever lever, Floats a, Floats b, Floats open) {
     return L::clamp(fraction, least, L::all(kLargestFraction<float>));
 }
 
-/// Nine faces of which the first, or the last, is a wall. Not inline: a file compiled for AVX2
-/// gives others nothing.
-constexpr float kFirstClosed[] = {0.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
-constexpr float kLastClosed[] = {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 0.0F};
-
 /// Whether what moving walls push into cells that are not plain is to be asked for.
 template <class L>
 inline bool walls_may_push(const RowTask& task, std::int32_t c) {
@@ -57,8 +53,8 @@ inline bool build_any(RowTask& task, std::int32_t c, const Flow& add_flow) {
     const std::int32_t up = c + stride;
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
-    Floats left = L::load(kFirstClosed + (c == task.first ? 0 : 1));
-    Floats right = L::load(kLastClosed + (c + L::kLanes - 1 == task.last ? 9 - L::kLanes : 0));
+    Floats left = open_before<L>(c == task.first);
+    Floats right = open_behind<L>(c + L::kLanes - 1 == task.last);
     Floats lower = task.has_lower ? one : zero;
     Floats upper = task.has_upper ? one : zero;
     auto wide = one == one;

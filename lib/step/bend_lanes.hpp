@@ -105,36 +105,34 @@ inline void bend_group(const BendTask& task, std::int32_t face, std::int32_t don
     L::store(task.out + face, bent ? now + share * turned : now);
 }
 
-/// Bends faces `face`, `face` + 1 … of a row as long as enough are left before `end`. Returns the
-/// next one to do.
+/// Bends faces `face`, `face` + 1 … of a row, the last few beside some that are done; faces from
+/// `row` on exist. Returns the next one to do: there may be too few for a group.
 template <class L>
-inline std::int32_t bend_faces(const BendTask& task, std::int32_t face, std::int32_t end) {
-    for (; face + L::kLanes <= end; face += L::kLanes) {
-        bend_group<L>(task, face, 0);
+inline std::int32_t bend_faces(const BendTask& task, std::int32_t row, std::int32_t face,
+                               std::int32_t end) {
+    const std::int32_t last = end - L::kLanes;
+    if (last < row) {
+        return face;
     }
-    return face;
+    for (; face < end; face += L::kLanes) {
+        bend_group<L>(task, face <= last ? face : last, face <= last ? 0 : face - last);
+    }
+    return end;
 }
 
 #if WEIR_HAS_WIDE_LANES
-std::int32_t bend_wide(const BendTask& task, std::int32_t face, std::int32_t end);
+std::int32_t bend_wide(const BendTask& task, std::int32_t row, std::int32_t face,
+                       std::int32_t end);
 #endif
 
-/// All of them, if they are enough; faces from `row` on exist.
 inline std::int32_t bend_lanes(const BendTask& task, std::int32_t row, std::int32_t face,
                                std::int32_t end) {
 #if WEIR_HAS_WIDE_LANES
     if (has_wide_lanes()) {
-        face = bend_wide(task, face, end);
+        face = bend_wide(task, row, face, end);
     }
 #endif
-    face = bend_faces<FourLanes>(task, face, end);
-    // The last few with some of those that are done.
-    const std::int32_t back = end - 4;
-    if (face < end && back < face && back >= row) {
-        bend_group<FourLanes>(task, back, face - back);
-        return end;
-    }
-    return face;
+    return bend_faces<FourLanes>(task, row, face, end);
 }
 
 #endif

@@ -35,16 +35,6 @@ struct ExtrapolateTask {
     std::int32_t end;
 };
 
-/// 1 from the ninth on. Not inline: a file compiled for AVX2 gives others nothing.
-constexpr float kFromNinth[] = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F,
-                                1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
-
-/// Lanes from the `k`-th of eight on.
-template <class L>
-inline auto lanes_from(std::int32_t k) {
-    return L::load(kFromNinth + 8 - k) > L::all(0.0F);
-}
-
 /// As `push_on_spray`.
 template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
@@ -88,18 +78,19 @@ struct Beside {
     }
 };
 
-/// Of L::kLanes faces those that `chosen` names, as far as they lie between two air cells of which
-/// neither is empty.
+/// Which faces lie between two air cells of which neither is empty.
 template <class L>
-inline void extend_faces(const ExtrapolateTask& task, std::int32_t face,
-                         typename L::Ints chosen) {
+inline auto is_spray(const ExtrapolateTask& task, std::int32_t face) {
     const auto here = L::load(task.level + face);
     const auto before = L::load(task.level + face - task.back);
-    const auto spray = chosen & (L::maximum(here, before) <= L::all(0.0F)) &
-                       (L::minimum(here, before) > L::all(kEmptyLevel<float>));
-    if (!L::any_true(spray)) {
-        return;
-    }
+    return (L::maximum(here, before) <= L::all(0.0F)) &
+           (L::minimum(here, before) > L::all(kEmptyLevel<float>));
+}
+
+/// Of L::kLanes faces those that `spray` names.
+template <class L>
+inline void extend_faces(const ExtrapolateTask& task, std::int32_t face,
+                         typename L::Ints spray) {
     const auto now = L::load(task.velocity + face);
     Beside<L> beside{now};
     beside.look(task, face - 1, face == task.first ? spray & lanes_from<L>(1) : spray);
@@ -120,19 +111,20 @@ inline void extend_faces(const ExtrapolateTask& task, std::int32_t face,
              some ? (task.velocity_itself ? mean : now + mean) : now);
 }
 
-/// All faces of a row. False: there are not enough of them, nothing was done.
+/// All faces of a row, the last few beside some that are done. False: there are not enough of
+/// them, nothing was done.
 template <class L>
 inline bool extrapolate_faces(const ExtrapolateTask& task) {
     std::int32_t face = task.first;
     if (task.end - face < L::kLanes) {
         return false;
     }
-    for (; face + L::kLanes <= task.end; face += L::kLanes) {
-        extend_faces<L>(task, face, lanes_from<L>(0));
-    }
-    if (face < task.end) {  // those that are left, beside some that are done
-        const std::int32_t at = task.end - L::kLanes;
-        extend_faces<L>(task, at, lanes_from<L>(face - at));
+    for (; face < task.end; face += L::kLanes) {
+        const std::int32_t at = face + L::kLanes <= task.end ? face : task.end - L::kLanes;
+        const auto spray = is_spray<L>(task, at) & lanes_from<L>(face - at);
+        if (L::any_true(spray)) {
+            extend_faces<L>(task, at, spray);
+        }
     }
     return true;
 }

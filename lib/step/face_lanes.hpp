@@ -45,30 +45,38 @@ inline auto least_around(const float* level, std::int32_t back, std::int32_t str
 }
 
 /// field − smoothing ∇²field within what the faces around have, where the six cells' levels say
-/// that liquid is all around.
+/// that liquid is all around. All of them, the last few with some that are done, if there are
+/// enough for a group.
 template <class L>
 inline std::int32_t sharpen_faces(const float* level, std::int32_t back, std::int32_t stride,
                                   float smoothing, const float* field, std::int32_t face,
                                   std::int32_t end, float* out) {
-    for (; face + L::kLanes <= end; face += L::kLanes) {
-        const auto deep = least_around<L>(level, back, stride, face) > L::all(0.0F);
+    if (face + L::kLanes > end) {
+        return face;
+    }
+    for (; face < end; face += L::kLanes) {
+        const std::int32_t at = face + L::kLanes <= end ? face : end - L::kLanes;
+        if (!L::any_true(L::load(level + at) > L::all(0.0F))) {  // soon told
+            continue;
+        }
+        const auto deep = least_around<L>(level, back, stride, at) > L::all(0.0F);
         if (!L::any_true(deep)) {
             continue;
         }
-        const auto here = L::load(field + face);
-        const auto left = L::load(field + face - 1);
-        const auto right = L::load(field + face + 1);
-        const auto lower = L::load(field + face - stride);
-        const auto upper = L::load(field + face + stride);
+        const auto here = L::load(field + at);
+        const auto left = L::load(field + at - 1);
+        const auto right = L::load(field + at + 1);
+        const auto lower = L::load(field + at - stride);
+        const auto upper = L::load(field + at + stride);
         const auto around = (left + right) + (lower + upper);
         const auto low =
             L::minimum(here, L::minimum(L::minimum(left, right), L::minimum(lower, upper)));
         const auto high =
             L::maximum(here, L::maximum(L::maximum(left, right), L::maximum(lower, upper)));
         const auto sharp = here - L::all(smoothing) * (around - L::all(4.0F) * here);
-        L::store(out + face, deep ? L::clamp(sharp, low, high) : here);
+        L::store(out + at, deep ? L::clamp(sharp, low, high) : here);
     }
-    return face;
+    return end;
 }
 
 /// before = (now − before) + share · sharp.

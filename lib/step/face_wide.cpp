@@ -23,8 +23,9 @@ std::int32_t blend_wide(const float* now, const float* sharp, float share, std::
     return blend_faces<EightLanes>(now, sharp, share, face, end, before);
 }
 
-std::int32_t bend_wide(const BendTask& task, std::int32_t face, std::int32_t end) {
-    return bend_faces<EightLanes>(task, face, end);
+std::int32_t bend_wide(const BendTask& task, std::int32_t row, std::int32_t face,
+                       std::int32_t end) {
+    return bend_faces<EightLanes>(task, row, face, end);
 }
 
 bool extrapolate_wide(const ExtrapolateTask& task) {

@@ -171,7 +171,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
         std::int32_t face = row + component.first_i;
         if constexpr (kHasLanes<Real>) {
             // Lanes load and store what they leave as it is: not where others are at work.
-            const bool amid = j > rows.first && j + 1 < rows.end;
+            const bool amid = (j > rows.first || j == 0) && (j + 1 < rows.end || j + 1 == s.ny);
             if (amid && component.light == nullptr && component.thin == nullptr &&
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
                                    back, s.stride, lever_of(fields),
