@@ -23,9 +23,7 @@ void relax_apart_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t
 }
 
 std::int32_t build_wide(RowTask& task, std::int32_t c, std::int32_t end) {
-    const auto no_flow = [](auto...) {};
-    while (c + 8 <= end && !walls_may_push<EightLanes>(task, c) &&
-           build_group<EightLanes>(task, c, no_flow)) {
+    while (c + 8 <= end && build_group<EightLanes>(task, c, NoFlow{})) {
         c += 8;
     }
     return c;

@@ -52,7 +52,9 @@ inline void relax_rows(const RelaxTask& task) {
     float* const p = fields.pressure;
     const auto zero = L::all(0.0F);
     const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
-    const auto group = [&](std::int32_t c, typename L::Floats before, typename L::Ints asked) {
+    // Called twice, and else not inlined.
+    const auto group = [&](std::int32_t c, typename L::Floats before, typename L::Ints asked)
+                           __attribute__((always_inline)) {
         auto inverse = every_second(fields.inverse_diagonal + c);
         const auto wet = (inverse != zero) & asked;
         const auto here = L::load_alternate(p + c);

@@ -176,6 +176,26 @@ void build_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
 
 #if WEIR_HAS_LANES
 
+/// Adds what moving walls push into the cells of row j.
+template <bool Solids>
+struct WallFlow {
+    static constexpr bool kAsks = true;
+    const GridShape& s;
+    const Walls<float>& walls;
+    std::int32_t j;
+
+    void operator()([[maybe_unused]] std::int32_t c, [[maybe_unused]] Lanes& flow,
+                    [[maybe_unused]] LaneMask wet, [[maybe_unused]] LaneMask wide) const {
+        if constexpr (Solids) {
+            for (std::int32_t k = 0; walls.moving && k < 4; ++k) {
+                if (wet[k] != 0 && (wide[k] == 0 || touches_wall(walls, c + k))) {
+                    flow[k] += wall_flow(s, walls, c + k - s.index(0, j), j);
+                }
+            }
+        }
+    }
+};
+
 /// Cells of row j, four or eight at a time; returns the next one to do. one_by_one(i, end) does
 /// others.
 template <bool Solids, class OneByOne>
@@ -183,17 +203,7 @@ std::int32_t build_in_lanes(const FaceWeights<Solids, false, float>& weights, st
                             RowTask& task, const OneByOne& one_by_one) {
     const GridShape& s = weights.grid.shape;
     const std::int32_t row = s.index(0, j);
-    const auto add_flow = [&]([[maybe_unused]] std::int32_t c, [[maybe_unused]] Lanes& flow,
-                              [[maybe_unused]] LaneMask wet, [[maybe_unused]] LaneMask wide) {
-        if constexpr (Solids) {
-            const Walls<float>& walls = weights.walls;
-            for (std::int32_t k = 0; walls.moving && k < 4; ++k) {
-                if (wet[k] != 0 && (wide[k] == 0 || touches_wall(walls, c + k))) {
-                    flow[k] += wall_flow(s, walls, c + k - row, j);
-                }
-            }
-        }
-    };
+    const WallFlow<Solids> add_flow{s, weights.walls, j};
     std::int32_t i = 0;
     while (i + 4 <= s.nx) {
 #if WEIR_HAS_WIDE_LANES

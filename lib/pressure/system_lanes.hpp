@@ -35,12 +35,12 @@ inline Floats fraction_between(Lever lever, Floats a, Floats b, Floats open) {
     return L::clamp(fraction, least, L::all(kLargestFraction<float>));
 }
 
-/// Whether what moving walls push into cells that are not plain is to be asked for.
-template <class L>
-inline bool walls_may_push(const RowTask& task, std::int32_t c) {
-    return task.walls != nullptr && task.walls->moving &&
-           !are_untouched<L>(*task.walls, task.grid.shape.stride, c);
-}
+/// Of moving walls none push into cells, or they are not asked.
+struct NoFlow {
+    static constexpr bool kAsks = false;
+    template <class... Whatever>
+    void operator()(const Whatever&...) const {}
+};
 
 /// The equations of cells of any kind. add_flow(c, divergence, which are wet, which have all their
 /// faces open) adds what moving walls push into them. False: the start is no number.
@@ -116,11 +116,18 @@ inline bool build_group(RowTask& task, std::int32_t c, const Flow& add_flow) {
         L::store(fields.pressure + c, zero);
         return true;
     }
-    const bool inside = task.has_lower && task.has_upper && c > task.first &&
-                        c + L::kLanes - 1 < task.last;
-    if (inside && L::all_true(lowest_around<L>(fields.level, stride, c) > zero) &&
-        (task.walls == nullptr || are_untouched<L>(*task.walls, stride, c))) {
-        return build_plain<L>(task, c);
+    const bool alike = task.has_lower && task.has_upper && c > task.first &&
+                       c + L::kLanes - 1 < task.last &&
+                       L::all_true(lowest_around<L>(fields.level, stride, c) > zero);
+    const bool pushed = task.walls != nullptr && task.walls->moving && !Flow::kAsks;
+    if (alike || pushed) {
+        if (task.walls == nullptr || are_untouched<L>(*task.walls, stride, c)) {
+            if (alike) {
+                return build_plain<L>(task, c);
+            }
+        } else if (pushed) {
+            return false;
+        }
     }
     return !fields.on_surface && build_any<L>(task, c, add_flow);
 }
