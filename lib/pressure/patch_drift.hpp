@@ -35,6 +35,22 @@ inline void rises(const Real* excess, std::int32_t q, std::int32_t step, Real* o
     on_face[3] = after;
 }
 
+/// Whether there is excess in a patch, as `average` noted it, which drops do without.
+template <class Real>
+inline bool has_excess(const PressureFields<Real>& fields, std::int32_t q) {
+    return fields.on_surface || fields.coarse.residual[q] != Real(0);
+}
+
+/// Whether a patch and those around it have none, nor a mean. `Drift::still` knows more.
+template <class Real>
+inline bool is_still(const PressureFields<Real>& fields, std::int32_t q) {
+    const std::int32_t up = fields.coarse.shape.stride;
+    const Real* mean = fields.coarse.correction + q;
+    return !has_excess(fields, q) && !has_excess(fields, q - 1) && !has_excess(fields, q - up) &&
+           mean[0] == Real(0) && mean[-1] == Real(0) && mean[1] == Real(0) &&
+           mean[-up] == Real(0) && mean[up] == Real(0);
+}
+
 /// What the drift needs to know of a patch.
 template <bool Solids, class Real>
 struct Drift {
@@ -73,11 +89,7 @@ struct Drift {
         }
     }
 
-    /// Whether there is excess in a patch, as `average` noted it, which drops do without.
-    bool has_excess(std::int32_t q) const {
-        return fields.on_surface || fields.coarse.residual[q] != Real(0);
-    }
-
+    bool has_excess(std::int32_t q) const { return weir::has_excess(fields, q); }
     Real mean_excess() const { return fields.coarse.correction[patch.q]; }
 
     /// Whether nothing drifts: no excess in the patch, before it and below it, nor a rise.

@@ -129,6 +129,9 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     }
     share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
         static_assert(kCoarseEdge == 4, "rises() knows four faces");
+        if (kHasLanes<Real> && is_still(fields, patch.q)) {
+            return;
+        }
         Drift<Solids, Real> drift{borders, walls, fields, s, patch, speed, weight, {}, {}};
         rises(fields.coarse.correction, patch.q, 1, drift.along_x);
         rises(fields.coarse.correction, patch.q, big.stride, drift.along_y);
