@@ -38,6 +38,8 @@ struct FourLanes {
         return lanes;
     }
     static void store(float* to, Floats lanes) { store_lanes(to, lanes); }
+    /// A number for each group.
+    static Floats one_a_group(const float* from) { return all_lanes(*from); }
     /// For each group the four numbers from pair `at` on.
     static Floats load_pairs(const float* from, const std::uint32_t* at) {
         return load_lanes(from + 2 * static_cast<std::size_t>(*at));

@@ -87,6 +87,9 @@ struct EightLanes {
                 : "m"(*reinterpret_cast<const Pair*>(from + 2)));
         return lanes;
     }
+    static Floats one_a_group(const float* from) {
+        return Floats{from[0], from[0], from[0], from[0], from[1], from[1], from[1], from[1]};
+    }
     static Floats load_pairs(const float* from, const std::uint32_t* at) {
         return __builtin_shufflevector(load_four(from + 2 * static_cast<std::size_t>(at[0])),
                                        load_four(from + 2 * static_cast<std::size_t>(at[1])), 0,

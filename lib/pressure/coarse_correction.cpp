@@ -141,12 +141,6 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
 
 template <class Real>
 void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>& fields) {
-    if constexpr (kHasLanes<Real>) {
-        if (patch.width == kCoarseEdge) {
-            correct_patch(fields, s.stride, patch.q, s.index(patch.i, patch.j), patch.height);
-            return;
-        }
-    }
     const Shares<Real> from(fields.coarse, patch.q);
     const Real* e = fields.coarse.correction;
     const Real own = e[patch.q];
@@ -160,6 +154,26 @@ void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>
         for (std::int32_t x = 0; x < patch.width; ++x) {
             if (!is_zero(Real(fields.inverse_diagonal[c + x]))) {
                 fields.pressure[c + x] += row + column[x];
+            }
+        }
+    }
+}
+
+/// Of some rows of patches.
+template <class Real>
+void add_corrections(const GridShape& s, const Part& rows, PressureFields<Real>& fields) {
+    const GridShape& big = fields.coarse.shape;
+    for (std::int32_t row = rows.first; row < rows.end; ++row) {
+        std::int32_t column = 0;
+        if constexpr (kHasLanes<Real>) {
+            const Patch first = patch_of(s, big, 0, row);
+            column = correct_in_lanes(fields, s.stride, first.q, s.index(0, first.j),
+                                      first.height, s.nx / kCoarseEdge);
+        }
+        for (; column < big.nx; ++column) {
+            const Patch patch = patch_of(s, big, column, row);
+            if (fields.coarse.inverse_diagonal[patch.q] != Real(0)) {
+                add_correction(s, patch, fields);
             }
         }
     }
@@ -184,79 +198,6 @@ void relax(const Part& rows, std::int32_t colour, Real omega, CoarseGrid<Real>& 
         }
     }
 }
-
-#if WEIR_HAS_LANES
-
-/// A row from column −1 on, its columns as sweeps want them. `room`: as much again.
-void part_row(std::int32_t width, std::int32_t evens, float* row, float* room) {
-    std::memcpy(room, row, static_cast<std::size_t>(width) * sizeof *row);
-    row[evens] = room[0];
-    row[evens - 1] = room[2 * evens - 1];
-    for (std::int32_t k = 0; 2 * k + 2 < width; ++k) {
-        row[k] = room[2 * k + 1];
-        row[evens + 1 + k] = room[2 * k + 2];
-    }
-}
-
-/// The same back.
-void join_row(std::int32_t width, std::int32_t evens, float* row, float* room) {
-    std::memcpy(room, row, static_cast<std::size_t>(width) * sizeof *row);
-    row[0] = room[evens];
-    row[2 * evens - 1] = room[evens - 1];
-    for (std::int32_t k = 0; 2 * k + 2 < width; ++k) {
-        row[2 * k + 1] = room[k];
-        row[2 * k + 2] = room[evens + 1 + k];
-    }
-}
-
-/// Of some rows all that sweeps read. Nobody reads what residual there is below the tank.
-template <class Row>
-void for_each_coarse_row(const CoarseGrid<float>& coarse, const Part& rows, const Row& row) {
-    const GridShape& s = coarse.shape;
-    float* const room = coarse.residual + s.index(-1, -1);
-    const auto each = [&](float* field, std::int32_t end) {
-        for (std::int32_t j = rows.first; j < end; ++j) {
-            row(s.nx + 2, evens_of(s), field + s.index(-1, j), room);
-        }
-    };
-    each(coarse.correction, rows.end);
-    each(coarse.residual, rows.end);
-    each(coarse.inverse_diagonal, rows.end);
-    each(coarse.weight_u, rows.end);
-    each(coarse.weight_v, rows.end + 1);
-    clear_rows(s, {0, 1}, coarse.residual);
-}
-
-/// `extend_cells` while columns stand apart.
-void extend_apart(const Borders<float>& borders, const GridShape& s, float* field) {
-    if (borders.wrap_x) {
-        const auto at = [&](std::int32_t i) {
-            const std::int32_t place = (i & 1) == 0 ? i / 2 : evens_of(s) + (i + 1) / 2;
-            return Line{s.index(-1, -1) + place, s.stride, s.ny + 2};
-        };
-        copy(field, at(-1), at(s.nx - 1));
-        copy(field, at(s.nx), at(0));
-    }
-    if (borders.wrap_y) {
-        copy(field, row(s, -1), row(s, s.ny - 1));
-        copy(field, row(s, s.ny), row(s, 0));
-    }
-}
-
-/// So many half sweeps over the rows that hold liquid. The correction is 0 before them.
-void sweep_apart(const Borders<float>& borders, std::int32_t count, float omega,
-                 CoarseGrid<float>& coarse) {
-    const Part rows{coarse.first_row, coarse.last_row + 1};
-    for_each_coarse_row(coarse, rows, part_row);
-    for (std::int32_t colour = 0; colour < count; ++colour) {
-        relax_apart_lanes(coarse, omega, (rows.first + colour) & 1, rows);
-        extend_apart(borders, coarse.shape, coarse.correction);
-    }
-    for_each_coarse_row(coarse, rows, join_row);
-    extend_cells(borders, coarse.shape, coarse.correction);
-}
-
-#endif
 
 template <class Real>
 void sweep(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
@@ -357,11 +298,9 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
         join_cells(weights.borders, big, coarse.residual);
     }
     sweep(weights.borders, work, coarse);
-    share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
-        if (coarse.inverse_diagonal[patch.q] != Real(0)) {
-            add_correction(s, patch, fields);
-        }
-    });
+    const std::int32_t cost = kCoarseEdge * s.nx;
+    work.share(work.take(big.ny, cost), cost, 1,
+               [&](const Part& rows, std::int32_t) { add_corrections(s, rows, fields); });
 }
 
 template <class Real>
@@ -372,11 +311,7 @@ void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields
             coarse.correction[q] = factor * coarse.correction[q];
         }
     });
-    for_each_patch(shape, coarse.shape, Work(), [&](const Patch& patch) {
-        if (coarse.inverse_diagonal[patch.q] != Real(0)) {
-            add_correction(shape, patch, fields);
-        }
-    });
+    add_corrections(shape, {0, coarse.shape.ny}, fields);
 }
 
 #define WEIR_INSTANTIATE_FOR(Solids, Mixed, Real)                                                \

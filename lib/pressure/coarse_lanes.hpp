@@ -154,26 +154,72 @@ struct ResidualSums {
     }
 };
 
-/// Adds the correction of coarse cell q to the pressure of its liquid cells, from cell c on.
-inline void correct_patch(const PressureFields<float>& fields, std::int32_t stride,
-                          std::int32_t q, std::int32_t c, std::int32_t height) {
+/// Adds the corrections of coarse cells to the pressure of their liquid cells: of patches `k`,
+/// k + 1 … of `count` in a row, as long as enough are left. Returns the next one to do. `first_q`,
+/// `first_c`: coarse cell and first cell of patch 0.
+template <class L>
+inline std::int32_t correct_patches(const PressureFields<float>& fields, std::int32_t stride,
+                                    std::int32_t first_q, std::int32_t first_c,
+                                    std::int32_t height, std::int32_t k, std::int32_t count) {
+    using Floats = typename L::Floats;
     const CoarseGrid<float>& coarse = fields.coarse;
     const std::int32_t up = coarse.shape.stride;
-    const float* e = coarse.correction + q;
-    const Lanes own = all_lanes(*e);
-    const FourShares beside = shares_of_columns(coarse, q);
-    const FourShares above = shares_of_rows(coarse, q);
-    const Lanes column =
-        beside.share * ((beside.forward ? all_lanes(e[1]) : all_lanes(e[-1])) - own);
-    const Lanes row =
-        own + above.share * ((above.forward ? all_lanes(e[up]) : all_lanes(e[-up])) - own);
-    float of_row[kCoarseEdge];
-    store_lanes(of_row, row);
-    for (std::int32_t y = 0; y < height; ++y, c += stride) {
-        const Lanes now = load_lanes(fields.pressure + c);
-        const LaneMask wet = load_lanes(fields.inverse_diagonal + c) != all_lanes(0.0F);
-        store_lanes(fields.pressure + c, wet ? now + (all_lanes(of_row[y]) + column) : now);
+    const auto zero = L::all(0.0F);
+    for (; k + L::kGroups <= count; k += L::kGroups) {
+        const std::int32_t q = first_q + k;
+        const auto known = L::one_a_group(coarse.inverse_diagonal + q) != zero;
+        if (!L::any_true(known)) {
+            continue;
+        }
+        const auto correction = [&](std::int32_t at) {
+            return L::one_a_group(coarse.correction + at);
+        };
+        const auto own = correction(q);
+        // As `shares_of_four`.
+        const auto shared = [&](Floats way, Floats before, Floats after, Floats last,
+                                Floats next) {
+            const auto forward = way > zero;
+            return (L::all(1.0F / kCoarseEdge) * (forward ? way * after : -way * before)) *
+                   ((forward ? next : last) - own);
+        };
+        const auto column =
+            shared(L::repeat(0.0F, 1.0F, 2.0F, 3.0F) - L::one_a_group(coarse.centre_x + q),
+                   L::one_a_group(coarse.reach_u + q), L::one_a_group(coarse.reach_u + q + 1),
+                   correction(q - 1), correction(q + 1));
+        const auto centre = L::one_a_group(coarse.centre_y + q);
+        const auto before = L::one_a_group(coarse.reach_v + q);
+        const auto after = L::one_a_group(coarse.reach_v + q + up);
+        const auto last = correction(q - up);
+        const auto next = correction(q + up);
+        std::int32_t c = first_c + kCoarseEdge * k;
+        for (std::int32_t y = 0; y < height; ++y, c += stride) {
+            const auto wet = known & (L::load(fields.inverse_diagonal + c) != zero);
+            const auto row = own + shared(L::all(static_cast<float>(y)) - centre, before, after,
+                                          last, next);
+            const auto now = L::load(fields.pressure + c);
+            L::store(fields.pressure + c, wet ? now + (row + column) : now);
+        }
     }
+    return k;
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::int32_t correct_wide(const PressureFields<float>& fields, std::int32_t stride,
+                          std::int32_t q, std::int32_t c, std::int32_t height,
+                          std::int32_t count);
+#endif
+
+/// All of them.
+inline std::int32_t correct_in_lanes(const PressureFields<float>& fields, std::int32_t stride,
+                                     std::int32_t q, std::int32_t c, std::int32_t height,
+                                     std::int32_t count) {
+    std::int32_t done = 0;
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        done = correct_wide(fields, stride, q, c, height, count);
+    }
+#endif
+    return correct_patches<FourLanes>(fields, stride, q, c, height, done, count);
 }
 
 #endif

@@ -3,6 +3,7 @@
 // −1, 1, 3 …, ghosts included. Cells of a colour, and those beside them, then lie side by side.
 #pragma once
 
+#include "grid/borders.hpp"
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
@@ -64,6 +65,10 @@ inline void relax_apart_lanes(const CoarseGrid<float>& coarse, float omega, std:
 #endif
     relax_apart<FourLanes>(coarse, omega, i, rows);
 }
+
+/// So many half sweeps over the rows that hold liquid. The correction is 0 before them.
+void sweep_apart(const Borders<float>& borders, std::int32_t count, float omega,
+                 CoarseGrid<float>& coarse);
 
 #endif
 

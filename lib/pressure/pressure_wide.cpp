@@ -1,5 +1,6 @@
 // Loops over cells with eight lanes.
 #include "math/wide_lanes.hpp"
+#include "pressure/coarse_lanes.hpp"
 #include "pressure/coarse_sweep_lanes.hpp"
 #include "pressure/plain_lanes.hpp"
 #include "pressure/relax_lanes.hpp"
@@ -20,6 +21,12 @@ void relax_wide(const RelaxTask& task) {
 void relax_apart_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
                       const Part& rows) {
     relax_apart<EightLanes>(coarse, omega, i, rows);
+}
+
+std::int32_t correct_wide(const PressureFields<float>& fields, std::int32_t stride,
+                          std::int32_t q, std::int32_t c, std::int32_t height,
+                          std::int32_t count) {
+    return correct_patches<EightLanes>(fields, stride, q, c, height, 0, count);
 }
 
 std::int32_t build_wide(RowTask& task, std::int32_t c, std::int32_t end) {
