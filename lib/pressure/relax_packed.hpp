@@ -181,6 +181,7 @@ template <bool Solids, class Weights, class Fields>
                                   (part(w.lower, c - s.stride) + part(w.upper, up));
     if (diagonal == 0) {
         fields.inverse_diagonal[c].raw = 0;
+        fields.divergence[c].raw = 0;  // whoever goes by levels reads it
         fields.pressure[c].raw = 0;
         return;
     }

@@ -2,26 +2,41 @@
 
 #include "step/mirror.hpp"
 #include "step/mirror_lanes.hpp"
+#include "step/mirror_packed.hpp"
 
 namespace weir {
 
 namespace {
 
-/// The field that is mirrored, and what is done to it: `mirrored` or `before`.
+/// The field that is mirrored, and what is done to it: `mirrored`, or `before`.
 template <class Real>
 struct Field {
     Velocity<Real> velocity;
     const LevelOf<Real>* level;
-    Vec2<Real> (*value)(const Velocity<Real>&, const Mirror<Real>&);
+    bool was;
 };
 
 template <class Real>
-Real mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
-                 std::int32_t j) {
-    const VelocityOf<Real>* own = axis.is_u ? field.velocity.u : field.velocity.v;
-    Mirror<Real> mirror;
-    return is_image(axis, field.level, i, j, mirror) ? axis.of(field.value(field.velocity, mirror))
-                                                     : Real(own[axis.s.index(i, j)]);
+VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
+                             std::int32_t j) {
+    const std::int32_t face = axis.s.index(i, j);
+    const VelocityOf<Real> own = (axis.is_u ? field.velocity.u : field.velocity.v)[face];
+    if constexpr (Stored<Real>::coarse) {
+        packed::Mirror mirror;
+        if (!packed::find_mirror(axis, field.level, i, j, mirror)) {
+            return own;
+        }
+        const packed::MirrorTask task{axis, field.velocity};
+        const std::int32_t image = field.was ? task.before(mirror, face)
+                                             : task.mirrored(mirror, face);
+        return VelocityOf<Real>::of_raw(short_of(rounded_shift(image, 1)));
+    } else {
+        Mirror<Real> mirror;
+        return is_image(axis, field.level, i, j, mirror)
+                   ? axis.of(field.was ? before(field.velocity, mirror)
+                                       : mirrored(field.velocity, mirror))
+                   : own;
+    }
 }
 
 template <class Real>
@@ -35,8 +50,8 @@ void mirror_field(const Walls<Real>& walls, const Field<Real>& field, const Part
     work.share(computed, s.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
             const std::int32_t c = s.index(i, j);
-            fields.divergence[c] = i > 0 ? mirror_face(on_u, field, i, j) : Real(u[c]);
-            fields.inverse_diagonal[c] = j > 0 ? mirror_face(on_v, field, i, j) : Real(v[c]);
+            fields.divergence[c] = i > 0 ? mirror_face(on_u, field, i, j) : u[c];
+            fields.inverse_diagonal[c] = j > 0 ? mirror_face(on_v, field, i, j) : v[c];
         });
     });
     for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
@@ -236,8 +251,8 @@ template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const Field<Real> now{{s, grid.u, grid.v}, fields.level, mirrored<Real>};
-    const Field<Real> was{{s, grid.mass_u, grid.mass_v}, fields.level, before<Real>};
+    const Field<Real> now{{s, grid.u, grid.v}, fields.level, false};
+    const Field<Real> was{{s, grid.mass_u, grid.mass_v}, fields.level, true};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
     if constexpr (!Stored<Real>::coarse) {  // those have little room for code

@@ -1,0 +1,220 @@
+// Where a face in a solid takes its velocity from, and which: packed worlds, in whole numbers.
+#pragma once
+
+#include "math/packed_arithmetic.hpp"
+#include "step/mirror.hpp"
+#include "step/places_packed.hpp"
+
+namespace weir {
+
+namespace packed {
+
+using Whole = Vec2<std::int32_t>;
+
+/// What `weir::Mirror` says.
+struct Mirror {
+    Whole normal;         ///< 2^−14ths
+    Whole wall;           ///< velocity, 256ths
+    std::uint32_t place;  ///< in the liquid, a word of 256ths
+    std::int32_t ratio;   ///< 512ths
+    bool sticks;
+    bool open;
+};
+
+/// Of a velocity, 256ths, or of a cross-wise one; both fit with any normal.
+inline std::int32_t along(Whole v, Whole normal) {
+    return rounded_shift(v.x * normal.x + v.y * normal.y, 14);
+}
+inline Whole relative_to(Whole wall, Whole v) {
+    return {saturated<17>(v.x - wall.x), saturated<17>(v.y - wall.y)};
+}
+
+/// One of the fields that are mirrored, on the faces of one component.
+struct MirrorTask {
+    const FaceAxis<Real>& axis;
+    const Velocity<Real>& grid;
+
+    std::int32_t of(Whole v) const { return axis.is_u ? v.x : v.y; }
+    /// A length along the normal.
+    std::int32_t part(std::int32_t length, const Mirror& mirror) const {
+        return rounded_shift(length * of(mirror.normal), 14);
+    }
+
+    template <bool OnU>
+    std::int32_t at(const Speed* field, std::uint32_t place) const {
+        const std::int32_t row = axis.s.stride * kSpeedBytes;
+        const std::uint32_t from = place + kHalf<OnU>;
+        const Weights w = weights_of(from);
+        const Speed* low = further(field + (OnU ? 1 : axis.s.stride), base_of(from, row));
+        const Speed* high = further(low, row);
+        return rounded_shift((w.lower_left * low[0].raw + w.lower_right * low[1].raw) +
+                             (w.upper_left * high[0].raw + w.upper_right * high[1].raw), 7);
+    }
+    Whole at_mirror(const Mirror& mirror) const {
+        return {at<true>(grid.u, mirror.place), at<false>(grid.v, mirror.place)};
+    }
+    /// The face's own component, and the mean of the other's four faces around it.
+    Whole at_face(std::int32_t face) const {
+        const std::int32_t t = axis.s.stride;
+        const auto mean = [t](const Speed* low) {
+            return rounded_shift((low[0].raw + low[1].raw) + (low[t].raw + low[t + 1].raw), 1);
+        };
+        return axis.is_u ? Whole{2 * grid.u[face].raw, mean(grid.v + face - 1)}
+                         : Whole{mean(grid.u + face - t), 2 * grid.v[face].raw};
+    }
+    std::int32_t own_towards(const Mirror& mirror, std::int32_t face) const {
+        return along(relative_to(mirror.wall, at_face(face)), mirror.normal);
+    }
+
+    std::int32_t stuck(const Mirror& mirror, Whole relative, std::int32_t towards) const {
+        const std::int32_t across = along(relative, mirror.normal);
+        const std::int32_t aside = of(relative) - part(across, mirror);
+        return of(mirror.wall) - rounded_shift(mirror.ratio * aside, 9) + part(towards, mirror);
+    }
+
+    /// `weir::mirrored`, 256ths.
+    std::int32_t mirrored(const Mirror& mirror, std::int32_t face) const {
+        const Whole liquid = at_mirror(mirror);
+        const Whole relative = relative_to(mirror.wall, liquid);
+        const std::int32_t towards = along(relative, mirror.normal);
+        if (mirror.sticks) {
+            return stuck(mirror, relative,
+                         mirror.open ? own_towards(mirror, face)
+                                     : -rounded_shift(mirror.ratio * towards, 9));
+        }
+        const std::int32_t turned = saturated<17>(rounded_shift(towards * (512 + mirror.ratio), 9));
+        return of(liquid) - part(turned, mirror);
+    }
+
+    /// `weir::before`, 256ths. What brakes is what was there.
+    std::int32_t before(const Mirror& mirror, std::int32_t face) const {
+        const Whole liquid = at_mirror(mirror);
+        const Whole relative = relative_to(mirror.wall, liquid);
+        if (mirror.sticks) {
+            return stuck(mirror, relative, own_towards(mirror, face));
+        }
+        const Whole there = at_face(face);
+        const Whole own = relative_to(mirror.wall, there);
+        const auto aside = [&](Whole v) {
+            return absolute(v.x * mirror.normal.y - v.y * mirror.normal.x);
+        };
+        if (aside(relative) < aside(own)) {
+            return of(there);
+        }
+        const std::int32_t gap = along(own, mirror.normal) - along(relative, mirror.normal);
+        return of(liquid) + part(saturated<17>(gap), mirror);
+    }
+};
+
+/// Distances are 256ths, so differences across two faces are 1024ths.
+inline Whole normal_at(const FaceAxis<Real>& axis, std::int32_t face) {
+    const auto* d = axis.walls.distance + face;
+    const std::int32_t edge = axis.other_node();
+    const std::int32_t step = axis.is_u ? 1 : axis.s.stride;
+    const std::int32_t near = saturated<14>(4 * (d[edge].raw - d[0].raw));
+    const std::int32_t wide = saturated<14>((d[step].raw + d[step + edge].raw) -
+                                            (d[-step].raw + d[edge - step].raw));
+    const auto square = static_cast<std::uint32_t>(near * near + wide * wide);
+    const std::uint32_t length = fixed::root_below(16U * square).root;
+    const auto inverse = static_cast<std::int32_t>((1U << 26U) / maximum(length, 1U));
+    const std::int32_t along_edge = rounded_shift(near * inverse, 10);
+    const std::int32_t across = length == 0 ? 1 << 14 : rounded_shift(wide * inverse, 10);
+    return axis.is_u ? Whole{across, along_edge} : Whole{along_edge, across};
+}
+
+inline Vec2<Real> as_real(Whole normal) {
+    return {Real::of_raw(4 * normal.x), Real::of_raw(4 * normal.y)};
+}
+
+/// Where a face lies, and in which part of the tank, 256ths.
+struct FacePlace {
+    const GridShape& s;
+    Whole centre;
+
+    FacePlace(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j)
+        : s(axis.s), centre{(s.i0 + i) * 256 + (axis.is_u ? 0 : 128),
+                            (s.j0 + j) * 256 + (axis.is_u ? 128 : 0)} {}
+    /// So many 512ths away; what lies outside is put back.
+    Whole further_out(std::int32_t way, Whole normal, bool& outside) const {
+        constexpr std::int32_t kGap = Place(kWallGap<Real>).raw;
+        const Whole to{centre.x + rounded_shift(way * normal.x, 15),
+                       centre.y + rounded_shift(way * normal.y, 15)};
+        const Whole in{clamp(to.x, s.i0 * 256 + kGap, (s.i0 + s.nx) * 256 - kGap),
+                       clamp(to.y, s.j0 * 256 + kGap, (s.j0 + s.ny) * 256 - kGap)};
+        outside = in.x != to.x || in.y != to.y;
+        return in;
+    }
+};
+
+inline std::uint32_t word_of(Whole place) {
+    return static_cast<std::uint32_t>(place.x) + (static_cast<std::uint32_t>(place.y) << 16U);
+}
+
+/// `distance`: 512ths. @return whether there is liquid at the mirror's place.
+inline bool mirror_of(const FaceAxis<Real>& axis, const LevelOf<Real>* level,
+                      const FacePlace& from, std::int32_t face, std::int32_t distance,
+                      Whole normal, Mirror& mirror) {
+    const Walls<Real>& walls = axis.walls;
+    const std::int32_t other = face + axis.other_node();
+    const std::uint16_t slot = walls.sticking ? sticking_body(walls, face, other) : kNoBody;
+    mirror.normal = normal;
+    mirror.sticks = slot != kNoBody;
+    mirror.wall = {};
+    if (walls.moving || mirror.sticks) {
+        const auto real = [](std::int32_t place) { return Real::of_raw(256 * place); };
+        const Vec2<Real> centre{real(from.centre.x), real(from.centre.y)};
+        const Vec2<Real> n = as_real(normal);
+        const Vec2<Real> wall =
+            mirror.sticks ? axis.wall(slot, centre - Real::of_raw(128 * distance) * n, n)
+                          : wall_velocity(walls, face, other, centre);
+        mirror.wall = {rounded_shift(wall.x.raw, 8), rounded_shift(wall.y.raw, 8)};
+    }
+    constexpr std::int32_t kReach = 512;
+    const std::int32_t depth = mirror.sticks ? -distance : maximum(-distance, 0);
+    bool outside = false;
+    const Whole place = from.further_out(depth + maximum(depth, kReach), normal, outside);
+    mirror.place = word_of(place);
+    mirror.ratio = minimum(depth, kReach);
+    return near_liquid(axis.s, level, Vec2<Real>{Real::of_raw(256 * place.x),
+                                                 Real::of_raw(256 * place.y)});
+}
+
+/// A cell further on, where a solid that is thin here has its other side: its distance from the
+/// face, 512ths, or 1: it is thick, or ends at the tank's wall.
+inline std::int32_t other_side(const FaceAxis<Real>& axis, const FacePlace& from, Whole normal) {
+    bool outside = false;
+    const std::uint32_t at = word_of(from.further_out(-512, normal, outside));
+    const Weights w = weights_of(at);
+    const std::int32_t t = axis.s.stride;
+    const auto* low = axis.walls.distance +
+                      (static_cast<std::int32_t>(at >> 24U) + 1) * t + low_byte(at >> 8U) + 1;
+    const std::int32_t distance =
+        rounded_shift((w.lower_left * low[0].raw + w.lower_right * low[1].raw) +
+                      (w.upper_left * low[t].raw + w.upper_right * low[t + 1].raw), 7) - 512;
+    return outside || distance > 0 || distance <= -512 ? 1 : distance;
+}
+
+/// `weir::is_image`.
+inline bool find_mirror(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32_t i,
+                        std::int32_t j, Mirror& mirror) {
+    const std::int32_t face = axis.s.index(i, j);
+    const std::int32_t other = face + axis.other_node();
+    const std::int32_t distance = axis.walls.distance[face].raw + axis.walls.distance[other].raw;
+    const Real open = axis.open()[face];
+    if (!is_mirrored<Real>(axis.walls, open, Real::of_raw(128 * distance), face, other)) {
+        return false;
+    }
+    mirror.open = open > Real(0);
+    const FacePlace from(axis, i, j);
+    const Whole normal = normal_at(axis, face);
+    if (mirror_of(axis, level, from, face, distance, normal, mirror)) {
+        return true;
+    }
+    const std::int32_t beyond = other_side(axis, from, normal);
+    return beyond <= 0 &&
+           mirror_of(axis, level, from, face, beyond, {-normal.x, -normal.y}, mirror);
+}
+
+}  // namespace packed
+
+}  // namespace weir
