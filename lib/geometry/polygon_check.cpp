@@ -9,8 +9,8 @@ namespace weir {
 
 namespace {
 
-/// Edges that are held while all others pass by: their boxes are 16 bytes each on the stack.
-constexpr std::int32_t kEdgesHeld = 32;
+/// Edges that are held while all others pass by: 24 bytes each on the stack.
+constexpr std::int32_t kEdgesHeld = 16;
 
 int sign_of_turn(Vec2f a, Vec2f b, Vec2f c) {
     const double t = turn(convert<double>(a), convert<double>(b), convert<double>(c));
