@@ -89,10 +89,11 @@ template <bool Solids, bool Mixed, class Real>
     const std::int32_t c = s.index(i, j);
     const std::int32_t end = s.index(s.nx, j);
 #if WEIR_HAS_LANES
-    if constexpr (kHasLanes<Real> && !Mixed) {
-        if (relax_in_lanes<Solids>({fields, Solids ? weights.walls.open_u : nullptr,
-                                    weights.walls.open_v, kRelaxation<Real>, s.stride, c, end,
-                                    rows})) {
+    if constexpr (kHasLanes<Real> && !(Solids && Mixed)) {
+        const float* on_u = Solids ? weights.walls.open_u : weights.grid.inverse_density_u;
+        const float* on_v = Solids ? weights.walls.open_v : weights.grid.inverse_density_v;
+        if (relax_in_lanes<Solids || Mixed>({fields, on_u, on_v, Mixed, kRelaxation<Real>,
+                                             s.stride, c, end, rows})) {
             return;
         }
     }

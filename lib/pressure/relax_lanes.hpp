@@ -15,7 +15,8 @@ namespace weir {
 struct RelaxTask {
     const PressureFields<float>& fields;
     const float* open_u;  ///< open fractions, read beside cells whose inverse diagonal is negative;
-    const float* open_v;  ///< elsewhere they are 1
+    const float* open_v;  ///< elsewhere they are 1. Of two liquids 1/density, read everywhere
+    bool two_liquids;
     float omega;
     std::int32_t stride;
     std::int32_t c;
@@ -45,7 +46,7 @@ constexpr bool enough_alternate(std::int32_t c, std::int32_t end, std::int32_t l
     return c + 2 * lanes <= end + 1;
 }
 
-template <class L, bool Solids>
+template <class L, bool Weighted>
 inline void relax_rows(const RelaxTask& task) {
     const PressureFields<float>& fields = task.fields;
     const std::int32_t stride = task.stride;
@@ -65,7 +66,7 @@ inline void relax_rows(const RelaxTask& task) {
         const auto lower = every_second(p + c - stride);
         const auto upper = every_second(p + c + stride);
         auto sum = (left + here.odd) + (lower + upper);
-        if (Solids && L::any_negative(inverse)) {
+        if (Weighted && (task.two_liquids || L::any_negative(inverse))) {
             const auto u = L::load_alternate(task.open_u + c);
             sum = (u.even * left + u.odd * here.odd) +
                   (every_second(task.open_v + c) * lower +
@@ -84,12 +85,12 @@ inline void relax_rows(const RelaxTask& task) {
 }
 
 #if WEIR_HAS_WIDE_LANES
-/// `relax_rows` with eight lanes. `open_u` null: no solids.
+/// `relax_rows` with eight lanes. `open_u` null: nothing is weighted.
 void relax_wide(const RelaxTask& task);
 #endif
 
 /// False: rows are too short, nothing was done.
-template <bool Solids>
+template <bool Weighted>
 inline bool relax_in_lanes(const RelaxTask& task) {
 #if WEIR_HAS_WIDE_LANES
     if (enough_alternate(task.c, task.end, 8) && has_wide_lanes()) {
@@ -98,7 +99,7 @@ inline bool relax_in_lanes(const RelaxTask& task) {
     }
 #endif
     if (enough_alternate(task.c, task.end, 4)) {
-        relax_rows<FourLanes, Solids>(task);
+        relax_rows<FourLanes, Weighted>(task);
         return true;
     }
     return false;

@@ -35,10 +35,10 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
-        scatter_weighed<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), shape.stride,
-                              stencil_u(shape, x), density, v.x, kAllFour);
-        scatter_weighed<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), shape.stride,
-                              stencil_v(shape, x), density, v.y, kAllFour);
+        scatter_dense<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), shape.stride,
+                            stencil_u(shape, x), density, v.x);
+        scatter_dense<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), shape.stride,
+                            stencil_v(shape, x), density, v.y);
     }
     if (work.once(shape.border())) {
         StaggeredGrid<Real> by_mass = grid;

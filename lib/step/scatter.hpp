@@ -30,7 +30,27 @@ inline void scatter(Mass* mass, Real* momentum, std::int32_t stride, const Stenc
     p[1] += w1 * velocity;
 }
 
-/// The same of a particle of some density, to those of the four that `seen` names. `mass` null: one
+/// The same of a particle of some density.
+template <class Real>
+inline void scatter_dense(VelocityOf<Real>* volume, VelocityOf<Real>* mass, Real* momentum,
+                          std::int32_t stride, const Stencil<Real>& at, Real density,
+                          Real velocity) {
+    const Real w1 = at.fx * at.fy;
+    const Real right = at.fx - w1;
+    const Real upper = at.fy - w1;
+    const auto add = [&](std::int32_t node, Real weight) {
+        const Real share = weight * density;
+        volume[node] += weight;
+        mass[node] += share;
+        momentum[node] += share * velocity;
+    };
+    add(at.base, (Real(1) - at.fx) - upper);
+    add(at.base + 1, right);
+    add(at.base + stride, upper);
+    add(at.base + stride + 1, w1);
+}
+
+/// The same to those of the four that `seen` names. `mass` null: one
 /// liquid, whose count is its mass.
 template <class Real>
 inline void scatter_weighed(VelocityOf<Real>* volume, VelocityOf<Real>* mass, Real* momentum,
