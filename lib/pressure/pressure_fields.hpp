@@ -56,6 +56,7 @@ struct PressureFields {
     /// solved for, or sound slower.
     Real change = Real(1);
     Real sound_speed = Real(0);  ///< with an equation of state, in use, cells/s; 0: incompressible
+    Real cell_weight = Real(0);  ///< pressure under a cell of still liquid
     Solve<Real> solve = {};
 };
 

@@ -14,14 +14,13 @@ template <class Real>
                                   std::int32_t before, Real light, const ShareOf<Real>* open,
                                   const PressureFields<Real>& fields) {
     const Real through = open != nullptr ? Real(open[face]) : Real(1);
-    const bool wet_before = fields.level[before] > Real(0);
-    const bool wet = fields.level[face] > Real(0);
-    if ((wet || wet_before) && through > Real(0)) {
+    const bool wet = fields.level[before] > Real(0) || fields.level[face] > Real(0);
+    if (wet && through > Real(0)) {
         const Real rise = light * pressure_rise(fields, before, face, through);
         const Real was = velocity[face];
         const bool pushes = (was > Real(0)) == (rise < Real(0));
         const Real share =
-            pushes ? push_through(through, wet && wet_before, fields) : Real(1);
+            pushes ? push_through(fields, before, face, through) : Real(1);
         velocity[face] = was - share * rise;
     }
 }

@@ -38,15 +38,6 @@ inline Real width_of(Real open) {
     return minimum(Real(1), Real(4) * open);
 }
 
-/// Share of the pressure's rise that an open face passes on where it pushes, and does not brake:
-/// particles around a narrow gap have more mass than goes through, and what the pressure would give
-/// them in energy nothing has lost. At its surface a compressible liquid stores so much that only
-/// the open share itself is safe.
-template <class Real>
-inline Real push_through(Real open, bool amid_liquid, const PressureFields<Real>& fields) {
-    return fields.sound_speed > Real(0) && !amid_liquid ? open : width_of(open);
-}
-
 /// Way from a liquid cell's centre to the surface, over that to its air neighbour's centre. The
 /// face between them answers to the pressure by its inverse.
 template <class Real>
@@ -57,6 +48,30 @@ inline Real liquid_fraction(const PressureFields<Real>& fields, Real level_liqui
     const Real least = maximum(least_fraction(fields), Real(1) - width_of(open));
     const Real fraction = (level_liquid + least_head(fields)) / (level_liquid - level_air);
     return clamp(fraction, least, kLargestFraction<Real>);
+}
+
+/// Share of the pressure's rise that an open face passes on where it pushes, and does not brake:
+/// particles around a narrow gap have more mass than goes through, and what the pressure would give
+/// them in energy nothing has lost. At its surface a compressible liquid stores so much that only
+/// the open share itself is safe. And where its cells hold more than the liquid fraction, as jets
+/// along a wall do, all of that has to be moved by what is more than the weight of a cell.
+template <class Real>
+inline Real push_through(const PressureFields<Real>& fields, std::int32_t before,
+                         std::int32_t after, Real open) {
+    const Real high = maximum<Real>(fields.level[before], fields.level[after]);
+    const Real low = minimum<Real>(fields.level[before], fields.level[after]);
+    if (!(fields.sound_speed > Real(0)) || low > Real(0)) {
+        return width_of(open);
+    }
+    const Real fraction = liquid_fraction(fields, high, low, open);
+    const Real mass = Real(0.5) * (Real(fields.density[before]) + Real(fields.density[after]));
+    const Real pressure = maximum<Real>(fields.pressure[before], fields.pressure[after]);
+    const Real weight = fields.cell_weight * high;
+    if (!(mass > fraction && pressure > weight)) {
+        return open;
+    }
+    const Real jet = pressure < weight + weight ? (pressure - weight) / weight : Real(1);
+    return open * ((Real(1) - jet) + jet * (fraction / mass));
 }
 
 /// What a face adds to the diagonal of a liquid cell beside air, in 128ths as `weight` and `open`:

@@ -218,8 +218,12 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.level);
     }
+    // Compressible liquid stores what flows into a cell: one that holds little has no room for it.
+    const bool fills = !(fields.sound_speed > Real(0));
     work.share_in_turn(work.take(s.ny, s.nx), s.nx, 2, [&](const Part& rows, std::int32_t) {
-        fill_dimples(s, borders, walls, rows, fields.level);
+        if (fills) {
+            fill_dimples(s, borders, walls, rows, fields.level);
+        }
     });
     if (work.once(s.border())) {
         mirror_cells(borders, s, fields.level);

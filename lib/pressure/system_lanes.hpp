@@ -179,16 +179,26 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     const auto one = L::all(1.0F);
     const bool elastic = fields.sound_speed > 0.0F;
     const Lever lever = lever_of(fields);
-    const auto any_kind = [&](float* velocity, Floats here, Floats before, Floats rise,
-                              Floats open) {
+    const auto any_kind = [&](float* velocity, Floats here, Floats before, std::int32_t back,
+                              Floats rise, Floats open) {
         const auto now = L::load(velocity + c);
         const auto both = L::minimum(here, before) > zero;
         const auto moves = (L::maximum(here, before) > zero) & (open > zero);
-        const auto answer =
-            both ? rise : rise / fraction_between<L>(lever, here, before, open);
+        const auto fraction = fraction_between<L>(lever, here, before, open);
+        const auto answer = both ? rise : rise / fraction;
         const auto pushes = (now > zero) == (answer < zero);
-        const auto width = width_of_lanes<L>(open);
-        const auto through = elastic ? (both ? width : open) : width;
+        auto through = width_of_lanes<L>(open);
+        if (elastic) {  // as `push_through`
+            const auto mass = L::all(0.5F) * (L::load(fields.density + c - back) +
+                                              L::load(fields.density + c));
+            const auto pressure =
+                L::maximum(L::load(fields.pressure + c - back), L::load(fields.pressure + c));
+            const auto weight = L::all(fields.cell_weight) * L::maximum(here, before);
+            const auto jets = (mass > fraction) & (pressure > weight);
+            const auto jet = pressure < weight + weight ? (pressure - weight) / weight : one;
+            const auto share = (one - jet) + jet * (fraction / mass);
+            through = both ? through : (jets ? open * share : open);
+        }
         const auto share = pushes ? through : one;
         L::store(velocity + c, moves ? now - share * answer : now);
     };
@@ -210,9 +220,9 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
             L::store(grid.v + c, L::load(grid.v + c) - rise_y);
             continue;
         }
-        any_kind(grid.u, here, left, rise_x, wide_u);
+        any_kind(grid.u, here, left, 1, rise_x, wide_u);
         if (has_lower) {
-            any_kind(grid.v, here, lower, rise_y, wide_v);
+            any_kind(grid.v, here, lower, stride, rise_y, wide_v);
         }
     }
     return c;

@@ -38,13 +38,15 @@ struct ExtrapolateTask {
 /// As `push_on_spray`.
 template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
-                                typename L::Floats spray, float most) {
+                                typename L::Floats spray, float most,
+                                typename L::Floats open) {
     const auto zero = L::all(0.0F);
     const auto reach = L::all(most) * liquid;
     const auto speed = L::absolute(spray);
     const auto faster = L::minimum(push, L::maximum(speed, reach) - spray);
     const auto back = L::maximum(push, L::minimum(zero - speed, reach) - spray);
-    return push > zero ? faster : back;
+    const auto gained = push > zero ? faster : back;
+    return (gained > zero) == (spray > zero) ? open * gained : gained;
 }
 
 /// Sum and count of what goes on from the faces beside some faces.
@@ -74,7 +76,7 @@ struct Beside {
         const auto push =
             zero - (both ? rise
                          : rise / fraction_between<L>(task.lever, level, before, open));
-        sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own, task.reach) : zero;
+        sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own, task.reach, open) : zero;
     }
 };
 

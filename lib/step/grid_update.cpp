@@ -110,13 +110,16 @@ struct Component {
 };
 
 /// What a push on liquid does to a face in the air beside it: it makes it as fast as the liquid is
-/// by it, or turns it round, and no faster: spray that runs ahead has had its push.
+/// by it, or turns it round, and no faster: spray that runs ahead has had its push. What comes
+/// through a face that is `open` in part speeds it up by that part: no more liquid is behind it.
 template <class Real>
-Real push_on_spray(Real push, Real liquid, Real spray, Real most) {
+Real push_on_spray(Real push, Real liquid, Real spray, Real most, Real open) {
     const Real reach = most * liquid;
     const Real speed = absolute(spray);
-    return push > Real(0) ? minimum<Real>(push, maximum<Real>(speed, reach) - spray)
-                          : maximum<Real>(push, minimum<Real>(Real(0) - speed, reach) - spray);
+    const Real gained = push > Real(0)
+                            ? minimum<Real>(push, maximum<Real>(speed, reach) - spray)
+                            : maximum<Real>(push, minimum<Real>(Real(0) - speed, reach) - spray);
+    return (gained > Real(0)) == (spray > Real(0)) ? open * gained : gained;
 }
 
 template <class Real>
@@ -136,23 +139,25 @@ void extrapolate_component(const Component<Real>& component, const PressureField
         return depth(face) >= bound_key(Real(-kEmptyLevel<Real>)) ||
                depth(face - back) >= bound_key(Real(-kEmptyLevel<Real>));
     };
+    const auto share = [&](std::int32_t face) {
+        return component.open != nullptr ? Real(component.open[face]) : Real(1);
+    };
     const auto gained = [&](std::int32_t face) {
-        const Real open = component.open != nullptr ? Real(component.open[face]) : Real(1);
-        const Real rise = pressure_rise(fields, face - back, face, open);
+        const Real rise = pressure_rise(fields, face - back, face, share(face));
         return component.light != nullptr ? Real(component.light[face]) * rise : rise;
     };
     const auto extend = [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         Real sum = Real(0);
         Real count = Real(0);
         const auto look = [&](bool exists, std::int32_t neighbour) {
-            const bool open = component.open == nullptr || component.open[neighbour] > Real(0);
-            if (exists && open && wet(neighbour) &&
+            if (exists && share(neighbour) > Real(0) && wet(neighbour) &&
                 (component.thin == nullptr ||
                  !separated(*component.thin, s, face, neighbour, back == 1))) {
                 const Real liquid = component.velocity[neighbour];
                 sum += velocity_itself ? liquid
                                        : push_on_spray(-gained(neighbour), liquid,
-                                                       Real(component.velocity[face]), reach);
+                                                       Real(component.velocity[face]), reach,
+                                                       share(neighbour));
                 count += Real(1);
             }
         };

@@ -64,6 +64,8 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     const Walls<Real>& walls = simulation.layers.walls;
     const bool elastic = is_elastic(simulation);
     if (elastic && work.once(1)) {
+        const Vec2<Real> g = settings.gravity;
+        simulation.pressure.cell_weight = plan.dt_s * maximum(absolute(g.x), absolute(g.y));
         follow_sound(plan.sound_speed, simulation.pressure);
     }
     if constexpr (!Stored<Real>::coarse) {  // packed worlds have no tension

@@ -79,7 +79,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             contacts, gathered, extent, max_speed, ticks, stages,
                             regions] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, drifted, last_dt, change, sound_speed,
+                            on_surface, leaps, drifted, last_dt, change, sound_speed, cell_weight,
                             solve] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,

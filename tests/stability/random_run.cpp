@@ -37,7 +37,9 @@ public:
         if (scene_.solids_late) {
             add_solids();
         }
-        if (scene_.scheme.elastic()) {
+        // The paper's contour moves walls by up to half a cell; compressible liquid springs back.
+        const bool moved = scene_.scheme.contour == weir::Contour::mid_edge;
+        if (tank_.tally().solids && (moved || scene_.scheme.elastic())) {
             tank_.count_compression();
         }
         for (std::int32_t k = 0; k < scene_.steps; ++k) {
@@ -121,13 +123,8 @@ bool limits_depth(const RandomScene& scene, const Tally& tally) {
            tally.slowed == 0 && scene.tame;
 }
 
-/// What is aimed at, and what holds in every scene. Beyond the first are few: spray that
-/// is squeezed out beside walls, and liquid that solids have cut too dense, which is lifted.
-constexpr double kEnergy = 1.0001;
-constexpr double kMostEnergy = 1.01;
-
-/// Scenes beyond kEnergy that are known: one in 2,000, and one more.
-std::int32_t most_over(std::int32_t scenes) { return 1 + scenes / 2000; }
+/// Of what was put in, but for rounding and the order in which places and velocities are known.
+constexpr double kMostEnergy = 1.0001;
 
 /// What a whole campaign of scenes came to.
 struct Campaign {
@@ -135,7 +132,6 @@ struct Campaign {
     std::int32_t broken = 0;
     std::int32_t refused = 0;
     std::int32_t over_energy = 0;
-    std::int32_t far_over_energy = 0;
     std::int32_t too_deep = 0;
     std::int32_t deeper_than_a_corner = 0;
     std::int32_t energy_checked = 0;
@@ -165,11 +161,10 @@ struct Campaign {
         refused += outcome.refused.empty() ? 0 : 1;
         bool good = whole && outcome.refused.empty() && !shut_in;
         if (scene.energy_only_falls()) {
-            const bool over = !(t.energy_ratio <= kEnergy);
+            const bool over = !(t.energy_ratio <= kMostEnergy);
             ++energy_checked;
             worst_energy = std::max(worst_energy, t.energy_ratio);
             over_energy += over ? 1 : 0;
-            far_over_energy += t.energy_ratio <= kMostEnergy ? 0 : 1;
             good = good && !over;
         }
         if (limits_depth(scene, t) && t.solids) {
@@ -229,9 +224,7 @@ void random_scenes(Report& report, const Effort& effort) {
     report.equals("random.not_finite_lost_or_outside", campaign.broken, "scenes", 0);
     report.equals("random.removed_where_solids_stand", campaign.removed_at_rest, "scenes", 0);
     figure("particles_removed_between_moving_solids", static_cast<double>(campaign.removed));
-    report.equals("random.energy_grew", campaign.far_over_energy, "scenes", 0);
-    report.at_most("random.energy_grew_by_1e-4", campaign.over_energy, "scenes",
-                   most_over(campaign.scenes));
+    report.equals("random.energy_grew", campaign.over_energy, "scenes", 0);
     report.equals("random.deep_in_a_solid", campaign.too_deep, "scenes", 0);
     report.figure("random.worst_energy", campaign.worst_energy, "of put in");
     report.figure("random.deeper_than_0.15", campaign.deeper_than_a_corner, "scenes");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "contour/marching_squares.hpp"
@@ -139,24 +140,49 @@ void Tank<Real>::set_gravity(Vec2f gravity_mps2) {
     energy_from_now();
 }
 
-/// ½ c² (density − 1)² for each particle that a cell's room holds.
+/// What has flown into a cell is given back: p² / 2ρc², more where a cell is thin, which takes less
+/// flow to the same pressure.
+template <class Real>
+double Tank<Real>::stored_energy() const {
+    if (def_.pressure != weir::Pressure::equation_of_state) {
+        return 0.0;
+    }
+    const auto pressure = world_.pressure();
+    const auto density = world_.density();
+    const double to_speed = static_cast<double>(world_.pressure_scale() /
+                                                (def_.sound_speed_mps * def_.cell_m));
+    double sum = 0.0;
+    for (std::int32_t j = 0; j < pressure.rows; ++j) {
+        for (std::int32_t i = 0; i < pressure.columns; ++i) {
+            const double speed = to_speed * static_cast<double>(pressure.at(i, j));
+            const double full = std::min(1.0, static_cast<double>(density.at(i, j)));
+            sum += full > 0.0 ? 0.5 * speed * speed / full * def_.particles_per_cell : 0.0;
+        }
+    }
+    return sum;
+}
+
+/// What expands lifts what lies over it: its volume × the pressure of still liquid there.
 template <class Real>
 void Tank<Real>::count_compression() {
     world_.step(1.0e-8F);
     const auto density = world_.density();
     const auto solid = world_.signed_distance();
-    const auto sound = static_cast<double>(def_.sound_speed_mps / def_.cell_m);
+    const double gx = static_cast<double>(gravity_mps2_.x / def_.cell_m);
+    const double gy = static_cast<double>(gravity_mps2_.y / def_.cell_m);
+    double surface = std::numeric_limits<double>::infinity();
+    for (const Vec2<Real> x : world_.particle_positions()) {
+        surface = std::min(surface, gx * static_cast<double>(x.x) + gy * static_cast<double>(x.y));
+    }
     for (std::int32_t j = 0; j < density.rows; ++j) {
         for (std::int32_t i = 0; i < density.columns; ++i) {
-            double room = 1.0;
-            if (tally_.solids) {
-                const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j),
-                                        solid.at(i + 1, j + 1), solid.at(i, j + 1)};
-                room = static_cast<double>(weir::open_area(corner));
-            }
-            const double over = std::max(0.0, static_cast<double>(density.at(i, j)) - 1.0);
-            if (over > 1.0e-4) {  // rounding is none
-                put_in_ += 0.5 * sound * sound * over * over * room * def_.particles_per_cell;
+            const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j), solid.at(i + 1, j + 1),
+                                    solid.at(i, j + 1)};
+            const auto room = static_cast<double>(weir::open_area(corner));
+            const double over = static_cast<double>(density.at(i, j)) - 1.0;
+            const double pressure = gx * (i + 0.5) + gy * (j + 0.5) - surface;
+            if (over > 1.0e-4 && pressure > 0.0) {  // rounding is none
+                put_in_ += over * room * def_.particles_per_cell * pressure;
             }
         }
     }

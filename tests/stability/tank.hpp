@@ -82,10 +82,12 @@ public:
     void move(weir::BodyId id, weir::Vec2f at, weir::Vec2f velocity, float angle, float spin);
     /// What is put in is counted anew from here.
     void set_gravity(weir::Vec2f gravity_mps2);
-    /// What is put in is what is there now.
-    void energy_from_now() { put_in_ = energy(); }
-    /// Counts as put in what the equation of state holds in cells that are fuller than at rest:
-    /// where a solid cuts the lattice some are. Takes a step so short that nothing moves.
+    /// What is put in is what is there now, and what liquid under pressure will give back.
+    void energy_from_now() { put_in_ = energy() + stored_energy(); }
+    /// Counts as put in what cells that are fuller than at rest will lift: beside solids, which cut
+    /// the lattice, some are, and more beside those that are drawn larger than they were when the
+    /// liquid was placed around them. Takes a step so short that nothing moves. For worlds with
+    /// solids.
     void count_compression();
 
     weir::StepReport step(float dt_s);
@@ -115,6 +117,7 @@ private:
     double depth(weir::Vec2<Real> x) const;
     bool thick_at(weir::Vec2<Real> x) const;
     double energy_of(std::int32_t index) const;
+    double stored_energy() const;
     weir::Vec2f to_m(weir::Vec2f cells) const {
         return {cells.x * def_.cell_m, cells.y * def_.cell_m};
     }
