@@ -56,7 +56,8 @@ struct PressureFields {
     /// solved for, or sound slower.
     Real change = Real(1);
     Real sound_speed = Real(0);  ///< with an equation of state, in use, cells/s; 0: incompressible
-    Real cell_weight = Real(0);  ///< pressure under a cell of still liquid
+    /// Pressure under a cell of still liquid, and what gravity makes of a velocity in the step.
+    Real cell_weight = Real(0);
     Solve<Real> solve = {};
 };
 

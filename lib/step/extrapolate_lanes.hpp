@@ -28,6 +28,7 @@ struct ExtrapolateTask {
     std::int32_t stride;
     Lever lever;
     float reach;  ///< `reach_of_push`
+    float fall;   ///< what gravity makes of a velocity in the step
     bool velocity_itself;
     bool has_lower;      ///< whether the rows beside it are the tank's
     bool has_upper;
@@ -38,7 +39,7 @@ struct ExtrapolateTask {
 /// As `push_on_spray`.
 template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
-                                typename L::Floats spray, float most,
+                                typename L::Floats spray, float most, float fall,
                                 typename L::Floats open) {
     const auto zero = L::all(0.0F);
     const auto reach = L::all(most) * liquid;
@@ -46,7 +47,10 @@ inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liqu
     const auto faster = L::minimum(push, L::maximum(speed, reach) - spray);
     const auto back = L::maximum(push, L::minimum(zero - speed, reach) - spray);
     const auto gained = push > zero ? faster : back;
-    return (gained > zero) == (spray > zero) ? open * gained : gained;
+    const auto stops = gained > zero
+                           ? L::minimum(gained, L::maximum(zero, L::all(fall) - spray))
+                           : L::maximum(gained, L::minimum(zero, (zero - L::all(fall)) - spray));
+    return gained - (L::all(1.0F) - open) * (gained - stops);
 }
 
 /// Sum and count of what goes on from the faces beside some faces.
@@ -76,7 +80,9 @@ struct Beside {
         const auto push =
             zero - (both ? rise
                          : rise / fraction_between<L>(task.lever, level, before, open));
-        sum += goes_on ? push_on_spray_lanes<L>(push, velocity, own, task.reach, open) : zero;
+        const auto handed_on =
+            push_on_spray_lanes<L>(push, velocity, own, task.reach, task.fall, open);
+        sum += goes_on ? handed_on : zero;
     }
 };
 

@@ -111,15 +111,19 @@ struct Component {
 
 /// What a push on liquid does to a face in the air beside it: it makes it as fast as the liquid is
 /// by it, or turns it round, and no faster: spray that runs ahead has had its push. What comes
-/// through a face that is `open` in part speeds it up by that part: no more liquid is behind it.
+/// through a face that is `open` in part stops it, and speeds it up, beyond the `fall` that gravity
+/// gives in a step, by that part: no more liquid is behind it.
 template <class Real>
-Real push_on_spray(Real push, Real liquid, Real spray, Real most, Real open) {
+Real push_on_spray(Real push, Real liquid, Real spray, Real most, Real fall, Real open) {
     const Real reach = most * liquid;
     const Real speed = absolute(spray);
     const Real gained = push > Real(0)
                             ? minimum<Real>(push, maximum<Real>(speed, reach) - spray)
                             : maximum<Real>(push, minimum<Real>(Real(0) - speed, reach) - spray);
-    return (gained > Real(0)) == (spray > Real(0)) ? open * gained : gained;
+    const Real stops =
+        gained > Real(0) ? minimum<Real>(gained, maximum<Real>(Real(0), fall - spray))
+                         : maximum<Real>(gained, minimum<Real>(Real(0), Real(0) - fall - spray));
+    return gained - (Real(1) - open) * (gained - stops);
 }
 
 template <class Real>
@@ -157,7 +161,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                 sum += velocity_itself ? liquid
                                        : push_on_spray(-gained(neighbour), liquid,
                                                        Real(component.velocity[face]), reach,
-                                                       share(neighbour));
+                                                       fields.cell_weight, share(neighbour));
                 count += Real(1);
             }
         };
@@ -180,7 +184,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
             if (amid && component.light == nullptr && component.thin == nullptr &&
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
                                    back, s.stride, lever_of(fields),
-                                   static_cast<float>(reach), velocity_itself,
+                                   static_cast<float>(reach), fields.cell_weight, velocity_itself,
                                    j > component.first_j, j + 1 < s.ny, face, row + s.nx})) {
                 continue;
             }

@@ -63,10 +63,12 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     const Settings<Real>& settings = simulation.settings;
     const Walls<Real>& walls = simulation.layers.walls;
     const bool elastic = is_elastic(simulation);
-    if (elastic && work.once(1)) {
+    if (work.once(1)) {
         const Vec2<Real> g = settings.gravity;
         simulation.pressure.cell_weight = plan.dt_s * maximum(absolute(g.x), absolute(g.y));
-        follow_sound(plan.sound_speed, simulation.pressure);
+        if (elastic) {
+            follow_sound(plan.sound_speed, simulation.pressure);
+        }
     }
     if constexpr (!Stored<Real>::coarse) {  // packed worlds have no tension
         if (plan.surface_tension > Real(0)) {

@@ -108,7 +108,7 @@ void jittering_step(Report& report, const Effort&) {
 void flipping_gravity(Report& report, const Effort& effort) {
     each_scheme(false, false, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
-        for (const std::int32_t depth : {5, 8, 11}) {
+        for (const std::int32_t depth : {5, 8}) {
             flip<Real>(report, effort, scheme, depth);
         }
         for (const float times : {3.0F, 10.0F, 36.0F}) {
