@@ -176,9 +176,12 @@ void Tank<Real>::count_compression() {
     }
     for (std::int32_t j = 0; j < density.rows; ++j) {
         for (std::int32_t i = 0; i < density.columns; ++i) {
-            const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j), solid.at(i + 1, j + 1),
-                                    solid.at(i, j + 1)};
-            const auto room = static_cast<double>(weir::open_area(corner));
+            double room = 1.0;
+            if (tally_.solids) {
+                const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j),
+                                        solid.at(i + 1, j + 1), solid.at(i, j + 1)};
+                room = static_cast<double>(weir::open_area(corner));
+            }
             const double over = static_cast<double>(density.at(i, j)) - 1.0;
             const double pressure = gx * (i + 0.5) + gy * (j + 0.5) - surface;
             if (over > 1.0e-4 && pressure > 0.0) {  // rounding is none

@@ -86,8 +86,7 @@ public:
     void energy_from_now() { put_in_ = energy() + stored_energy(); }
     /// Counts as put in what cells that are fuller than at rest will lift: beside solids, which cut
     /// the lattice, some are, and more beside those that are drawn larger than they were when the
-    /// liquid was placed around them. Takes a step so short that nothing moves. For worlds with
-    /// solids.
+    /// liquid was placed around them; after a blow. Takes a step so short that nothing moves.
     void count_compression();
 
     weir::StepReport step(float dt_s);
