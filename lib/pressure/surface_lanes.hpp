@@ -3,8 +3,8 @@
 
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
-#include "pressure/some_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "pressure/some_lanes.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {

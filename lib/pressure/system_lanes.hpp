@@ -2,8 +2,8 @@
 // bits.
 #pragma once
 
-#include "pressure/some_lanes.hpp"
 #include "pressure/plain_lanes.hpp"
+#include "pressure/some_lanes.hpp"
 
 namespace weir {
 

@@ -101,9 +101,8 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
              Work work) {
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
-    const Real weight_of_cell = maximum(absolute(weight.x), absolute(weight.y));
-    const bool pays = weight_of_cell > Real(0);
-    const Held<Real> held = held_by(weight_of_cell, fields);
+    const bool pays = fields.cell_weight > Real(0);
+    const Held<Real> held = held_by(fields.cell_weight, fields);
     work.share(work.take(s.ny, s.nx), s.nx, 1,
                [&](const Part& rows, std::int32_t) { find_excess(s, rows, held, fields); });
     if constexpr (Solids) {

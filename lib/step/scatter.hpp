@@ -50,8 +50,8 @@ inline void scatter_dense(VelocityOf<Real>* volume, VelocityOf<Real>* mass, Real
     add(at.base + stride + 1, w1);
 }
 
-/// The same to those of the four that `seen` names. `mass` null: one
-/// liquid, whose count is its mass.
+/// The same to those of the four that `seen` names. `mass` null: one liquid, whose count is its
+/// mass.
 template <class Real>
 inline void scatter_weighed(VelocityOf<Real>* volume, VelocityOf<Real>* mass, Real* momentum,
                             std::int32_t stride, const Stencil<Real>& at, Real density,
