@@ -1,6 +1,8 @@
 // Cell fields of the pressure stage. `pressure` survives from step to step: the solve starts there.
 #pragma once
 
+#include <type_traits>
+
 #include "grid/staggered_grid.hpp"
 #include "weir/memory.hpp"
 
@@ -78,6 +80,22 @@ template <class Real>
 inline Real least_head(const PressureFields<Real>& fields) {
     const bool from_centre = fields.on_surface || fields.sound_speed > Real(0);
     return Real(Stored<Real>::coarse || from_centre ? 0.0F : 0.05F);
+}
+
+/// Density of a cell that particles reach, but that has no room for liquid: 0, though not the 0 of
+/// a cell that none reaches.
+template <class Real>
+inline constexpr Real kNoRoom = Real(-0.0);
+
+/// Whether it is known that no particle reaches a cell. Fixed point has one 0 and does not know.
+template <class Real>
+inline bool is_empty([[maybe_unused]] const PressureFields<Real>& fields,
+                     [[maybe_unused]] std::int32_t cell) {
+    if constexpr (std::is_same<Real, float>::value) {
+        return bound_key(fields.density[cell]) == 0;
+    } else {
+        return false;
+    }
 }
 
 /// Where the surface is hardly lower in the next cell it may lie beyond that; no further than this.

@@ -53,7 +53,8 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float*
         auto density = wet ? mass * L::all(per_face) : zero;
         if (full_density != nullptr) {
             const auto full = L::load(full_density + c);
-            const auto shown = full < L::all(least_full) ? zero : density / full;
+            const auto shown =
+                full < L::all(least_full) ? L::all(kNoRoom<float>) : density / full;
             density = (wet & (full < L::all(1.0F))) ? shown : density;
         }
         L::store(fields.density + c, density);

@@ -36,7 +36,7 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
 /// Density of a cell of which so much is room: `full` is what it shows when that is full.
 template <class Real>
 inline Real density_of_room(Real density, Real full) {
-    return full < kLeastFullDensity<Real> ? Real(0) : density / full;
+    return full < kLeastFullDensity<Real> ? kNoRoom<Real> : density / full;
 }
 
 /// Cells c … end − 1 of a row. `full` null: there are no solids.

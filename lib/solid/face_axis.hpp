@@ -15,6 +15,8 @@ struct FaceAxis {
     bool is_u;  ///< else v
 
     std::int32_t other_node() const { return is_u ? s.stride : 1; }
+    /// From a face's cell to the one before it.
+    std::int32_t before() const { return is_u ? 1 : s.stride; }
     Vec2<Real> centre(std::int32_t i, std::int32_t j) const {
         const Vec2<Real> corner = corner_of<Real>(s, i, j);
         constexpr Real kHalf = Real(0.5);

@@ -12,7 +12,7 @@ namespace {
 template <class Real>
 struct Field {
     Velocity<Real> velocity;
-    const LevelOf<Real>* level;
+    const PressureFields<Real>& fields;
     bool was;
 };
 
@@ -23,7 +23,7 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& fiel
     const VelocityOf<Real> own = (axis.is_u ? field.velocity.u : field.velocity.v)[face];
     if constexpr (Stored<Real>::coarse) {
         packed::Mirror mirror;
-        if (!packed::find_mirror(axis, field.level, i, j, mirror)) {
+        if (!packed::find_mirror(axis, field.fields.level, i, j, mirror)) {
             return own;
         }
         const packed::MirrorTask task{axis, field.velocity};
@@ -32,7 +32,7 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& fiel
         return VelocityOf<Real>::of_raw(short_of(rounded_shift(image, 1)));
     } else {
         Mirror<Real> mirror;
-        return is_image(axis, field.level, i, j, mirror)
+        return is_image(axis, field.fields, i, j, mirror)
                    ? axis.of(field.was ? before(field.velocity, mirror)
                                        : mirrored(field.velocity, mirror))
                    : own;
@@ -102,7 +102,7 @@ struct BothFields {
 template <class Real>
 struct BothMirrors {
     const Walls<Real>& walls;
-    const LevelOf<Real>* level;
+    const PressureFields<Real>& fields;
     Velocity<Real> now;
     Velocity<Real> was;
     BothFields<Real> u;
@@ -110,7 +110,7 @@ struct BothMirrors {
 
     void face(BothFields<Real>& of, std::int32_t i, std::int32_t j) {
         Mirror<Real> mirror;
-        if (is_image(of.axis, level, i, j, mirror)) {
+        if (is_image(of.axis, fields, i, j, mirror)) {
             of.hold(i, j, of.axis.of(mirrored(now, mirror)), of.axis.of(before(was, mirror)));
         }
     }
@@ -131,7 +131,7 @@ struct BothMirrors {
             four.face[k] = four.face[0];
             four.column[k] = four.column[0];
         }
-        const MirrorTask task{now.shape, walls, level, now.u, now.v, was.u, was.v};
+        const MirrorTask task{now.shape, walls, fields.level, now.u, now.v, was.u, was.v};
         const FourMirrors mirrors = mirrors_of<OnU>(task, four.face, four.column, j);
         std::uint32_t found = mirrors.wet;
         for (std::int32_t k = 0; k < four.count; ++k) {
@@ -156,7 +156,7 @@ struct BothMirrors {
     /// the other side.
     bool look_again(const FaceAxis<float>& axis, std::int32_t there, std::int32_t i, std::int32_t j,
                     const FourMirrors& mirrors, std::int32_t k) {
-        if (near_liquid(axis.s, level, of_lane(mirrors.point, k))) {
+        if (near_liquid(axis.s, fields.level, of_lane(mirrors.point, k))) {
             return true;
         }
         const Edge<float> edge{axis.centre(i, j), there, there + axis.other_node()};
@@ -173,6 +173,9 @@ struct BothMirrors {
         const std::int32_t face = axis.s.index(i, j);
         if (axis.open()[face] > 0.0F || axis.distance(face) < kDeepestMirror<float>) {
             return;  // `is_mirrored`, where nothing sticks
+        }
+        if (is_unread(axis, fields, face)) {
+            return;
         }
         four.face[four.count] = face;
         four.column[four.count] = i;
@@ -229,7 +232,7 @@ void mirror_together(const Walls<Real>& walls, PressureFields<Real>& fields,
     const GridShape& s = grid.shape;
     BothMirrors<Real> mirrors{
         walls,
-        fields.level,
+        fields,
         {s, grid.u, grid.v},
         {s, grid.mass_u, grid.mass_v},
         {{s, walls, true}, grid.u, grid.mass_u, fields.divergence},
@@ -251,8 +254,8 @@ template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const Field<Real> now{{s, grid.u, grid.v}, fields.level, false};
-    const Field<Real> was{{s, grid.mass_u, grid.mass_v}, fields.level, true};
+    const Field<Real> now{{s, grid.u, grid.v}, fields, false};
+    const Field<Real> was{{s, grid.mass_u, grid.mass_v}, fields, true};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
     if constexpr (!Stored<Real>::coarse) {  // those have little room for code

@@ -158,6 +158,17 @@ bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_
     return !(distance < kDeepestMirror<Real>);
 }
 
+/// Whether nobody reads a closed face. Particles read what they gave mass to, and that shows in
+/// both its cells unless thin walls hide it; bends and sharpening read what is beside liquid.
+template <class Real>
+inline bool is_unread(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
+                      std::int32_t face) {
+    const std::int32_t before = face - axis.before();
+    const auto wet = [&](std::int32_t cell) { return is_positive(Real(fields.level[cell])); };
+    return axis.walls.thin == nullptr && !wet(face) && !wet(before) &&
+           (is_empty(fields, face) || is_empty(fields, before));
+}
+
 /// The same to the other side of a solid that is thin here. False: it is thick, or ends at the
 /// tank's wall.
 template <class Real>
@@ -183,21 +194,22 @@ bool from_other_side(const FaceAxis<Real>& axis, const Edge<Real>& edge, Vec2<Re
 
 /// Where a face takes its velocity from. False: it keeps its own.
 template <class Real>
-bool is_image(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32_t i,
+bool is_image(const FaceAxis<Real>& axis, const PressureFields<Real>& fields, std::int32_t i,
               std::int32_t j, Mirror<Real>& mirror) {
     const std::int32_t face = axis.s.index(i, j);
     const std::int32_t other = face + axis.other_node();
     const Real distance = axis.distance(face);
     const Real open = axis.open()[face];
-    if (!is_mirrored<Real>(axis.walls, open, distance, face, other)) {
+    if (!is_mirrored<Real>(axis.walls, open, distance, face, other) ||
+        (!(open > Real(0)) && is_unread(axis, fields, face))) {
         return false;
     }
     const Edge<Real> edge{axis.centre(i, j), face, other};
     const Vec2<Real> normal = axis.normal(face);
     mirror = mirror_of(axis.s, axis.walls, edge, distance, normal);
-    if (!near_liquid(axis.s, level, mirror.point) &&
+    if (!near_liquid(axis.s, fields.level, mirror.point) &&
         !(from_other_side(axis, edge, normal, mirror) &&
-          near_liquid(axis.s, level, mirror.point))) {
+          near_liquid(axis.s, fields.level, mirror.point))) {
         return false;
     }
     mirror.open = open > Real(0);
