@@ -44,7 +44,7 @@ constexpr weir::WorldDef kDefinition = [] {
 }();
 
 /// A hump on the floor, and in a larger tank a bar that turns and a ledge.
-void add_bodies() {
+[[gnu::noinline]] void add_bodies() {
     constexpr float kMiddle = 0.6F * POCKET_CELLS_X * kCell;
     constexpr weir::Vec2f kHump[] = {{-0.06F, -0.02F}, {0.06F, -0.02F}, {0.0F, 0.07F}};
     constexpr weir::Vec2f kBar[] = {
@@ -74,6 +74,17 @@ weir::Vec2f gravity_at(int step) {
     return {0.08F * static_cast<float>(away), -9.0F};
 }
 
+/// Not in main(), whose frame every step stands on.
+[[gnu::noinline]] void tell(std::int32_t substeps, std::uint64_t ticks) {
+    port::print("scene pocket_", POCKET_CELLS_X, "x", POCKET_CELLS_Y, " ", POCKET_STEPS, " ",
+                g_world.particle_positions().size, " ", port::hex(g_world.state_hash()), "\n");
+    port::print("world ", sizeof g_memory, ", ram ", port::ram_bytes(), ", stack ",
+                port::stack_high_water(), " of ", port::stack_bytes(), ", code ",
+                port::code_bytes(), " bytes\n");
+    port::print("steps ", POCKET_STEPS, ", substeps ", substeps, ", ticks ", ticks, " ",
+                port::tick_unit(), "\n");
+}
+
 }  // namespace
 
 int main() {
@@ -97,13 +108,6 @@ int main() {
         }
 #endif
     }
-    const std::uint64_t ticks = port::ticks() - start;
-    port::print("scene pocket_", POCKET_CELLS_X, "x", POCKET_CELLS_Y, " ", POCKET_STEPS, " ",
-                g_world.particle_positions().size, " ", port::hex(g_world.state_hash()), "\n");
-    port::print("world ", sizeof g_memory, ", ram ", port::ram_bytes(), ", stack ",
-                port::stack_high_water(), " of ", port::stack_bytes(), ", code ",
-                port::code_bytes(), " bytes\n");
-    port::print("steps ", POCKET_STEPS, ", substeps ", substeps, ", ticks ", ticks, " ",
-                port::tick_unit(), "\n");
+    tell(substeps, port::ticks() - start);
     port::exit(0);
 }

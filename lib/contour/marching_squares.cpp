@@ -98,24 +98,26 @@ Vec2<Real> unit(Vec2<Real> v) {
 
 constexpr bool is_horizontal(Edge edge) { return edge == kBottom || edge == kTop; }
 
+/// From a line that begins at `from` into the liquid, of any length. Across a corner the line is as
+/// short as it likes, down to a point when the node is at 0. The slopes of the distance along the
+/// two crossed edges are perpendicular to the same line (similar triangles), point into the liquid,
+/// and are never 0.
+template <class Real>
+Vec2<Real> out_of_line(const Real distance[4], Crossing crossing, Vec2<Real> from) {
+    const bool horizontal_first = is_horizontal(crossing.from);
+    if (horizontal_first == is_horizontal(crossing.to)) {
+        const Vec2<Real> along = crossing_point(distance, crossing.to) - from;
+        return {-along.y, along.x};
+    }
+    return {slope(distance, horizontal_first ? crossing.from : crossing.to),
+            slope(distance, horizontal_first ? crossing.to : crossing.from)};
+}
+
 template <class Real>
 ContourLine<Real> contour_line(const Real distance[4], Crossing crossing) {
-    ContourLine<Real> line;
-    line.from = crossing_point(distance, crossing.from);
-    line.to = crossing_point(distance, crossing.to);
-    const Vec2<Real> along = line.to - line.from;
-    if (is_horizontal(crossing.from) == is_horizontal(crossing.to)) {
-        line.normal = unit(Vec2<Real>{-along.y, along.x});
-        return line;
-    }
-    // Across a corner the line is as short as it likes, down to a point when the node is at 0. The
-    // slopes of the distance along the two crossed edges are perpendicular to the same line
-    // (similar triangles), point into the liquid, and are never 0.
-    const bool horizontal_first = is_horizontal(crossing.from);
-    line.normal = unit(
-        Vec2<Real>{slope(distance, horizontal_first ? crossing.from : crossing.to),
-                   slope(distance, horizontal_first ? crossing.to : crossing.from)});
-    return line;
+    const Vec2<Real> from = crossing_point(distance, crossing.from);
+    return {from, crossing_point(distance, crossing.to),
+            unit(out_of_line(distance, crossing, from))};
 }
 
 /// Open area where every line cuts off a corner: triangles of solid off a full cell, or, with
@@ -237,16 +239,21 @@ ContourCell<Real> contour_cell(const Real distance[4]) {
 }
 
 template <class Real>
-ContourHit<Real> contour_distance(const ContourCell<Real>& cell, Vec2<Real> p) {
-    if (cell.lines == 0) {
-        return {cell.both_needed ? Real(-1) : Real(1), {}};
+ContourHit<Real> contour_hit(const Real distance[4], Vec2<Real> p) {
+    const std::uint8_t solid_nodes = contour_case(distance);
+    const bool joined = solids_joined(distance);
+    const CaseLines& table = lines_of(solid_nodes, joined);
+    if (table.lines == 0) {
+        return {solid_nodes == 15 ? Real(-1) : Real(1), {}};
     }
-    ContourHit<Real> hit{dot(p - cell.line[0].from, cell.line[0].normal), cell.line[0].normal};
-    if (cell.lines == 2) {
-        const Real other = dot(p - cell.line[1].from, cell.line[1].normal);
+    ContourHit<Real> hit{};
+    for (std::int32_t i = 0; i < table.lines; ++i) {
+        const Vec2<Real> from = crossing_point(distance, table.crossing[i].from);
+        const Vec2<Real> normal = unit(out_of_line(distance, table.crossing[i], from));
+        const Real depth = dot(p - from, normal);
         // Behind both: the shallower line is the way out. Behind any: the deeper one is.
-        if (cell.both_needed ? other > hit.distance : other < hit.distance) {
-            hit = {other, cell.line[1].normal};
+        if (i == 0 || (joined ? depth > hit.distance : depth < hit.distance)) {
+            hit = {depth, normal};
         }
     }
     return hit;
@@ -307,7 +314,7 @@ OpenMoments<Real> open_moments(const Real distance[4]) {
 #define WEIR_INSTANTIATE(Real)                                                        \
     template std::uint8_t contour_case(const Real*);                                  \
     template ContourCell<Real> contour_cell(const Real*);                             \
-    template ContourHit<Real> contour_distance(const ContourCell<Real>&, Vec2<Real>); \
+    template ContourHit<Real> contour_hit(const Real*, Vec2<Real>);                   \
     template Real open_fraction(Real, Real);                                          \
     template Real open_area(const Real*);                                             \
     template OpenMoments<Real> open_moments(const Real*);

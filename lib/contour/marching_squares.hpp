@@ -51,7 +51,7 @@ struct ContourHit {
 
 /// @param p in the cell's unit square.
 template <class Real>
-ContourHit<Real> contour_distance(const ContourCell<Real>& cell, Vec2<Real> p);
+ContourHit<Real> contour_hit(const Real distance[4], Vec2<Real> p);
 
 /// Open part of a cell edge, 0 … 1, from the distances at its two nodes: 1 if both are outside, 0
 /// if both are inside, else φ⁺ / (φ⁺ − φ⁻) (Ng, Min & Gibou 2009, "An efficient fluid-solid
@@ -81,7 +81,7 @@ OpenMoments<Real> open_moments(const Real distance[4]);
 #define WEIR_INSTANTIATE(Real)                                                               \
     extern template std::uint8_t contour_case(const Real*);                                  \
     extern template ContourCell<Real> contour_cell(const Real*);                             \
-    extern template ContourHit<Real> contour_distance(const ContourCell<Real>&, Vec2<Real>); \
+    extern template ContourHit<Real> contour_hit(const Real*, Vec2<Real>);                   \
     extern template Real open_fraction(Real, Real);                                          \
     extern template Real open_area(const Real*);                                             \
     extern template OpenMoments<Real> open_moments(const Real*);

@@ -200,10 +200,13 @@ std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, b
             const std::int32_t node = field.origin + j * field.stride + i;
             // Of two equally near the lower name, whichever was drawn first.
             const Real stored = field.distance[node];
-            if (row[i] < stored ||
-                (row[i] == stored && row[i] < far && polygon.name < field.nearest[node])) {
+            const bool named = has_names<Real>(field.nearest);
+            if (row[i] < stored || (named && row[i] == stored && row[i] < far &&
+                                    polygon.name < field.nearest[node])) {
                 field.distance[node] = row[i];
-                field.nearest[node] = polygon.name;
+                if (named) {
+                    field.nearest[node] = polygon.name;
+                }
             }
         }
     }

@@ -28,6 +28,16 @@ struct RasterPolygon {
     Bounds<Real> tank;
 };
 
+/// Names of the nearest body at nodes. A packed world with room for one body has none.
+template <class Real>
+inline bool has_names([[maybe_unused]] const SlotOf<Real>* nearest) {
+    if constexpr (Stored<Real>::shares_momentum) {
+        return nearest != nullptr;
+    } else {
+        return true;
+    }
+}
+
 /// A field of nodes: node (i, j) stands at origin + j · stride + i.
 template <class Real>
 struct NodeField {

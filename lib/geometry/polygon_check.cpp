@@ -161,7 +161,7 @@ Status check_vertices(const PolygonRings& rings, PolygonFault& fault) {
     return Status::ok;
 }
 
-Status check_areas(const PolygonRings& rings, PolygonFault& fault) {
+[[gnu::noinline]] Status check_areas(const PolygonRings& rings, PolygonFault& fault) {
     for (std::int32_t ring = 0; ring < rings.count(); ++ring) {
         const View<Vec2f> vertices = rings[ring];
         if (absolute(twice_area_in_double(vertices)) >

@@ -47,7 +47,8 @@ struct Digit {
     std::uint32_t remainder;
 };
 
-inline Digit next_digit(std::uint32_t high, std::uint32_t next, std::uint32_t divisor) {
+[[gnu::always_inline]] inline Digit next_digit(std::uint32_t high, std::uint32_t next,
+                                               std::uint32_t divisor) {
     const std::uint32_t upper = divisor >> 16U;
     const std::uint32_t lower = divisor & 0xFFFFU;
     std::uint32_t q = high / upper;

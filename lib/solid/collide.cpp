@@ -87,10 +87,11 @@ struct Blows {
 
 /// Whether a place in front of a wall lies on another side of it than a particle came from.
 template <class Real>
-bool on_other_side(const Scene<Real>& scene, Vec2<Real> to, Vec2<Real> normal, Vec2<Real> from) {
+[[gnu::noinline]] bool on_other_side(const Scene<Real>& scene, Vec2<Real> to,
+                                     Vec2<Real> normal, Vec2<Real> from) {
     const Real depth = dot(to - from, normal);
     return depth > kOtherSide<Real> && in_tank(scene.shape, from) &&
-           !standing(scene.shape, scene.walls, from).inside;
+           !is_inside(scene.shape, scene.walls, from);
 }
 
 /// Sets a particle back to the line of its cell, and to that of the cell where it gets. False, and
@@ -131,8 +132,8 @@ bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at, Vec2<Real> 
 /// In a notch the velocity that a blow leaves may lead into the solid again, or the particle is
 /// `wedged`. Then there is no way on, and what is left of it goes, too: it would grow for ever.
 template <class Real>
-void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> place,
-                     bool wedged) {
+[[gnu::noinline]] void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
+                                       Vec2<Real> place, bool wedged) {
     const Vec2<Real> wall = velocity_at(scene.walls.body[slot], place);
     const Vec2<Real> relative = Vec2<Real>(scene.particles.velocity[k]) - wall;
     const Real speed = length(relative);
@@ -141,7 +142,7 @@ void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec
     }
     const Vec2<Real> back = (Real(-1) / speed) * relative;
     const Vec2<Real> ahead = within_tank(scene.shape, place - Real(1.0 / 32.0) * back);
-    if (wedged || standing(scene.shape, scene.walls, ahead).inside) {
+    if (wedged || is_inside(scene.shape, scene.walls, ahead)) {
         answer(scene, k, slot, place, back);
     }
 }
@@ -149,36 +150,39 @@ void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec
 /// Stops a particle where its path, seen from the body, first meets a solid. `slot`: the body that
 /// it is in, or kNoBody. `far`: nobody tried to set it back. False: the path began inside a solid.
 template <class Real>
-bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> before,
-                  bool far) {
+[[gnu::noinline]] bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
+                                    Vec2<Real> before, bool far) {
     const Vec2<Real> x = scene.particles.position[k];
     Vec2<Real> from = before;
     Entry<Real> entry;
+    Standing<Real> at;
     for (std::int32_t look = 0; look < 2; ++look) {
         from = slot == kNoBody ? before : carried(scene, scene.walls.body[slot], before);
-        if (!in_tank(scene.shape, from) || standing(scene.shape, scene.walls, from).inside) {
+        if (!in_tank(scene.shape, from) || is_inside(scene.shape, scene.walls, from)) {
             return false;
         }
         entry = first_entry(scene.shape, scene.walls, from, x);
         if (!entry.found) {
             return true;
         }
+        at = standing(scene.shape, scene.walls, entry.behind);
         if (slot != kNoBody) {
             break;
         }
-        slot = entry.at.slot;  // who passed through a moving body is looked at again from there
+        slot = at.slot;  // who passed through a moving body is looked at again from there
     }
     ++scene.result.reflected;
     scene.particles.position[k] = entry.place;
-    answer(scene, k, entry.at.slot, entry.place, entry.at.hit.normal);
+    answer(scene, k, at.slot, entry.place, at.hit.normal);
     const bool stays = Real(16) * length(entry.place - from) <= length(x - from);
-    stop_if_blocked(scene, k, entry.at.slot, entry.place, stays && !far);
+    stop_if_blocked(scene, k, at.slot, entry.place, stays && !far);
     return true;
 }
 
 /// Leads a particle that was inside already to the nearest place outside. False: there is none.
 template <class Real>
-bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> before) {
+[[gnu::noinline]] bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
+                                Vec2<Real> before) {
     const Body<Real>& body = scene.walls.body[slot];
     const Vec2<Real> seen = carried(scene, body, before);
     const Vec2<Real> from = within_tank(scene.shape, seen);
@@ -213,11 +217,6 @@ bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real>
     return true;
 }
 
-template <class Real>
-bool is_far(Vec2<Real> before, Vec2<Real> x) {
-    return absolute(x.x - before.x) > Real(1) || absolute(x.y - before.y) > Real(1);
-}
-
 /// A particle near the contour of a solid. False: it has no way out.
 template <class Real>
 bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
@@ -232,10 +231,8 @@ bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool fa
         ++scene.result.reflected;
         return true;
     }
-    if ((at.inside || far) && stop_on_path(scene, k, at.slot, before, far)) {
-        return true;
-    }
-    return !at.inside || lead_out(scene, k, at.slot, before);
+    return ((at.inside || far) && stop_on_path(scene, k, at.slot, before, far)) || !at.inside ||
+           lead_out(scene, k, at.slot, before);
 }
 
 template <class Real>
@@ -384,7 +381,7 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
 template <class Real>
 bool inside_solid(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point) {
     ThinStop<Real> stop;
-    return standing(shape, walls, point).inside ||
+    return is_inside(shape, walls, point) ||
            (walls.thin != nullptr &&
             way_out_of_thin(*walls.thin, shape, walls.body, point, stop));
 }

@@ -3,6 +3,7 @@
 
 #include "contour/gradient.hpp"
 #include "contour/marching_squares.hpp"
+#include "solid/line_side_packed.hpp"
 #include "solid/picture_beyond.hpp"
 
 namespace weir {
@@ -59,7 +60,7 @@ ContourHit<Real> interpolated_distance(const CellView<Real>& cell) {
 template <class Real>
 ContourHit<Real> hit_in(const CellView<Real>& cell, std::uint8_t which) {
     return which == kCellInside ? interpolated_distance(cell)
-                                : contour_distance(contour_cell(cell.corner), cell.local);
+                                : contour_hit(cell.corner, cell.local);
 }
 
 /// Whether a look at the contours need not ask where they are stored: in nearly all worlds.
@@ -119,7 +120,7 @@ std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::in
     for (const std::int32_t candidate : corner) {
         deepest = walls.distance[candidate] < walls.distance[deepest] ? candidate : deepest;
     }
-    return walls.nearest[deepest];
+    return nearest_at(walls, deepest);
 }
 
 /// By so much more than rounding, cells.
@@ -161,6 +162,10 @@ bool clearly_outside(std::uint8_t which, const Real (&d)[4], Vec2<Real> f) {
     }
 }
 
+inline bool clearly_outside(std::uint8_t which, const SmallFixed (&d)[4], Vec2<SmallFixed> f) {
+    return packed::side_of_line(which, d, f) > 0;
+}
+
 /// Where a particle stands: in the open, or behind the contour of its cell.
 template <class Real>
 struct Standing {
@@ -179,6 +184,25 @@ Vec2<Real> normal_behind(const GridShape& s, const Walls<Real>& walls, const Cel
     const Neighbours has{i > 0, i + 1 < s.nx, j > 0, j + 1 < s.ny};
     return wall_normal(walls.distance + cell.node, s.stride, cell.local, has, kBand<Real>,
                        line_normal);
+}
+
+/// Whether a point is behind the contour, without the way out.
+template <class Real>
+bool is_inside_in(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
+    const std::uint8_t which = walls.cell_case[shape.index(static_cast<std::int32_t>(x.x),
+                                                           static_cast<std::int32_t>(x.y))];
+    if (which == kCellOutside || (which == kCellInside && !walls.binary)) {
+        return which == kCellInside;
+    }
+    const CellView<Real> cell = cell_of(shape, walls, x);
+    if constexpr (Stored<Real>::coarse) {
+        const std::int32_t side = packed::side_of_line(which, cell.corner, cell.local);
+        if (side != 0) {
+            return side < 0;
+        }
+    }
+    return !clearly_outside(which, cell.corner, cell.local) &&
+           hit_in(cell, which).distance < Real(0);
 }
 
 /// Where all that is asked for is stored. A cell that is solid all over holds no open point, also
@@ -222,6 +246,12 @@ template <class Real>
 template <class Real>
 Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
     return all_stored(walls) ? standing_in(shape, walls, x) : standing_in_window(shape, walls, x);
+}
+
+template <class Real>
+bool is_inside(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
+    return all_stored(walls) ? is_inside_in(shape, walls, x)
+                             : standing_in_window(shape, walls, x).inside;
 }
 
 }  // namespace weir

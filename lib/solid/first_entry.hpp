@@ -5,12 +5,18 @@
 
 namespace weir {
 
+/// Who goes that far may have passed a wall that is not in its cell.
+template <class Real>
+bool is_far(Vec2<Real> before, Vec2<Real> x) {
+    return absolute(x.x - before.x) > Real(1) || absolute(x.y - before.y) > Real(1);
+}
+
 /// First place behind a contour on a path that begins in the open, and the last one before it.
 template <class Real>
 struct Entry {
     bool found = false;
     Vec2<Real> place;
-    Standing<Real> at;
+    Vec2<Real> behind;
 };
 
 template <class Real>
@@ -30,20 +36,14 @@ Entry<Real> first_entry(const GridShape& shape, const Walls<Real>& walls, Vec2<R
     for (std::int32_t k = 1; k <= samples && !entry.found; ++k) {
         outside = inside;
         inside = static_cast<Real>(k) / static_cast<Real>(samples);
-        entry.at = standing(shape, walls, from + inside * way);
-        entry.found = entry.at.inside;
+        entry.found = is_inside(shape, walls, from + inside * way);
     }
     for (std::int32_t k = 0; k < kHalvings && entry.found; ++k) {
         const Real middle = Real(0.5) * (outside + inside);
-        const Standing<Real> at = standing(shape, walls, from + middle * way);
-        if (at.inside) {
-            inside = middle;
-            entry.at = at;
-        } else {
-            outside = middle;
-        }
+        (is_inside(shape, walls, from + middle * way) ? inside : outside) = middle;
     }
     entry.place = from + outside * way;
+    entry.behind = from + inside * way;
     return entry;
 }
 

@@ -77,8 +77,10 @@ void restore(Layers<Real>& layers, const NodeBox& changed) {
         const std::int32_t node = layers.shape.index(box.i0, j);
         std::memcpy(layers.walls.distance + node, layers.static_distance + node,
                     nodes * sizeof(DistanceOf<Real>));
-        std::memcpy(layers.walls.nearest + node, layers.static_nearest + node,
-                    nodes * sizeof(SlotOf<Real>));
+        if (has_names<Real>(layers.static_nearest)) {
+            std::memcpy(layers.walls.nearest + node, layers.static_nearest + node,
+                        nodes * sizeof(SlotOf<Real>));
+        }
     }
 }
 
@@ -157,11 +159,12 @@ Part stored_entries(const Layers<Real>& layers) {
 }
 
 template <class Real>
-void empty_static(Layers<Real>& layers) {
-    const Part entries = stored_entries(layers);
+void empty(const Part& entries, DistanceOf<Real>* distance, SlotOf<Real>* nearest) {
     for (std::int32_t c = entries.first; c < entries.end; ++c) {
-        layers.static_distance[c] = kBand<Real>;
-        layers.static_nearest[c] = kNoBody;
+        distance[c] = kBand<Real>;
+        if (has_names<Real>(nearest)) {
+            nearest[c] = kNoBody;
+        }
     }
 }
 
@@ -196,7 +199,7 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
 template <class Real>
 std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table) {
     std::int32_t nodes = 0;
-    empty_static(layers);
+    empty<Real>(stored_entries(layers), layers.static_distance, layers.static_nearest);
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
         if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
@@ -227,12 +230,11 @@ void show_thin_walls(Layers<Real>& layers) {
 
 template <class Real>
 void clear_layers(Layers<Real>& layers) {
-    empty_static(layers);
     Walls<Real>& walls = layers.walls;
     const Part entries = stored_entries(layers);
+    empty<Real>(entries, layers.static_distance, layers.static_nearest);
+    empty<Real>(entries, walls.distance, walls.nearest);
     for (std::int32_t c = entries.first; c < entries.end; ++c) {
-        walls.distance[c] = kBand<Real>;
-        walls.nearest[c] = kNoBody;
         walls.cell_case[c] = 0;
         walls.open_u[c] = Real(1);
         walls.open_v[c] = Real(1);

@@ -44,7 +44,7 @@ struct Walls {
     bool sticking = false;              ///< the liquid is viscous, and a body without slip
     std::int16_t bodies = 0;            ///< slots
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
-    SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes, or kNoBody
+    SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes (`nearest_at`)
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell
     ShareOf<Real>* open_u = nullptr;    ///< open fraction of the u face, 0 … 1
     ShareOf<Real>* open_v = nullptr;
@@ -145,10 +145,19 @@ inline Vec2<Real> velocity_at(const Body<Real>& body, Vec2<Real> point) {
     return body.velocity + spin_velocity(body.spin, point - body.position);
 }
 
+/// Slot of the body that is nearest to a node, or kNoBody.
+template <class Real>
+inline std::uint16_t nearest_at(const Walls<Real>& walls, std::int32_t node) {
+    if (has_names<Real>(walls.nearest)) {
+        return walls.nearest[node];
+    }
+    return walls.distance[node] < kBand<Real> ? std::uint16_t{0} : kNoBody;
+}
+
 /// Slot of the body that is nearest to an edge between two nodes, or kNoBody.
 template <class Real>
 inline std::uint16_t nearest_body(const Walls<Real>& walls, std::int32_t a, std::int32_t b) {
-    return walls.distance[a] < walls.distance[b] ? walls.nearest[a] : walls.nearest[b];
+    return nearest_at(walls, walls.distance[a] < walls.distance[b] ? a : b);
 }
 
 /// Velocity of the nearest wall at a point between two nodes; 0 where no body is near.

@@ -55,6 +55,9 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::static_body, layers.static_nearest);
     carver.take(Block::merged_distance, layers.walls.distance);
     carver.take(Block::merged_body, layers.walls.nearest);
+    if (!keeps_names<Real>(capacity)) {
+        layers.static_nearest = layers.walls.nearest = nullptr;
+    }
     if (!capacity.moving_bodies) {  // nothing is ever drawn onto the static layer: it is the merged
         layers.static_distance = layers.walls.distance;
         layers.static_nearest = layers.walls.nearest;

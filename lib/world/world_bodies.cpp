@@ -91,14 +91,10 @@ void weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& b
     load.inertia = density * moments.inertia;
 }
 
-}  // namespace
-
+/// Not in one frame with the check, which goes deeper than anything else that is done with a body.
 template <class Real>
-Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id) {
-    const Status room = check_room(state, def, kind, id);
-    if (room != Status::ok) {
-        return room;
-    }
+[[gnu::noinline]] Status enter(WorldState<Real>& state, const BodyDef& def, BodyKind kind,
+                               BodyId* id) {
     BodyTable<Real>& table = state.simulation.bodies;
     Layers<Real>& layers = state.simulation.layers;
     const std::int32_t slot = find_free_slot(table);
@@ -144,6 +140,14 @@ Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, Body
     touch_regions(state.simulation.regions, table.body[slot].drawn);
     wake(state);
     return Status::ok;
+}
+
+}  // namespace
+
+template <class Real>
+Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id) {
+    const Status room = check_room(state, def, kind, id);
+    return room == Status::ok ? enter(state, def, kind, id) : room;
 }
 
 template <class Real>

@@ -265,7 +265,7 @@ double Tank<Real>::depth(Vec2<Real> x) const {
     const Vec2<Real> local{x.x - static_cast<Real>(i), x.y - static_cast<Real>(j)};
     if (*std::max_element(corner, corner + 4) > Real(0)) {
         return -static_cast<double>(
-            weir::contour_distance(weir::contour_cell(corner), local).distance);
+            weir::contour_hit(corner, local).distance);
     }
     const Real low = corner[0] + local.x * (corner[1] - corner[0]);
     const Real high = corner[3] + local.x * (corner[2] - corner[3]);

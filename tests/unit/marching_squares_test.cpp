@@ -115,7 +115,7 @@ TYPED_TEST(MarchingSquares, SidesOfTheSixteenCases) {
         const auto d = distances<TypeParam>(row.distance);
         const auto cell = contour_cell(d.at);
         for (int k = 0; k < 4; ++k) {
-            const auto hit = contour_distance(cell, convert<TypeParam>(kNode[k]));
+            const auto hit = contour_hit(d.at, convert<TypeParam>(kNode[k]));
             EXPECT_EQ(hit.distance < TypeParam(0), row.distance[k] < 0.0) << k;
         }
         for (int i = 0; i < cell.lines; ++i) {  // solid right, liquid left of from → to
@@ -135,7 +135,7 @@ TYPED_TEST(MarchingSquares, SaddlesAreSeparateWhenTheSumIsPositive) {
     expect_line(cell_5.line[0], {{0, 0.25}, {0.25, 0}, {kD, kD}});
     expect_line(cell_5.line[1], {{1, 0.75}, {0.75, 1}, {-kD, -kD}});
     EXPECT_NEAR(static_cast<double>(open_area(five.at)), 1.0 - 2.0 * 0.03125, 1e-6);
-    EXPECT_GT(contour_distance(cell_5, {TypeParam(0.5), TypeParam(0.5)}).distance, TypeParam(0));
+    EXPECT_GT(contour_hit(five.at, {TypeParam(0.5), TypeParam(0.5)}).distance, TypeParam(0));
 
     const auto ten = distances<TypeParam>({0.75, -0.25, 0.75, -0.25});
     const auto cell_10 = contour_cell(ten.at);
@@ -155,7 +155,7 @@ TYPED_TEST(MarchingSquares, SaddlesAreJoinedWhenTheSumIsNotPositive) {
     expect_line(cell_5.line[0], {{1, 0.25}, {0.75, 0}, {kD, -kD}});
     expect_line(cell_5.line[1], {{0, 0.75}, {0.25, 1}, {-kD, kD}});
     EXPECT_NEAR(static_cast<double>(open_area(five.at)), 2.0 * 0.03125, 1e-6);
-    EXPECT_LT(contour_distance(cell_5, {TypeParam(0.5), TypeParam(0.5)}).distance, TypeParam(0));
+    EXPECT_LT(contour_hit(five.at, {TypeParam(0.5), TypeParam(0.5)}).distance, TypeParam(0));
 
     const auto ten = distances<TypeParam>({0.25, -0.75, 0.25, -0.75});
     const auto cell_10 = contour_cell(ten.at);
@@ -168,17 +168,17 @@ TYPED_TEST(MarchingSquares, SaddlesAreJoinedWhenTheSumIsNotPositive) {
 TYPED_TEST(MarchingSquares, SaddleGivesTheLineToLeaveBy) {
     // Joined 5: solid is a band from node 0 to node 2; leave it by the nearer rim.
     const auto joined = distances<TypeParam>({-0.75, 0.25, -0.75, 0.25});
-    const auto below = contour_distance(contour_cell(joined.at), {TypeParam(0.7), TypeParam(0.3)});
+    const auto below = contour_hit(joined.at, {TypeParam(0.7), TypeParam(0.3)});
     expect_near(below.normal, {kD, -kD});
     EXPECT_NEAR(static_cast<double>(below.distance), (0.4 - 0.75) * kD, 1e-6);
-    const auto above = contour_distance(contour_cell(joined.at), {TypeParam(0.3), TypeParam(0.7)});
+    const auto above = contour_hit(joined.at, {TypeParam(0.3), TypeParam(0.7)});
     expect_near(above.normal, {-kD, kD});
     // Separate 5: solids at nodes 0 and 2; a point in one of them leaves by that one's line.
     const auto separate = distances<TypeParam>({-0.25, 0.75, -0.25, 0.75});
-    const auto low = contour_distance(contour_cell(separate.at), {TypeParam(0.1), TypeParam(0.1)});
+    const auto low = contour_hit(separate.at, {TypeParam(0.1), TypeParam(0.1)});
     expect_near(low.normal, {kD, kD});
     EXPECT_NEAR(static_cast<double>(low.distance), -0.05 * kD, 1e-6);
-    const auto high = contour_distance(contour_cell(separate.at), {TypeParam(0.9), TypeParam(0.9)});
+    const auto high = contour_hit(separate.at, {TypeParam(0.9), TypeParam(0.9)});
     expect_near(high.normal, {-kD, -kD});
     EXPECT_NEAR(static_cast<double>(high.distance), -0.05 * kD, 1e-6);
 }
@@ -187,9 +187,9 @@ TYPED_TEST(MarchingSquares, CellsWithoutLines) {
     const auto open = distances<TypeParam>({2, 3, 3, 2});
     const auto full = distances<TypeParam>({-2, -3, 0, -2});
     const Vec2<TypeParam> p{TypeParam(0.5), TypeParam(0.5)};
-    EXPECT_EQ(contour_distance(contour_cell(open.at), p).distance, TypeParam(1));
-    EXPECT_EQ(contour_distance(contour_cell(full.at), p).distance, TypeParam(-1));
-    EXPECT_EQ(contour_distance(contour_cell(full.at), p).normal.x, TypeParam(0));
+    EXPECT_EQ(contour_hit(open.at, p).distance, TypeParam(1));
+    EXPECT_EQ(contour_hit(full.at, p).distance, TypeParam(-1));
+    EXPECT_EQ(contour_hit(full.at, p).normal.x, TypeParam(0));
 }
 
 TYPED_TEST(MarchingSquares, StraightWallsAreExactAt25Angles) {
@@ -219,7 +219,7 @@ TYPED_TEST(MarchingSquares, StraightWallsAreExactAt25Angles) {
             for (double y = 0.05; y < 1.0; y += 0.3) {
                 for (double x = 0.05; x < 1.0; x += 0.3) {
                     const Vec2<TypeParam> p{TypeParam(x), TypeParam(y)};
-                    EXPECT_NEAR(static_cast<double>(contour_distance(cell, p).distance),
+                    EXPECT_NEAR(static_cast<double>(contour_hit(given.at, p).distance),
                                 normal.x * x + normal.y * y - offset, 1e-6);
                 }
             }
@@ -390,12 +390,11 @@ TYPED_TEST(MarchingSquares, OpenMomentsMatchSamplesInAllCases) {
         for (int k = 0; k < 4; ++k) {
             d[k] = (which >> k & 1) != 0 ? -size(random) : size(random);
         }
-        const auto cell = contour_cell<double>(d);
         constexpr int kSamples = 100;
         OpenMoments<double> sum;
         for (int k = 0; k < kSamples * kSamples; ++k) {
             const Vec2<double> p{(k % kSamples + 0.5) / kSamples, (k / kSamples + 0.5) / kSamples};
-            if (contour_distance(cell, p).distance > 0.0) {
+            if (contour_hit(d, p).distance > 0.0) {
                 const double part = 1.0 / (kSamples * kSamples);
                 const double x = p.x - 0.5;
                 const double y = p.y - 0.5;

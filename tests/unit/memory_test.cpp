@@ -94,6 +94,26 @@ TEST(Memory, WithoutBodiesThereIsNoContour) {
     EXPECT_GT(owned(Owner::pressure), 0U);
 }
 
+/// 24 bytes a cell with a static solid and 26 with one that moves; 25 and 28 with more of them.
+TEST(Memory, OnePackedBodyAloneNeedsNoNamesAtNodes) {
+    const auto a_cell = [](std::int32_t bodies, bool moving) {
+        Capacity none = capacity(100, 62, 30, 0, 0);
+        Capacity some = capacity(100, 62, 30, bodies, 0);
+        some.moving_bodies = moving;
+        const Layout a = layout<SmallFixed>(none);
+        const Layout b = layout<SmallFixed>(some);
+        const auto of = [&](Owner owner) { return b.owner_bytes[static_cast<std::int32_t>(owner)]; };
+        const std::size_t near = b.bytes[static_cast<std::int32_t>(Block::near_wall)];
+        EXPECT_EQ(b.total_bytes - a.total_bytes,
+                  of(Owner::bodies) + of(Owner::contour) + of(Owner::cut_cells));
+        return (of(Owner::contour) + of(Owner::cut_cells) - near) / (64 * 32);
+    };
+    EXPECT_EQ(a_cell(1, false), 6U);
+    EXPECT_EQ(a_cell(1, true), 8U);
+    EXPECT_EQ(a_cell(2, false), 7U);
+    EXPECT_EQ(a_cell(2, true), 10U);
+}
+
 TEST(Memory, OwnersAndStagesAndStatusesHaveNames) {
     for (std::int32_t owner = 0; owner < kOwnerCount; ++owner) {
         ASSERT_NE(owner_name(static_cast<Owner>(owner)), nullptr);

@@ -8,6 +8,7 @@
 #include "pressure/level_packed.hpp"
 #include "pressure/surface_level.hpp"
 #include "step/transfer_packed.hpp"
+#include "test_world.hpp"
 #include "weir/weir.hpp"
 
 namespace weir {
@@ -178,6 +179,35 @@ TEST(Packed, WhatIsLetGoFallsAtOnce) {
     ASSERT_EQ(world.init(def, memory.data(), memory.size()), Status::ok);
     ASSERT_EQ(world.fill({{0.12F, 0.20F}, {0.20F, 0.28F}}), Status::ok);
     EXPECT_NEAR(world.step(1.0F / 60.0F).max_speed_mps, 9.81 / 60.0, 0.01 * 9.81 / 60.0);
+}
+
+/// Without names at nodes: a sticky bar turns among viscous liquid, and is taken away.
+TEST(Packed, OneBodyAloneHasTheBitsOfOneWithRoomForMore) {
+    std::vector<float> places[2];
+    for (std::int32_t room = 1; room <= 2; ++room) {
+        WorldDef def = small_def();
+        def.capacity.bodies = room;
+        def.viscosity_m2ps = 1.0e-3F;
+        TestWorld<SmallFixed> world(def);
+        const Ring ring = rectangle(0.16F, 0.03F);
+        BodyDef bar = body_of(ring, {0.17F, 0.07F}, 0.4F);
+        bar.surface.no_slip = true;
+        bar.motion.spin_radps = 6.0F;
+        BodyId id;
+        ASSERT_EQ(world->add_moving_body(bar, &id), Status::ok);
+        ASSERT_EQ(world->fill({{0.0F, 0.0F}, {0.09F, 0.18F}}), Status::ok);
+        for (int step = 0; step < 200; ++step) {
+            if (step == 150) {
+                ASSERT_EQ(world->remove_body(id), Status::ok);
+            }
+            world->step(1.0F / 60.0F);
+            for (const auto& at : world->particle_positions()) {
+                places[room - 1].push_back(static_cast<float>(at.x));
+                places[room - 1].push_back(static_cast<float>(at.y));
+            }
+        }
+    }
+    EXPECT_EQ(places[0], places[1]);
 }
 
 TEST(Packed, LevelsAreThoseOfTheFormula) {

@@ -56,7 +56,7 @@ public:
             const float corner[4] = {field.at(i, j), field.at(i + 1, j), field.at(i + 1, j + 1),
                                      field.at(i, j + 1)};
             const Vec2<float> local{x.x - static_cast<float>(i), x.y - static_cast<float>(j)};
-            const auto hit = contour_distance(contour_cell(corner), local);
+            const auto hit = contour_hit(corner, local);
             depth = std::max(depth, static_cast<double>(-hit.distance));
         }
         return depth;

@@ -238,6 +238,13 @@ constexpr std::int32_t coarse_fields_of(const Capacity& capacity) {
                : (capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields);
 }
 
+/// Nodes have room for the name of the nearest body. One body alone needs none in a packed world:
+/// the distance tells.
+template <class Real>
+constexpr bool keeps_names(const Capacity& capacity) {
+    return !Stored<Real>::shares_momentum || capacity.bodies > 1;
+}
+
 /// Places every block of a world of that capacity. Pure; the same on every machine.
 template <class Real>
 constexpr Layout layout(const Capacity& capacity) {
@@ -249,6 +256,8 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t coarse_fields = count(coarse_fields_of<Real>(capacity));
     const std::size_t solid_cells = capacity.bodies > 0 ? cells : 0;
     const std::size_t moving_cells = capacity.moving_bodies ? solid_cells : 0;
+    const std::size_t named_cells = keeps_names<Real>(capacity) ? solid_cells : 0;
+    const std::size_t named_moving = keeps_names<Real>(capacity) ? moving_cells : 0;
     const std::size_t near_words = capacity.bodies > 0 ? count(near_entries<Real>(capacity)) : 0;
     const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
     const std::size_t thin = wall_edges > 0 ? 1 : 0;
@@ -286,9 +295,9 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
     add(Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0);
     add(Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells);
-    add(Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), moving_cells);
+    add(Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), named_moving);
     add(Block::merged_distance, Owner::contour, Kept::redrawn, distance, solid_cells);
-    add(Block::merged_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), solid_cells);
+    add(Block::merged_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), named_cells);
     add(Block::contour_case, Owner::contour, Kept::redrawn, 1, solid_cells);
     add(Block::near_wall, Owner::contour, Kept::redrawn, sizeof(std::uint32_t), near_words);
     add(Block::open_u, Owner::cut_cells, Kept::redrawn, share, solid_cells);
