@@ -127,6 +127,19 @@ struct FourLanes {
     static bool any_negative(Floats a) { return weir::any_negative(a); }
 };
 
+/// Four by four numbers, rows and columns exchanged, in each group.
+template <class L>
+inline void transpose(typename L::Floats (&v)[4]) {
+    const auto a = L::template shuffle<0, 4, 1, 5>(v[0], v[1]);
+    const auto b = L::template shuffle<0, 4, 1, 5>(v[2], v[3]);
+    const auto c = L::template shuffle<2, 6, 3, 7>(v[0], v[1]);
+    const auto d = L::template shuffle<2, 6, 3, 7>(v[2], v[3]);
+    v[0] = L::template shuffle<0, 1, 4, 5>(a, b);
+    v[1] = L::template shuffle<2, 3, 6, 7>(a, b);
+    v[2] = L::template shuffle<0, 1, 4, 5>(c, d);
+    v[3] = L::template shuffle<2, 3, 6, 7>(c, d);
+}
+
 #endif
 
 }  // namespace weir

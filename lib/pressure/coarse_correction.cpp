@@ -57,44 +57,76 @@ private:
 };
 
 #if WEIR_HAS_LANES
-/// `gather_residual` of a patch of full width. `walls` null: no solids.
-void gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* walls,
-                     const GridShape& s, const Patch& patch, const Targets& targets,
-                     CoarseGrid<float>& coarse) {
-    static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
+/// Adds what the cells of a patch add, one after the other. `step`: from one cell's terms to the
+/// next one's.
+void add_terms(const float* terms, std::int32_t step, const Patch& patch, const Targets& targets,
+               CoarseGrid<float>& coarse) {
     float* const own = coarse.residual + patch.q;
-    const float* open_u = walls != nullptr ? walls->open_u : nullptr;
-    const float* open_v = walls != nullptr ? walls->open_v : nullptr;
-    const FourShares beside = shares_of_columns(coarse, patch.q);
-    const FourShares above = shares_of_rows(coarse, patch.q);
-    float of_above[kCoarseEdge];
-    store_lanes(of_above, above.share);
-    const std::int32_t turn = minimum(
-        patch.height, __builtin_ctz(bits_of(above.forward) | 1U << kCoarseEdge));
+    const std::int32_t up = coarse.shape.stride;
     const bool own_row = targets.has(patch.q);
-    ResidualSums sums{{0.0F, own_row ? own[-1] : 0.0F, own_row ? own[1] : 0.0F, 0.0F}};
+    // Rows from here on lie above the centre.
+    const std::int32_t turn =
+        minimum(patch.height, static_cast<std::int32_t>(coarse.centre_y[patch.q]) + 1);
+    Lanes sums{0.0F, own_row ? own[-1] : 0.0F, own_row ? own[1] : 0.0F, 0.0F};
     for (std::int32_t y = 0; y < patch.height;) {
         const bool below = y < turn;
         const std::int32_t end = below ? turn : patch.height;
-        const std::int32_t up = coarse.shape.stride;
         const std::int32_t vertical = below ? patch.q - up : patch.q + up;
         const bool counted = targets.has(vertical);
-        sums.sums[3] = counted ? coarse.residual[vertical] : 0.0F;
-        std::int32_t c = s.index(patch.i, patch.j + y);
-        for (; (own_row || counted) && y < end; ++y, c += s.stride) {
-            sums.add(residual_of_four(fields, open_u, open_v, s.stride, c), beside.share,
-                     beside.forward, all_lanes(of_above[y]));
+        sums[3] = counted ? coarse.residual[vertical] : 0.0F;
+        for (; y < end; ++y, terms += 4 * step) {
+            sums += load_lanes(terms);
+            sums += load_lanes(terms + step);
+            sums += load_lanes(terms + 2 * step);
+            sums += load_lanes(terms + 3 * step);
         }
         if (counted) {
-            coarse.residual[vertical] = sums.sums[3];
+            coarse.residual[vertical] = sums[3];
         }
-        y = end;
     }
     if (own_row) {
-        *own += sums.sums[0];
-        own[-1] = sums.sums[1];
-        own[1] = sums.sums[2];
+        *own += sums[0];
+        own[-1] = sums[1];
+        own[1] = sums[2];
     }
+}
+
+/// `gather_residual` of the patches of a row that are of full width. Returns how many they are.
+std::int32_t gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* walls,
+                             const GridShape& s, std::int32_t row, const Targets& targets,
+                             CoarseGrid<float>& coarse) {
+    static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
+    const float* open_u = walls != nullptr ? walls->open_u : nullptr;
+    const float* open_v = walls != nullptr ? walls->open_v : nullptr;
+    const std::int32_t count = s.nx / kCoarseEdge;
+    Patch patch = patch_of(s, coarse.shape, 0, row);
+    const std::int32_t end = patch.q + count;
+    float terms[2 * kTerms];
+    while (patch.q < end) {
+        const std::int32_t c = s.index(patch.i, patch.j);
+        const float* diagonal = coarse.inverse_diagonal + patch.q;
+        std::int32_t together = 1;
+#if WEIR_HAS_WIDE_LANES
+        if (patch.q + 2 <= end && has_wide_lanes()) {
+            together = 2;
+            if (diagonal[0] != 0.0F || diagonal[1] != 0.0F) {
+                find_terms_wide(fields, open_u, open_v, s.stride, patch.q, c, patch.height, terms);
+            }
+        }
+#endif
+        if (together == 1 && diagonal[0] != 0.0F) {
+            find_terms<FourLanes>(fields, open_u, open_v, s.stride, patch.q, c, patch.height,
+                                  terms);
+        }
+        for (std::int32_t n = 0; n < together; ++n) {
+            if (diagonal[n] != 0.0F) {
+                add_terms(terms + 4 * n, 4 * together, patch, targets, coarse);
+            }
+            patch.q += 1;
+            patch.i += kCoarseEdge;
+        }
+    }
+    return count;
 }
 #endif
 
@@ -103,12 +135,6 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
                      const PressureFields<Real>& fields, const Patch& patch,
                      const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
-    if constexpr (kHasLanes<Real> && !Mixed) {
-        if (patch.width == kCoarseEdge) {
-            gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, patch, targets, coarse);
-            return;
-        }
-    }
     const Shares<Real> to(coarse, patch.q);
     const bool own_row = targets.has(patch.q);
     Real own = Real(0);
@@ -136,6 +162,27 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
     }
     if (own_row) {
         coarse.residual[patch.q] += own;
+    }
+}
+
+/// Of some rows of patches.
+template <bool Solids, bool Mixed, class Real>
+void gather_residuals(const FaceWeights<Solids, Mixed, Real>& weights,
+                      const PressureFields<Real>& fields, const Part& rows,
+                      const Targets& targets, CoarseGrid<Real>& coarse) {
+    const GridShape& s = weights.grid.shape;
+    for (std::int32_t row = rows.first; row < rows.end; ++row) {
+        std::int32_t column = 0;
+        if constexpr (kHasLanes<Real> && !Mixed) {
+            column = gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, row, targets,
+                                     coarse);
+        }
+        for (; column < coarse.shape.nx; ++column) {
+            const Patch patch = patch_of(s, coarse.shape, column, row);
+            if (coarse.inverse_diagonal[patch.q] != Real(0)) {
+                gather_residual(weights, fields, patch, targets, coarse);
+            }
+        }
     }
 }
 
@@ -251,8 +298,10 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
         extend_cells(weights.borders, big, coarse.centre_x);
         extend_cells(weights.borders, big, coarse.centre_y);
     }
-    share_sums_of_patches(s, big, work, [&](const Patch& patch, const Targets& targets) {
-        add_patch(weights, fields, patch, targets, coarse);
+    share_sums_of_patches(s, big, work, [&](const Part& rows, const Targets& targets) {
+        for_each_patch(s, big, rows, [&](const Patch& patch) {
+            add_patch(weights, fields, patch, targets, coarse);
+        });
     });
     if (work.once(4 * big.border())) {
         join_cells(weights.borders, big, coarse.inverse_diagonal);
@@ -289,10 +338,8 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
         clear(coarse.residual, big);
         clear(coarse.correction, big);
     }
-    share_sums_of_patches(s, big, work, [&](const Patch& patch, const Targets& targets) {
-        if (coarse.inverse_diagonal[patch.q] != Real(0)) {
-            gather_residual(weights, fields, patch, targets, coarse);
-        }
+    share_sums_of_patches(s, big, work, [&](const Part& rows, const Targets& targets) {
+        gather_residuals(weights, fields, rows, targets, coarse);
     });
     if (work.once(big.border())) {
         join_cells(weights.borders, big, coarse.residual);

@@ -78,81 +78,85 @@ inline void each_face_that_counts(const float* level, std::int32_t stride, std::
     }
 }
 
-/// What is left of the equations of cells c … c + 3; 0 in air. `open_u` and `open_v`: open
+/// What is left of the equations of cells from c on; 0 in air. `open_u` and `open_v`: open
 /// fractions, read beside cells whose inverse diagonal is negative; null: there are none.
-inline Lanes residual_of_four(const PressureFields<float>& fields, const float* open_u,
-                              const float* open_v, std::int32_t stride, std::int32_t c) {
+template <class L>
+inline typename L::Floats residual_of_cells(const PressureFields<float>& fields,
+                                            const float* open_u, const float* open_v,
+                                            std::int32_t stride, std::int32_t c) {
     const float* p = fields.pressure + c;
-    const Lanes inverse = load_lanes(fields.inverse_diagonal + c);
-    const Lanes held = load_lanes(p);
-    const Lanes left = load_lanes(p - 1);
-    const Lanes right = load_lanes(p + 1);
-    const Lanes lower = load_lanes(p - stride);
-    const Lanes upper = load_lanes(p + stride);
-    const Lanes divergence = load_lanes(fields.divergence + c);
-    Lanes sum = (left + right) + (lower + upper);
-    if (all_true(inverse == all_lanes(0.25F))) {
-        return (sum - divergence) - all_lanes(4.0F) * held;
+    const auto inverse = L::load(fields.inverse_diagonal + c);
+    const auto held = L::load(p);
+    const auto left = L::load(p - 1);
+    const auto right = L::load(p + 1);
+    const auto lower = L::load(p - stride);
+    const auto upper = L::load(p + stride);
+    const auto divergence = L::load(fields.divergence + c);
+    auto sum = (left + right) + (lower + upper);
+    if (L::all_true(inverse == L::all(0.25F))) {
+        return (sum - divergence) - L::all(4.0F) * held;
     }
-    if (open_u != nullptr && any_negative(inverse)) {
-        const Lanes weighted =
-            (load_lanes(open_u + c) * left + load_lanes(open_u + c + 1) * right) +
-            (load_lanes(open_v + c) * lower + load_lanes(open_v + c + stride) * upper);
-        sum = inverse < all_lanes(0.0F) ? weighted : sum;
+    const auto zero = L::all(0.0F);
+    if (open_u != nullptr && L::any_negative(inverse)) {
+        const auto weighted = (L::load(open_u + c) * left + L::load(open_u + c + 1) * right) +
+                              (L::load(open_v + c) * lower + L::load(open_v + c + stride) * upper);
+        sum = inverse < zero ? weighted : sum;
     }
-    const Lanes zero = all_lanes(0.0F);
-    const LaneMask wet = inverse != zero;
-    const Lanes residual =
-        (sum - divergence) - held / (wet ? absolute(inverse) : all_lanes(1.0F));
+    const auto wet = inverse != zero;
+    const auto residual = (sum - divergence) - held / (wet ? L::absolute(inverse) : L::all(1.0F));
     return wet ? residual : zero;  // whose sum does not change
 }
 
-/// Along one axis of a patch: how much each of its four rows or columns shares in the patch beside
-/// it, linear in the way from the centre, and whether that is the next one or the last.
-struct FourShares {
-    Lanes share;
-    LaneMask forward;
-};
-inline FourShares shares_of_four(float centre, float before, float after) {
-    const Lanes way = Lanes{0.0F, 1.0F, 2.0F, 3.0F} - all_lanes(centre);
-    const LaneMask forward = way > all_lanes(0.0F);
-    return {all_lanes(1.0F / kCoarseEdge) *
-                (forward ? way * all_lanes(after) : -way * all_lanes(before)),
-            forward};
+/// Along one axis of a patch: how much rows or columns `way` from the centre share in the patch
+/// before or behind it.
+template <class L, class Floats>
+inline Floats share_beside(Floats way, Floats before, Floats after) {
+    return L::all(1.0F / kCoarseEdge) * (way > L::all(0.0F) ? way * after : -way * before);
 }
-inline FourShares shares_of_columns(const CoarseGrid<float>& coarse, std::int32_t q) {
-    return shares_of_four(coarse.centre_x[q], coarse.reach_u[q], coarse.reach_u[q + 1]);
-}
-inline FourShares shares_of_rows(const CoarseGrid<float>& coarse, std::int32_t q) {
-    return shares_of_four(coarse.centre_y[q], coarse.reach_v[q],
-                          coarse.reach_v[q + coarse.shape.stride]);
+template <class L>
+inline auto ways_of_columns(const CoarseGrid<float>& coarse, std::int32_t q) {
+    return L::repeat(0.0F, 1.0F, 2.0F, 3.0F) - L::one_a_group(coarse.centre_x + q);
 }
 
-/// Sums that a patch's residuals are added to: its own, those of the patches left, right, and
-/// below or above.
-struct ResidualSums {
-    Lanes sums;
+/// What the cells of a patch add: to its own coarse cell, to those left, right, and below or above.
+inline constexpr std::int32_t kTerms = 4 * kCoarseEdge * kCoarseEdge;
 
-    /// Of four cells, one after the other. `of_beside`: the share of each in the patch beside it,
-    /// `on_right`: which are those on the right; `of_above`: the share of all in the patch below
-    /// or above.
-    void add(Lanes residual, Lanes of_beside, LaneMask on_right, Lanes of_above) {
-        const Lanes zero = all_lanes(0.0F);
-        const Lanes beside = of_beside * residual;
-        const Lanes above = of_above * residual;
-        const Lanes own = residual - (beside + above);
-        const Lanes left = on_right ? zero : beside;
-        const Lanes right = on_right ? beside : zero;
-        const Lanes a = shuffle<0, 4, 1, 5>(own, left);
-        const Lanes b = shuffle<0, 4, 1, 5>(right, above);
-        const Lanes c = shuffle<2, 6, 3, 7>(own, left);
-        const Lanes d = shuffle<2, 6, 3, 7>(right, above);
-        sums += shuffle<0, 1, 4, 5>(a, b);
-        sums += shuffle<2, 3, 6, 7>(a, b);
-        sums += shuffle<0, 1, 4, 5>(c, d);
-        sums += shuffle<2, 3, 6, 7>(c, d);
+/// Of patches q, q + 1 …, one a group, `rows` high, from cell c on: those of one patch beside those
+/// of the next, cell by cell.
+template <class L>
+inline void find_terms(const PressureFields<float>& fields, const float* open_u,
+                       const float* open_v, std::int32_t stride, std::int32_t q, std::int32_t c,
+                       std::int32_t rows, float* terms) {
+    const CoarseGrid<float>& coarse = fields.coarse;
+    const auto zero = L::all(0.0F);
+    const auto ways = ways_of_columns<L>(coarse, q);
+    const auto of_beside = share_beside<L>(ways, L::one_a_group(coarse.reach_u + q),
+                                           L::one_a_group(coarse.reach_u + q + 1));
+    const auto on_right = ways > zero;
+    const auto centre = L::one_a_group(coarse.centre_y + q);
+    const auto before = L::one_a_group(coarse.reach_v + q);
+    const auto after = L::one_a_group(coarse.reach_v + q + coarse.shape.stride);
+    for (std::int32_t y = 0; y < rows; ++y, c += stride) {
+        const auto residual = residual_of_cells<L>(fields, open_u, open_v, stride, c);
+        const auto beside = of_beside * residual;
+        const auto above =
+            share_beside<L>(L::all(static_cast<float>(y)) - centre, before, after) * residual;
+        typename L::Floats cells[] = {residual - (beside + above), on_right ? zero : beside,
+                                      on_right ? beside : zero, above};
+        transpose<L>(cells);
+        L::store(terms, cells[0]);
+        L::store(terms + L::kLanes, cells[1]);
+        L::store(terms + 2 * L::kLanes, cells[2]);
+        L::store(terms + 3 * L::kLanes, cells[3]);
+        terms += 4 * L::kLanes;
     }
-};
+}
+
+#if WEIR_HAS_WIDE_LANES
+void find_terms_wide(const PressureFields<float>& fields, const float* open_u,
+                     const float* open_v, std::int32_t stride, std::int32_t q, std::int32_t c,
+                     std::int32_t rows, float* terms);
+#endif
 
 /// Adds the corrections of coarse cells to the pressure of their liquid cells: of patches `k`,
 /// k + 1 … of `count` in a row, as long as enough are left. Returns the next one to do. `first_q`,
@@ -175,17 +179,13 @@ inline std::int32_t correct_patches(const PressureFields<float>& fields, std::in
             return L::one_a_group(coarse.correction + at);
         };
         const auto own = correction(q);
-        // As `shares_of_four`.
         const auto shared = [&](Floats way, Floats before, Floats after, Floats last,
                                 Floats next) {
-            const auto forward = way > zero;
-            return (L::all(1.0F / kCoarseEdge) * (forward ? way * after : -way * before)) *
-                   ((forward ? next : last) - own);
+            return share_beside<L>(way, before, after) * ((way > zero ? next : last) - own);
         };
         const auto column =
-            shared(L::repeat(0.0F, 1.0F, 2.0F, 3.0F) - L::one_a_group(coarse.centre_x + q),
-                   L::one_a_group(coarse.reach_u + q), L::one_a_group(coarse.reach_u + q + 1),
-                   correction(q - 1), correction(q + 1));
+            shared(ways_of_columns<L>(coarse, q), L::one_a_group(coarse.reach_u + q),
+                   L::one_a_group(coarse.reach_u + q + 1), correction(q - 1), correction(q + 1));
         const auto centre = L::one_a_group(coarse.centre_y + q);
         const auto before = L::one_a_group(coarse.reach_v + q);
         const auto after = L::one_a_group(coarse.reach_v + q + up);

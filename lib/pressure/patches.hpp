@@ -60,9 +60,9 @@ struct Targets {
 #endif
 };
 
-/// The same where a patch adds to its own coarse cell and those around it: visit(patch, what it may
-/// add to). Pieces go through the rows beside theirs, too, and take from them what is added to
-/// theirs, so that every sum has the order that it has in one piece.
+/// The same where a patch adds to its own coarse cell and those around it: visit(rows of patches,
+/// what they may add to). Pieces go through the rows beside theirs, too, and take from them what is
+/// added to theirs, so that every sum has the order that it has in one piece.
 template <class Visit>
 void share_sums_of_patches(const GridShape& s, const GridShape& big, Work work,
                            const Visit& visit) {
@@ -82,7 +82,7 @@ void share_sums_of_patches(const GridShape& s, const GridShape& big, Work work,
             targets.end = big.index(-1, piece.end);
         }
 #endif
-        for_each_patch(s, big, rows, [&](const Patch& patch) { visit(patch, targets); });
+        visit(rows, targets);
     });
 }
 

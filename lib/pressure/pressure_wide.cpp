@@ -23,6 +23,12 @@ void relax_apart_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t
     relax_apart<EightLanes>(coarse, omega, i, rows);
 }
 
+void find_terms_wide(const PressureFields<float>& fields, const float* open_u,
+                     const float* open_v, std::int32_t stride, std::int32_t q, std::int32_t c,
+                     std::int32_t rows, float* terms) {
+    find_terms<EightLanes>(fields, open_u, open_v, stride, q, c, rows, terms);
+}
+
 std::int32_t correct_wide(const PressureFields<float>& fields, std::int32_t stride,
                           std::int32_t q, std::int32_t c, std::int32_t height,
                           std::int32_t count) {

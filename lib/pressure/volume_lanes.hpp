@@ -122,19 +122,6 @@ inline std::int32_t excess_lanes(const PressureFields<float>& f, std::int32_t st
     return excess_cells<FourLanes>(f, stride, limits, c, end);
 }
 
-/// Four by four numbers, rows and columns exchanged, in each group.
-template <class L>
-inline void transpose(typename L::Floats (&v)[4]) {
-    const auto a = L::template shuffle<0, 4, 1, 5>(v[0], v[1]);
-    const auto b = L::template shuffle<0, 4, 1, 5>(v[2], v[3]);
-    const auto c = L::template shuffle<2, 6, 3, 7>(v[0], v[1]);
-    const auto d = L::template shuffle<2, 6, 3, 7>(v[2], v[3]);
-    v[0] = L::template shuffle<0, 1, 4, 5>(a, b);
-    v[1] = L::template shuffle<2, 3, 6, 7>(a, b);
-    v[2] = L::template shuffle<0, 1, 4, 5>(c, d);
-    v[3] = L::template shuffle<2, 3, 6, 7>(c, d);
-}
-
 /// Mean excess of as many patches as there are lanes, four cells wide, from cell c on; 0 in air.
 /// `most` takes the largest excess of each, either way; `overfull` grows as that of `average`. A
 /// bit for each patch without liquid.
