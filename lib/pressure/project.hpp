@@ -14,15 +14,23 @@ template <class Real>
                                   std::int32_t before, Real light, const ShareOf<Real>* open,
                                   const PressureFields<Real>& fields) {
     const Real through = open != nullptr ? Real(open[face]) : Real(1);
-    const bool wet = fields.level[before] > Real(0) || fields.level[face] > Real(0);
-    if (wet && through > Real(0)) {
-        const Real rise = light * pressure_rise(fields, before, face, through);
-        const Real was = velocity[face];
-        const bool pushes = (was > Real(0)) == (rise < Real(0));
-        const Real share =
-            pushes ? push_through(fields, before, face, through) : Real(1);
-        velocity[face] = was - share * rise;
+    const bool wet_before = fields.level[before] > Real(0);
+    const bool wet = fields.level[face] > Real(0);
+    if (!(wet || wet_before) || !(through > Real(0))) {
+        return;
     }
+    const Real was = velocity[face];
+    Real rise = light * pressure_rise(fields, before, face, through);
+    const bool pushes = (was > Real(0)) == (rise < Real(0));
+    rise = (pushes ? push_through(fields, wet != wet_before, through) : Real(1)) * rise;
+    if (wet != wet_before) {
+        const Real share =
+            jet_share(fields, wet ? face : before, wet ? before : face, through);
+        const Real fall = fields.cell_weight;
+        const Real stop = clamp(rise, minimum(was, Real(0)) - fall, maximum(was, Real(0)) + fall);
+        rise = share < Real(1) ? stop + share * (rise - stop) : rise;
+    }
+    velocity[face] = was - rise;
 }
 
 /// The same of a row of cells and the faces before them.

@@ -53,25 +53,33 @@ inline Real liquid_fraction(const PressureFields<Real>& fields, Real level_liqui
 /// Share of the pressure's rise that an open face passes on where it pushes, and does not brake:
 /// particles around a narrow gap have more mass than goes through, and what the pressure would give
 /// them in energy nothing has lost. At its surface a compressible liquid stores so much that only
-/// the open share itself is safe. And where its cells hold more than the liquid fraction, as jets
-/// along a wall do, all of that has to be moved by what is more than the weight of a cell.
+/// the open share itself is safe.
 template <class Real>
-inline Real push_through(const PressureFields<Real>& fields, std::int32_t before,
-                         std::int32_t after, Real open) {
-    const Real high = maximum<Real>(fields.level[before], fields.level[after]);
-    const Real low = minimum<Real>(fields.level[before], fields.level[after]);
-    if (!(fields.sound_speed > Real(0)) || low > Real(0)) {
-        return width_of(open);
-    }
-    const Real fraction = liquid_fraction(fields, high, low, open);
-    const Real mass = Real(0.5) * (Real(fields.density[before]) + Real(fields.density[after]));
-    const Real pressure = maximum<Real>(fields.pressure[before], fields.pressure[after]);
-    const Real weight = fields.cell_weight * high;
-    if (!(mass > fraction && pressure > weight)) {
-        return open;
+inline Real push_through(const PressureFields<Real>& fields, bool surface, Real open) {
+    return surface && fields.sound_speed > Real(0) ? open : width_of(open);
+}
+
+/// Share of the push from a wet cell on the surface into a dry one, beyond what stops the liquid
+/// and what gravity gives in a step. Where the two cells hold more than the liquid fraction, as
+/// jets along a wall do, all of that has to be moved by what is more than the weight of a cell.
+/// Densities about a flat surface add up to its fraction and a half; a compressible liquid's
+/// fraction is no less than a quarter, the mean suits that. Incompressible liquid without weight or
+/// with surface tension is left alone: there smooth flow and bent surfaces make pressure, too.
+template <class Real>
+inline Real jet_share(const PressureFields<Real>& fields, std::int32_t wet, std::int32_t dry,
+                      Real open) {
+    const bool elastic = fields.sound_speed > Real(0);
+    const bool weighs = fields.cell_weight > Real(0) && !fields.on_surface;
+    const Real fraction = liquid_fraction<Real>(fields, fields.level[wet], fields.level[dry], open);
+    const Real both = Real(fields.density[wet]) + Real(fields.density[dry]);
+    const Real mass = elastic ? Real(0.5) * both : both - Real(0.5);
+    const Real pressure = fields.pressure[wet] - fields.pressure[dry];
+    const Real weight = fields.cell_weight * Real(fields.level[wet]);
+    if (!(mass > fraction && pressure > weight && (elastic || weighs))) {
+        return Real(1);
     }
     const Real jet = pressure < weight + weight ? (pressure - weight) / weight : Real(1);
-    return open * ((Real(1) - jet) + jet * (fraction / mass));
+    return (Real(1) - jet) + jet * (fraction / mass);
 }
 
 /// What a face adds to the diagonal of a liquid cell beside air, in 128ths as `weight` and `open`:

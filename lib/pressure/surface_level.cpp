@@ -217,6 +217,9 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.level);
+        if (borders.wrap_x || borders.wrap_y) {  // faces on the seam look at both sides
+            extend_cells(borders, s, fields.density);
+        }
     }
     // Compressible liquid stores what flows into a cell: one that holds little has no room for it.
     const bool fills = !(fields.sound_speed > Real(0));

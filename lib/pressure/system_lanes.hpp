@@ -178,6 +178,9 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
     const bool elastic = fields.sound_speed > 0.0F;
+    const auto fall = L::all(fields.cell_weight);
+    const bool limits = elastic || (fields.cell_weight > 0.0F && !fields.on_surface);
+    const auto weighs = (limits ? one : zero) > zero;
     const Lever lever = lever_of(fields);
     const auto any_kind = [&](float* velocity, Floats here, Floats before, std::int32_t back,
                               Floats rise, Floats open) {
@@ -186,21 +189,22 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
         const auto moves = (L::maximum(here, before) > zero) & (open > zero);
         const auto fraction = fraction_between<L>(lever, here, before, open);
         const auto answer = both ? rise : rise / fraction;
+        const auto width = width_of_lanes<L>(open);  // as `push_through`
         const auto pushes = (now > zero) == (answer < zero);
-        auto through = width_of_lanes<L>(open);
-        if (elastic) {  // as `push_through`
-            const auto mass = L::all(0.5F) * (L::load(fields.density + c - back) +
-                                              L::load(fields.density + c));
-            const auto pressure =
-                L::maximum(L::load(fields.pressure + c - back), L::load(fields.pressure + c));
-            const auto weight = L::all(fields.cell_weight) * L::maximum(here, before);
-            const auto jets = (mass > fraction) & (pressure > weight);
-            const auto jet = pressure < weight + weight ? (pressure - weight) / weight : one;
-            const auto share = (one - jet) + jet * (fraction / mass);
-            through = both ? through : (jets ? open * share : open);
-        }
-        const auto share = pushes ? through : one;
-        L::store(velocity + c, moves ? now - share * answer : now);
+        const auto through = pushes ? (both ? width : (elastic ? open : width)) : one;
+        const auto pushed = through * answer;
+        // As `jet_share`.
+        const auto density = L::load(fields.density + c - back) + L::load(fields.density + c);
+        const auto mass = elastic ? L::all(0.5F) * density : density - L::all(0.5F);
+        const auto pressure = here > zero ? rise : zero - rise;
+        const auto weight = fall * L::maximum(here, before);
+        const auto jets = (mass > fraction) & (pressure > weight) & weighs;
+        const auto jet = pressure < weight + weight ? (pressure - weight) / weight : one;
+        const auto share = jets ? (one - jet) + jet * (fraction / mass) : one;
+        const auto stop = L::minimum(L::maximum(pushed, L::minimum(now, zero) - fall),
+                                     L::maximum(now, zero) + fall);
+        const auto limited = share < one ? stop + share * (pushed - stop) : pushed;
+        L::store(velocity + c, moves ? now - (both ? pushed : limited) : now);
     };
     for (; c + L::kLanes <= end; c += L::kLanes) {
         const auto here = L::load(fields.level + c);

@@ -115,7 +115,7 @@ bool RandomScene::any_moving() const {
 }
 
 bool RandomScene::energy_only_falls() const {
-    return solids_stand() && !gravity_changes && !liquid_overlaps;
+    return solids_stand() && !liquid_overlaps;
 }
 
 std::string RandomScene::text() const {

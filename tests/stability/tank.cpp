@@ -135,6 +135,7 @@ void Tank<Real>::move(BodyId id, Vec2f at, Vec2f velocity, float angle, float sp
 
 template <class Real>
 void Tank<Real>::set_gravity(Vec2f gravity_mps2) {
+    lost_ += put_in_ - energy() - stored_energy();
     require(world_.set_gravity(gravity_mps2));
     gravity_mps2_ = gravity_mps2;
     energy_from_now();
@@ -162,33 +163,63 @@ double Tank<Real>::stored_energy() const {
     return sum;
 }
 
+/// Were all liquid still and nowhere too dense: cells are filled from the deepest on.
+template <class Real>
+typename Tank<Real>::AtRest Tank<Real>::at_rest() const {
+    std::vector<std::pair<double, double>> cells;  // (gravity times centre, room)
+    const double gx = static_cast<double>(gravity_mps2_.x / def_.cell_m);
+    const double gy = static_cast<double>(gravity_mps2_.y / def_.cell_m);
+    for (std::int32_t j = 0; j < def_.capacity.cells_y; ++j) {
+        for (std::int32_t i = 0; i < def_.capacity.cells_x; ++i) {
+            cells.emplace_back(gx * (i + 0.5) + gy * (j + 0.5), open_share(i, j));
+        }
+    }
+    std::sort(cells.rbegin(), cells.rend());
+    const double corner = std::max(0.0, gx) * world_.cells_x() + std::max(0.0, gy) * world_.cells_y();
+    double left = static_cast<double>(expected_) / def_.particles_per_cell;
+    AtRest rest{cells.front().first, 0.0};
+    for (std::size_t k = 0; k < cells.size() && left > 0.0; ++k) {
+        rest.surface = cells[k].first;
+        rest.energy += std::min(left, cells[k].second) * def_.particles_per_cell *
+                       (corner - cells[k].first);
+        left -= cells[k].second;
+    }
+    return rest;
+}
+
+template <class Real>
+double Tank<Real>::open_share(std::int32_t i, std::int32_t j) const {
+    if (!tally_.solids) {
+        return 1.0;
+    }
+    const auto solid = world_.signed_distance();
+    const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j), solid.at(i + 1, j + 1),
+                            solid.at(i, j + 1)};
+    return static_cast<double>(weir::open_area(corner));
+}
+
 /// What expands lifts what lies over it: its volume × the pressure of still liquid there.
 template <class Real>
 void Tank<Real>::count_compression() {
     world_.step(1.0e-8F);
     const auto density = world_.density();
-    const auto solid = world_.signed_distance();
     const double gx = static_cast<double>(gravity_mps2_.x / def_.cell_m);
     const double gy = static_cast<double>(gravity_mps2_.y / def_.cell_m);
-    double surface = std::numeric_limits<double>::infinity();
+    const AtRest rest = at_rest();
+    double surface = rest.surface;
     for (const Vec2<Real> x : world_.particle_positions()) {
         surface = std::min(surface, gx * static_cast<double>(x.x) + gy * static_cast<double>(x.y));
     }
     for (std::int32_t j = 0; j < density.rows; ++j) {
         for (std::int32_t i = 0; i < density.columns; ++i) {
-            double room = 1.0;
-            if (tally_.solids) {
-                const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j),
-                                        solid.at(i + 1, j + 1), solid.at(i, j + 1)};
-                room = static_cast<double>(weir::open_area(corner));
-            }
             const double over = static_cast<double>(density.at(i, j)) - 1.0;
             const double pressure = gx * (i + 0.5) + gy * (j + 0.5) - surface;
             if (over > 1.0e-4 && pressure > 0.0) {  // rounding is none
-                put_in_ += over * room * def_.particles_per_cell * pressure;
+                put_in_ += over * open_share(i, j) * def_.particles_per_cell * pressure;
             }
         }
     }
+    put_in_ = std::max(put_in_, rest.energy);
 }
 
 /// What a report says must fit what was asked, what is there, and itself.
@@ -239,8 +270,11 @@ StepReport Tank<Real>::step(float dt_s) {
     tally_.inconsistent += consistent(report, dt_s, fastest) ? 0 : 1;
     tally_.fastest = std::max(tally_.fastest, fastest);
     if (put_in_ > 0.0) {
-        const double ratio = energy() / put_in_;
-        tally_.energy_ratio = ratio <= tally_.energy_ratio ? tally_.energy_ratio : ratio;
+        const auto take = [](double ratio, double& worst) {  // a NaN too
+            worst = ratio <= worst ? worst : ratio;
+        };
+        take(energy() / put_in_, tally_.energy_ratio);
+        take(energy() / (put_in_ + lost_), tally_.energy_of_all);
     }
     if (tally_.solids && all_finite) {
         look_at_depths();

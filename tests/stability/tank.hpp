@@ -44,7 +44,8 @@ struct Tally {
     std::int64_t slowed = 0;
     std::int64_t inconsistent = 0;  ///< steps whose report contradicts the state or itself
     std::uint32_t clamped = 0;
-    double energy_ratio = 0.0;      ///< highest energy, of what was put in until then
+    double energy_ratio = 0.0;      ///< highest energy, of what was put in since gravity turned
+    double energy_of_all = 0.0;     ///< the same, with what was lost before that
     double deepest = 0.0;       ///< behind the contour of a solid two cells thick or more, cells
     double deepest_thin = 0.0;  ///< the same in thinner ones, which are not tight
     double fastest = 0.0;           ///< along an axis, cells/s
@@ -109,6 +110,11 @@ public:
     std::int32_t particles() const { return expected_; }
 
 private:
+    struct AtRest {
+        double surface;  ///< gravity times its place
+        double energy;
+    };
+
     weir::BodyId add_body(const Ring& ring, const weir::Motion& motion, float restitution,
                           bool moving);
     bool consistent(const weir::StepReport& report, float dt_s, double fastest) const;
@@ -117,6 +123,8 @@ private:
     bool thick_at(weir::Vec2<Real> x) const;
     double energy_of(std::int32_t index) const;
     double stored_energy() const;
+    double open_share(std::int32_t i, std::int32_t j) const;
+    AtRest at_rest() const;
     weir::Vec2f to_m(weir::Vec2f cells) const {
         return {cells.x * def_.cell_m, cells.y * def_.cell_m};
     }
@@ -127,6 +135,7 @@ private:
     weir::Vec2f gravity_mps2_;
     std::int32_t expected_ = 0;
     double put_in_ = 0.0;
+    double lost_ = 0.0;  ///< of what was put in before gravity turned
     Tally tally_;
 };
 
