@@ -69,8 +69,8 @@ void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
 
 /// The surface of a body answers a particle that hits it at `x`.
 template <class Real>
-void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
-            Vec2<Real> normal) {
+[[gnu::noinline]] void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
+                              Vec2<Real> x, Vec2<Real> normal) {
     const Body<Real>& body = scene.walls.body[slot];
     const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
     const Vec2<Real> before = scene.particles.velocity[k];
@@ -87,8 +87,8 @@ struct Blows {
 
 /// Whether a place in front of a wall lies on another side of it than a particle came from.
 template <class Real>
-[[gnu::noinline]] bool on_other_side(const Scene<Real>& scene, Vec2<Real> to,
-                                     Vec2<Real> normal, Vec2<Real> from) {
+[[gnu::noinline, gnu::cold]] bool on_other_side(const Scene<Real>& scene, Vec2<Real> to,
+                                                Vec2<Real> normal, Vec2<Real> from) {
     const Real depth = dot(to - from, normal);
     return depth > kOtherSide<Real> && in_tank(scene.shape, from) &&
            !is_inside(scene.shape, scene.walls, from);
@@ -97,7 +97,8 @@ template <class Real>
 /// Sets a particle back to the line of its cell, and to that of the cell where it gets. False, and
 /// nothing has happened: it is too deep, or comes out on another side than it came from.
 template <class Real>
-bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at, Vec2<Real> before) {
+[[gnu::noinline]] bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at,
+                                Vec2<Real> before) {
     const Vec2<Real> x = scene.particles.position[k];
     const bool binary = scene.walls.binary;
     Vec2<Real> to = x;
@@ -132,8 +133,9 @@ bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at, Vec2<Real> 
 /// In a notch the velocity that a blow leaves may lead into the solid again, or the particle is
 /// `wedged`. Then there is no way on, and what is left of it goes, too: it would grow for ever.
 template <class Real>
-[[gnu::noinline]] void stop_if_blocked(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
-                                       Vec2<Real> place, bool wedged) {
+[[gnu::noinline, gnu::cold]] void stop_if_blocked(Scene<Real>& scene, std::int32_t k,
+                                                  std::uint16_t slot, Vec2<Real> place,
+                                                  bool wedged) {
     const Vec2<Real> wall = velocity_at(scene.walls.body[slot], place);
     const Vec2<Real> relative = Vec2<Real>(scene.particles.velocity[k]) - wall;
     const Real speed = length(relative);
@@ -150,8 +152,8 @@ template <class Real>
 /// Stops a particle where its path, seen from the body, first meets a solid. `slot`: the body that
 /// it is in, or kNoBody. `far`: nobody tried to set it back. False: the path began inside a solid.
 template <class Real>
-[[gnu::noinline]] bool stop_on_path(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
-                                    Vec2<Real> before, bool far) {
+[[gnu::noinline, gnu::cold]] bool stop_on_path(Scene<Real>& scene, std::int32_t k,
+                                               std::uint16_t slot, Vec2<Real> before, bool far) {
     const Vec2<Real> x = scene.particles.position[k];
     Vec2<Real> from = before;
     Entry<Real> entry;
@@ -181,8 +183,8 @@ template <class Real>
 
 /// Leads a particle that was inside already to the nearest place outside. False: there is none.
 template <class Real>
-[[gnu::noinline]] bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
-                                Vec2<Real> before) {
+[[gnu::noinline, gnu::cold]] bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
+                                           Vec2<Real> before) {
     const Body<Real>& body = scene.walls.body[slot];
     const Vec2<Real> seen = carried(scene, body, before);
     const Vec2<Real> from = within_tank(scene.shape, seen);
