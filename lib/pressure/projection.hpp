@@ -60,11 +60,12 @@ inline Real push_through(const PressureFields<Real>& fields, bool surface, Real 
 }
 
 /// Share of the push from a wet cell on the surface into a dry one, beyond what stops the liquid
-/// and what gravity gives in a step. Where the two cells hold more than the liquid fraction, as
-/// jets along a wall do, all of that has to be moved by what is more than the weight of a cell.
-/// Densities about a flat surface add up to its fraction and a half; a compressible liquid's
-/// fraction is no less than a quarter, the mean suits that. Incompressible liquid without weight or
-/// with surface tension is left alone: there smooth flow and bent surfaces make pressure, too.
+/// and, if it is incompressible, what gravity gives in a step. Where the two cells hold more than
+/// the liquid fraction, as jets along a wall do, all of that has to be moved by what is more than
+/// the weight of a cell. Densities about a flat surface add up to its fraction and a half; a
+/// compressible liquid's fraction is no less than a quarter, the mean suits that. Incompressible
+/// liquid without weight or with surface tension is left alone: there smooth flow and bent surfaces
+/// make pressure, too.
 template <class Real>
 inline Real jet_share(const PressureFields<Real>& fields, std::int32_t wet, std::int32_t dry,
                       Real open) {

@@ -178,7 +178,7 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
     const bool elastic = fields.sound_speed > 0.0F;
-    const auto fall = L::all(fields.cell_weight);
+    const auto fall = L::all(elastic ? 0.0F : fields.cell_weight);
     const bool limits = elastic || (fields.cell_weight > 0.0F && !fields.on_surface);
     const auto weighs = (limits ? one : zero) > zero;
     const Lever lever = lever_of(fields);
@@ -197,7 +197,7 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
         const auto density = L::load(fields.density + c - back) + L::load(fields.density + c);
         const auto mass = elastic ? L::all(0.5F) * density : density - L::all(0.5F);
         const auto pressure = here > zero ? rise : zero - rise;
-        const auto weight = fall * L::maximum(here, before);
+        const auto weight = L::all(fields.cell_weight) * L::maximum(here, before);
         const auto jets = (mass > fraction) & (pressure > weight) & weighs;
         const auto jet = pressure < weight + weight ? (pressure - weight) / weight : one;
         const auto share = jets ? (one - jet) + jet * (fraction / mass) : one;
