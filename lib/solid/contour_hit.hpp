@@ -200,9 +200,10 @@ bool is_inside_in(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x
         if (side != 0) {
             return side < 0;
         }
+    } else if (clearly_outside(which, cell.corner, cell.local)) {
+        return false;
     }
-    return !clearly_outside(which, cell.corner, cell.local) &&
-           hit_in(cell, which).distance < Real(0);
+    return hit_in(cell, which).distance < Real(0);
 }
 
 /// Where all that is asked for is stored. A cell that is solid all over holds no open point, also

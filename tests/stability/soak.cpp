@@ -91,7 +91,7 @@ struct Soak {
 
     void finish(double residual, bool kicked) {
         const Goal goal = goal_of(scheme, steps);
-        report.run(name, tank.tally(), Bounds{1.0001, 0.15, false});
+        report.run(name, tank.tally(), bounds_of(scheme));
         report.at_most(name + ".volume_drift", std::fabs(tank.volume_error()), "1", goal.volume);
         if (kicked) {
             report.figure(name + ".residual_speed", residual / unit(), "sqrt(gh)");
@@ -127,7 +127,7 @@ void rest(Report& report, const Scheme& scheme, std::int32_t steps) {
     }
     const std::string name = label<Real>("R14.rest", scheme);
     const std::uint64_t end = tank.world().state_hash();
-    report.run(name, tank.tally(), Bounds{1.0001, 0.15, false});
+    report.run(name, tank.tally(), bounds_of(scheme));
     report.at_most(name + ".largest_way_in_last_1000", most, "cells",
                    scheme.elastic() ? 2.0 : 0.05);
     report.figure(name + ".same_bits_as_1000_steps_ago", end == hash ? 1 : 0, "1");

@@ -163,19 +163,30 @@ double Tank<Real>::stored_energy() const {
     return sum;
 }
 
+template <class Real>
+double Tank<Real>::fall(Vec2<double> x) const {
+    return static_cast<double>(gravity_mps2_.x / def_.cell_m) * x.x +
+           static_cast<double>(gravity_mps2_.y / def_.cell_m) * x.y;
+}
+
+/// Of the tank: where liquid ends up.
+template <class Real>
+Vec2<double> Tank<Real>::lowest_corner() const {
+    return {gravity_mps2_.x > 0.0F ? static_cast<double>(world_.cells_x()) : 0.0,
+            gravity_mps2_.y > 0.0F ? static_cast<double>(world_.cells_y()) : 0.0};
+}
+
 /// Were all liquid still and nowhere too dense: cells are filled from the deepest on.
 template <class Real>
 typename Tank<Real>::AtRest Tank<Real>::at_rest() const {
     std::vector<std::pair<double, double>> cells;  // (gravity times centre, room)
-    const double gx = static_cast<double>(gravity_mps2_.x / def_.cell_m);
-    const double gy = static_cast<double>(gravity_mps2_.y / def_.cell_m);
     for (std::int32_t j = 0; j < def_.capacity.cells_y; ++j) {
         for (std::int32_t i = 0; i < def_.capacity.cells_x; ++i) {
-            cells.emplace_back(gx * (i + 0.5) + gy * (j + 0.5), open_share(i, j));
+            cells.emplace_back(fall({i + 0.5, j + 0.5}), open_share(i, j));
         }
     }
     std::sort(cells.rbegin(), cells.rend());
-    const double corner = std::max(0.0, gx) * world_.cells_x() + std::max(0.0, gy) * world_.cells_y();
+    const double corner = fall(lowest_corner());
     double left = static_cast<double>(expected_) / def_.particles_per_cell;
     AtRest rest{cells.front().first, 0.0};
     for (std::size_t k = 0; k < cells.size() && left > 0.0; ++k) {
@@ -203,17 +214,15 @@ template <class Real>
 void Tank<Real>::count_compression() {
     world_.step(1.0e-8F);
     const auto density = world_.density();
-    const double gx = static_cast<double>(gravity_mps2_.x / def_.cell_m);
-    const double gy = static_cast<double>(gravity_mps2_.y / def_.cell_m);
     const AtRest rest = at_rest();
     double surface = rest.surface;
     for (const Vec2<Real> x : world_.particle_positions()) {
-        surface = std::min(surface, gx * static_cast<double>(x.x) + gy * static_cast<double>(x.y));
+        surface = std::min(surface, fall({static_cast<double>(x.x), static_cast<double>(x.y)}));
     }
     for (std::int32_t j = 0; j < density.rows; ++j) {
         for (std::int32_t i = 0; i < density.columns; ++i) {
             const double over = static_cast<double>(density.at(i, j)) - 1.0;
-            const double pressure = gx * (i + 0.5) + gy * (j + 0.5) - surface;
+            const double pressure = fall({i + 0.5, j + 0.5}) - surface;
             if (over > 1.0e-4 && pressure > 0.0) {  // rounding is none
                 put_in_ += over * open_share(i, j) * def_.particles_per_cell * pressure;
             }
@@ -348,17 +357,13 @@ double Tank<Real>::kinetic_energy() const {
 
 template <class Real>
 double Tank<Real>::energy_of(std::int32_t index) const {
-    const auto cell = static_cast<double>(def_.cell_m);
-    const double gx = static_cast<double>(gravity_mps2_.x) / cell;
-    const double gy = static_cast<double>(gravity_mps2_.y) / cell;
-    const double corner_x = gx > 0.0 ? world_.cells_x() : 0.0;
-    const double corner_y = gy > 0.0 ? world_.cells_y() : 0.0;
+    const Vec2<double> corner = lowest_corner();
     const Vec2<Real> x = world_.particle_positions()[index];
     const Vec2<Real> v = world_.particle_velocities()[index];
     const auto vx = static_cast<double>(v.x);
     const auto vy = static_cast<double>(v.y);
-    return 0.5 * (vx * vx + vy * vy) - gx * (static_cast<double>(x.x) - corner_x) -
-           gy * (static_cast<double>(x.y) - corner_y);
+    return 0.5 * (vx * vx + vy * vy) -
+           fall({static_cast<double>(x.x) - corner.x, static_cast<double>(x.y) - corner.y});
 }
 
 template <class Real>

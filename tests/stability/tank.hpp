@@ -124,6 +124,9 @@ private:
     double energy_of(std::int32_t index) const;
     double stored_energy() const;
     double open_share(std::int32_t i, std::int32_t j) const;
+    /// What gravity gains on the way from the origin, cells²/s².
+    double fall(weir::Vec2<double> x) const;
+    weir::Vec2<double> lowest_corner() const;
     AtRest at_rest() const;
     weir::Vec2f to_m(weir::Vec2f cells) const {
         return {cells.x * def_.cell_m, cells.y * def_.cell_m};
