@@ -42,7 +42,8 @@ Soak turned_box(int n) {
     return soak;
 }
 
-/// A cup with walls one cell thick, water inside only.
+/// A cup with walls one cell thick, which nodes alone would put up to a quarter of a cell off, water
+/// inside only. It stands on its floor as a lattice does: a tenth of a cell too low is 2 % at 16.
 Soak cup(int n) {
     Soak soak;
     soak.vessel.cells_x = soak.vessel.cells_y = 2 * n;
@@ -56,6 +57,8 @@ Soak cup(int n) {
                           {low.x, low.y},
                           {low.x, high.y},
                           {low.x - 1.0, high.y}}};
+    soak.vessel.wall_edges = 40 * n;
+    soak.vessel.lattice = low;
     soak.vessel.liquid = [low, n](Vec p) {
         return p.x > low.x && p.x < low.x + n && p.y > low.y && p.y < low.y + 0.6 * n;
     };

@@ -26,9 +26,10 @@ weir::Vec2f metres(Vec cells) {
 
 std::vector<Vec> lattice(const Vessel& vessel) {
     std::vector<Vec> places;
+    const Vec first{0.25 + std::fmod(vessel.lattice.x, 0.5), 0.25 + std::fmod(vessel.lattice.y, 0.5)};
     for (int b = 0; b < 2 * vessel.cells_y; ++b) {
         for (int a = 0; a < 2 * vessel.cells_x; ++a) {
-            const Vec p{0.25 + 0.5 * a, 0.25 + 0.5 * b};
+            const Vec p = first + 0.5 * Vec{1.0 * a, 1.0 * b};
             if (vessel.liquid(vessel.to_frame(p))) {
                 places.push_back(p);
             }
@@ -60,6 +61,7 @@ Pool::Pool(const Vessel& vessel) : vessel_(vessel) {
     def.capacity.cells_y = vessel.cells_y;
     def.capacity.particles = static_cast<std::int32_t>(places.size());
     def.capacity.bodies = static_cast<std::int32_t>(vessel.walls.size());
+    def.capacity.wall_edges = vessel.wall_edges;
     def.max_substeps = 32;
     for (const Points& wall : vessel.walls) {
         def.capacity.vertices += static_cast<std::int32_t>(wall.size());

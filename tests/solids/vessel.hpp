@@ -24,6 +24,8 @@ struct Vessel {
     double tilt = 0.0;                ///< of the vessel, rad
     bool gravity_tilts = true;        ///< with it; else it points down
     std::vector<Points> walls;        ///< solids, in the vessel's frame
+    int wall_edges = 0;               ///< room for walls thinner than a cell and a half
+    Vec lattice;                      ///< a corner of the particles' lattice, in the tank
     std::function<bool(Vec)> liquid;  ///< where it stands at the start, in the vessel's frame
 
     Vec middle() const { return {0.5 * cells_x, 0.5 * cells_y}; }
@@ -35,7 +37,7 @@ struct Vessel {
 
 class Pool {
 public:
-    /// Throws if the library refuses. Particles stand on the tank's lattice, 2 × 2 a cell.
+    /// Throws if the library refuses. Particles stand on a lattice, 2 × 2 a cell.
     explicit Pool(const Vessel& vessel);
 
     void step(float dt_s = kFrame_s);
