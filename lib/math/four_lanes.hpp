@@ -56,6 +56,18 @@ struct FourLanes {
         __builtin_memcpy(first, &lanes, 2 * sizeof *first);
         __builtin_memcpy(second, &later, 2 * sizeof *second);
     }
+    /// Bytes at numbers that `sums_of_products` gave: a bit for each that is not 0, in the order of
+    /// `store_halves`.
+    static std::uint32_t set_bytes(const std::uint8_t* bytes, Ints at) {
+        std::uint32_t number[4];
+        store_halves(number, number + 2, at);
+        const auto byte = [&](std::int32_t k) { return bytes[number[k]]; };
+        if ((byte(0) | byte(1) | byte(2) | byte(3)) == 0) {
+            return 0;
+        }
+        return (byte(0) != 0 ? 1U : 0U) | (byte(1) != 0 ? 2U : 0U) | (byte(2) != 0 ? 4U : 0U) |
+               (byte(3) != 0 ? 8U : 0U);
+    }
     /// A group of a, one of b, the next of a …
     static void store_in_turn(float* to, Floats a, Floats b) {
         store_lanes(to, a);

@@ -115,6 +115,18 @@ struct EightLanes {
         store(to, __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11));
         store(to + 8, __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15));
     }
+    /// Bytes at numbers that `sums_of_products` gave: a bit for each that is not 0, in the order of
+    /// `store_halves`. Three bytes more than the last one are read.
+    static std::uint32_t set_bytes(const std::uint8_t* bytes, Ints lanes) {
+        const Ints at = __builtin_shufflevector(lanes, lanes, 0, 1, 4, 5, 2, 3, 6, 7);
+        const auto* from = reinterpret_cast<const int*>(bytes);
+#if defined(__clang__)
+        const Ints found = __builtin_ia32_gatherd_d256(Ints{}, from, at, ~Ints{}, 1);
+#else
+        const Ints found = __builtin_ia32_gathersiv8si(Ints{}, from, at, ~Ints{}, 1);
+#endif
+        return bits_of((found & 0xFF) > 0);
+    }
     template <int I, int J, int K, int L>
     static Floats shuffle(Floats a, Floats b) {
         return __builtin_shufflevector(a, b, at<I>(0), at<J>(0), at<K>(0), at<L>(0), at<I>(4),
@@ -175,11 +187,16 @@ struct EightLanes {
         return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(a));
     }
     static std::uint32_t bits_of(Ints mask) { return signs(reinterpret_cast<Floats>(mask)); }
-    static bool all_true(Ints mask) { return bits_of(mask) == 0xFF; }
-    static bool any_true(Ints mask) { return bits_of(mask) != 0; }
-    static bool any_negative(Floats a) { return signs(a) != 0; }
+    static bool all_true(Ints mask) {
+        return __builtin_ia32_vtestcps256(reinterpret_cast<Floats>(mask), true_lanes()) != 0;
+    }
+    static bool any_true(Ints mask) { return any_negative(reinterpret_cast<Floats>(mask)); }
+    static bool any_negative(Floats a) {
+        return __builtin_ia32_vtestzps256(a, true_lanes()) == 0;
+    }
 
 private:
+    static Floats true_lanes() { return reinterpret_cast<Floats>(~Ints{}); }
     /// Of four from a and four from b to eight from each.
     template <int I>
     static constexpr int at(int group) {

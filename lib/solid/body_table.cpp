@@ -94,6 +94,18 @@ void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_p
 }
 
 template <class Real>
+void note_movable(BodyTable<Real>& table) {
+    table.movable = {};
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        if (table.body[slot].kind == BodyKind::moving) {
+            const auto at = static_cast<std::int16_t>(slot);
+            table.movable.first = table.movable.end == 0 ? at : table.movable.first;
+            table.movable.end = static_cast<std::int16_t>(at + 1);
+        }
+    }
+}
+
+template <class Real>
 void place(BodyTable<Real>& table, const Body<Real>& body) {
     const Rotation<Real> turn = rotation(body.angle);
     for (std::int32_t k = 0; k < body.vertex_count; ++k) {
@@ -121,6 +133,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     gone.generation = next;
     table.vertices_used -= count;
     --table.used;
+    note_movable(table);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                             \
@@ -128,6 +141,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     template bool exists(const BodyTable<Real>&, BodyId);                                  \
     template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&);  \
     template void add_polyline(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
+    template void note_movable(BodyTable<Real>&);                                          \
     template void place(BodyTable<Real>&, const Body<Real>&);                              \
     template void remove(BodyTable<Real>&, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

@@ -55,11 +55,18 @@ static_assert(sizeof(Body<double>) <= kBodyBytes<double>, "raise kBodyBytes");
 template <class Real>
 struct BodyLoad;
 
+/// Slots first … end − 1.
+struct Slots {
+    std::int16_t first = 0;
+    std::int16_t end = 0;
+};
+
 template <class Real>
 struct BodyTable {
     Body<Real>* body = nullptr;
-    std::int32_t capacity = 0;
-    std::int32_t used = 0;          ///< bodies that exist
+    std::int16_t capacity = 0;
+    std::int16_t used = 0;          ///< bodies that exist
+    Slots movable;                  ///< steps need not go through the others
     Vec2<Real>* local = nullptr;    ///< vertices in the bodies' own frames
     Vec2<Real>* placed = nullptr;   ///< the same vertices in the tank, at the current poses
     std::uint16_t* pieces = nullptr;
@@ -101,6 +108,10 @@ bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_pe
 template <class Real>
 void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
                   Body<Real>& body);
+
+/// Finds the slots from the first body that can move to the last one.
+template <class Real>
+void note_movable(BodyTable<Real>& table);
 
 /// Turns and moves the vertices to the body's pose.
 template <class Real>

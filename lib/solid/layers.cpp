@@ -95,7 +95,7 @@ bool disturbed(const BodyTable<Real>& table, const NodeBox& drawn, const NodeBox
     if (!overlap(drawn, all)) {
         return false;
     }
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         const Body<Real>& body = table.body[slot];
         if (body.moved && (overlap(drawn, body.left) || overlap(drawn, body.drawn))) {
             return true;
@@ -106,7 +106,7 @@ bool disturbed(const BodyTable<Real>& table, const NodeBox& drawn, const NodeBox
 
 template <class Real>
 void forget_moves(BodyTable<Real>& table) {
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         table.body[slot].moved = false;
     }
 }
@@ -139,7 +139,7 @@ std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const N
     }
     restore(layers, box);
     std::int32_t nodes = 0;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         const Body<Real>& body = table.body[slot];
         const NodeBox part = common(body.drawn, box);
         if (body.kind == BodyKind::moving && !part.empty()) {
@@ -174,7 +174,7 @@ template <class Real>
 void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
     std::int32_t cells = 0;
     const auto each = [&](auto visit) {
-        for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
             const Body<Real>& body = table.body[slot];
             const NodeBox changed = stored_of(layers, unite(body.left, body.drawn));
             if (body.moved && !changed.empty()) {
@@ -301,7 +301,7 @@ std::int32_t draw_stored(Layers<Real>& layers, const BodyTable<Real>& table) {
 template <class Real>
 std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
     NodeBox all;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         Body<Real>& body = table.body[slot];
         if (body.moved) {
             body.left = body.drawn;
@@ -319,7 +319,7 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
         return 0;
     }
     std::int32_t nodes = 0;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         const Body<Real>& body = table.body[slot];
         const bool stale = body.moved || disturbed(table, body.drawn, all);
         if (body.kind == BodyKind::moving && stale && !body.drawn.empty()) {
@@ -335,7 +335,7 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
 template <class Real>
 std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table) {
     std::int64_t nodes = 0;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         const Body<Real>& body = table.body[slot];
         if (body.kind == BodyKind::moving) {
             const std::int64_t box = nodes_of_moving(layers, body);

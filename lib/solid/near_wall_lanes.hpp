@@ -35,19 +35,19 @@ inline std::int32_t find_near_wall(const std::uint8_t* cell_case, std::int32_t s
         const float* x = position + 2 * (count - L::kLanes);
         const auto cells = L::sums_of_products(L::whole(L::load(x)),
                                                L::whole(L::load(x + L::kLanes)), factors);
+        std::uint32_t set = L::set_bytes(cell_case, cells);
+        if (set == 0) {
+            continue;
+        }
         std::uint32_t cell[L::kLanes];
         L::store_halves(cell, cell + L::kLanes / 2, cells);
-        std::uint32_t any = 0;
-        L::each_group([&](auto group) {
-            const std::uint32_t* four = cell + 4 * group;
-            any |= static_cast<std::uint32_t>(cell_case[four[0]] | cell_case[four[1]] |
-                                              cell_case[four[2]] | cell_case[four[3]]);
-        });
-        for (std::int32_t k = L::kLanes; any != 0 && k-- > 0;) {
+        do {
+            const std::int32_t k = 31 - __builtin_clz(set);
+            set ^= 1U << static_cast<std::uint32_t>(k);
             near.n[near.count] = count - L::kLanes + k;
             near.cell[near.count] = cell[k];
-            near.count += cell_case[cell[k]] != 0 ? 1 : 0;
-        }
+            ++near.count;
+        } while (set != 0);
     }
     found.count = near.count;
     return count;

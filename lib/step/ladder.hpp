@@ -19,8 +19,9 @@ bool can_hold(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan)
         return false;
     }
     const auto substeps = static_cast<Real>(static_cast<std::int32_t>(plan.substeps));
-    for (std::int32_t slot = 0; slot < simulation.bodies.capacity; ++slot) {
-        const Body<Real>& body = simulation.bodies.body[slot];
+    const BodyTable<Real>& table = simulation.bodies;
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
+        const Body<Real>& body = table.body[slot];
         if (body.kind != BodyKind::moving) {
             continue;
         }

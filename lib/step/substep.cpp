@@ -26,16 +26,24 @@ namespace weir {
 
 namespace {
 
+/// Whether liquid that is viscous sticks to a body.
+template <class Real>
+bool any_without_slip(const BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        if (table.body[slot].kind != BodyKind::free && table.body[slot].surface.no_slip) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Moving bodies go where their velocities take them, or stay for no time.
 template <class Real>
-void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, bool viscous, Seconds<Real> dt_s) {
+void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s) {
     const bool held = !(dt_s > Seconds<Real>{});
     walls.moving = false;
-    walls.sticking = false;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         Body<Real>& body = table.body[slot];
-        walls.sticking = walls.sticking ||
-                         (viscous && body.kind != BodyKind::free && body.surface.no_slip);
         if (body.kind != BodyKind::moving ||
             (table.load != nullptr && table.load[slot].is_free())) {
             continue;
@@ -241,7 +249,9 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         Seconds<Real>& moved_s = simulation.walls_moved_s;
         moved_s = plan.walls_held ? Seconds<Real>{} : plan.dt_s + simulation.walls_behind_s;
         simulation.walls_behind_s = Seconds<Real>{};
-        move_bodies(simulation.bodies, simulation.layers.walls, plan.viscosity > Real(0), moved_s);
+        Walls<Real>& walls = simulation.layers.walls;
+        walls.sticking = plan.viscosity > Real(0) && any_without_slip(simulation.bodies);
+        move_bodies(simulation.bodies, walls, moved_s);
     }
     if (work.once(simulation.bodies.capacity)) {
         const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);

@@ -46,8 +46,9 @@ Real strength(Vec2<Real> gravity) {
 template <class Real>
 Real fastest(const Simulation<Real>& simulation) {
     Real speed = simulation.max_speed;
-    for (std::int32_t slot = 0; slot < simulation.bodies.capacity; ++slot) {
-        const Body<Real>& body = simulation.bodies.body[slot];
+    const BodyTable<Real>& table = simulation.bodies;
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
+        const Body<Real>& body = table.body[slot];
         if (body.kind == BodyKind::moving) {
             speed = maximum(speed, body.fastest_point());
         }

@@ -271,6 +271,7 @@ void redraw(Simulation<Real>& simulation) {
             }
         }
     }
+    note_movable(table);
     simulation.layers.walls.active = table.used > 0;
     simulation.stages = table.used > 0 ? &solid_stages<Real>() : &open_stages<Real>();
     simulation.grid.shape = simulation.layers.shape;

@@ -82,8 +82,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             on_surface, leaps, drifted, last_dt, change, sound_speed, cell_weight,
                             solve] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
-    [[maybe_unused]] auto& [body, body_capacity, used, local, placed, pieces, scratch_list, load,
-                            vertex_capacity, vertices_used] = bodies;
+    [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
+                            scratch_list, load, vertex_capacity, vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, thin, nodes, scratch] = layers;
     [[maybe_unused]] auto& [active, moving, binary, sticking, wall_bodies, distance,
                             nearest, cell_case, open_u, open_v, full_density, near, wall_body,

@@ -47,7 +47,7 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::piece_index, bodies.pieces);
     carver.take(Block::decomposition_scratch, bodies.scratch.data);
     bodies.scratch.size = static_cast<std::int32_t>(kScratchPerVertex) * capacity.vertices;
-    bodies.capacity = capacity.bodies;
+    bodies.capacity = static_cast<std::int16_t>(capacity.bodies);
     bodies.vertex_capacity = capacity.vertices;
 
     Layers<Real>& layers = simulation.layers;

@@ -124,6 +124,7 @@ template <class Real>
         return Status::no_free_wall_edge;
     }
     ++table.used;
+    note_movable(table);
     layers.walls.active = true;
     state.simulation.stages = &solid_stages<Real>();
     if (table.load != nullptr) {
