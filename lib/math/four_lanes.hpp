@@ -133,6 +133,10 @@ struct FourLanes {
     static Floats clamp(Floats a, Floats low, Floats high) { return weir::clamp(a, low, high); }
     /// A bit for each lane that is true, the lowest for lane 0.
     static std::uint32_t bits_of(Ints mask) { return weir::bits_of(mask); }
+    /// The other way round.
+    static Ints lanes_of(std::uint32_t bits) {
+        return (Ints{1, 2, 4, 8} & static_cast<std::int32_t>(bits)) != 0;
+    }
     static bool all_true(Ints mask) { return weir::all_true(mask); }
     static bool any_true(Ints mask) { return weir::any_true(mask); }
     /// A negative zero may count as one.

@@ -187,6 +187,9 @@ struct EightLanes {
         return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(a));
     }
     static std::uint32_t bits_of(Ints mask) { return signs(reinterpret_cast<Floats>(mask)); }
+    static Ints lanes_of(std::uint32_t bits) {
+        return (Ints{1, 2, 4, 8, 16, 32, 64, 128} & static_cast<std::int32_t>(bits)) != 0;
+    }
     static bool all_true(Ints mask) {
         return __builtin_ia32_vtestcps256(reinterpret_cast<Floats>(mask), true_lanes()) != 0;
     }

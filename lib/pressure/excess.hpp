@@ -1,8 +1,8 @@
 // How much too dense cells are: what the volume stage drifts away from.
 #pragma once
 
+#include "pressure/excess_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
-#include "pressure/volume_lanes.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -145,7 +145,7 @@ void find_excess(const GridShape& s, const Part& rows, const Held<Real>& held,
 }
 
 #if WEIR_HAS_LANES
-/// `find_excess_beside_walls` of some rows: 32 cells are told by a word, and done by fours.
+/// `find_excess_beside_walls` of some rows: 32 cells are told by a word.
 inline void find_excess_by_words(const GridShape& s, const Walls<float>& walls,
                                  const ExcessLimits& limits, const Part& rows,
                                  PressureFields<float>& fields) {
@@ -156,13 +156,19 @@ inline void find_excess_by_words(const GridShape& s, const Walls<float>& walls,
             const std::uint32_t here = j < rows.first ? 0U : row[k];
             const std::uint32_t right = j >= rows.first && 32 * (k + 1) < s.nx ? row[k + 1] : 0U;
             const std::uint32_t above = j + 1 < rows.end ? row[k + words] : 0U;
-            const std::uint32_t told = here | here >> 1U | right << 31U | above;
-            for (std::uint32_t left = told; left != 0;) {
-                const std::uint32_t at = static_cast<std::uint32_t>(__builtin_ctz(left)) & ~3U;
-                const std::int32_t c = s.index(32 * k + static_cast<std::int32_t>(at), j);
-                excess_beside_walls_lanes(walls, fields, s.stride, limits, c, told >> at & 15U);
-                left &= ~(15U << at);
+            std::uint32_t told = here | here >> 1U | right << 31U | above;
+            if (told == 0) {
+                continue;
             }
+            const std::int32_t c = s.index(32 * k, j);
+#if WEIR_HAS_WIDE_LANES
+            if (has_wide_lanes()) {
+                told = excess_of_word_wide(walls, fields, s.stride, limits, c, told,
+                                           s.index(s.nx, j) - 8);
+            }
+#endif
+            excess_of_word<FourLanes>(walls, fields, s.stride, limits, c, told,
+                                      s.index(s.nx, j));
         }
     }
 }

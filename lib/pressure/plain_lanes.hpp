@@ -22,6 +22,11 @@ struct RowTask {
     bool has_upper;
     std::int32_t first;         ///< cells at the tank's walls; beyond a seam it goes on
     std::int32_t last;
+    std::int32_t j;
+    /// Adds what walls that move push into cells c … to their divergence; a bit tells which are
+    /// asked for, and which have all their faces open. Null: no wall moves.
+    void (*add_flow)(const RowTask& task, std::int32_t c, std::uint32_t asked, std::uint32_t wide,
+                     float* divergence);
     bool any = false;           ///< whether there was liquid
 };
 

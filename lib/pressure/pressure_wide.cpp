@@ -2,6 +2,7 @@
 #include "math/wide_lanes.hpp"
 #include "pressure/coarse_lanes.hpp"
 #include "pressure/coarse_sweep_lanes.hpp"
+#include "pressure/excess_lanes.hpp"
 #include "pressure/plain_lanes.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/surface_lanes.hpp"
@@ -36,7 +37,7 @@ std::int32_t correct_wide(const PressureFields<float>& fields, std::int32_t stri
 }
 
 std::int32_t build_wide(RowTask& task, std::int32_t c, std::int32_t end) {
-    while (c + 8 <= end && build_group<EightLanes>(task, c, NoFlow{})) {
+    while (c + 8 <= end && build_group<EightLanes>(task, c)) {
         c += 8;
     }
     return c;
@@ -67,6 +68,12 @@ std::int32_t fill_wide(const DimpleTask& task, std::int32_t c, std::int32_t end)
 std::int32_t excess_wide(const PressureFields<float>& f, std::int32_t stride,
                          const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
     return excess_cells<EightLanes>(f, stride, limits, c, end);
+}
+
+std::uint32_t excess_of_word_wide(const Walls<float>& walls, const PressureFields<float>& f,
+                                  std::int32_t stride, const ExcessLimits& limits, std::int32_t c,
+                                  std::uint32_t told, std::int32_t last) {
+    return excess_of_word<EightLanes>(walls, f, stride, limits, c, told, last);
 }
 
 std::uint32_t means_wide(const PressureFields<float>& f, const PatchLimits& limits,

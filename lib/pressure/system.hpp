@@ -176,34 +176,25 @@ void build_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
 
 #if WEIR_HAS_LANES
 
-/// Adds what moving walls push into the cells of row j.
-template <bool Solids>
-struct WallFlow {
-    static constexpr bool kAsks = true;
-    const GridShape& s;
-    const Walls<float>& walls;
-    std::int32_t j;
-
-    void operator()([[maybe_unused]] std::int32_t c, [[maybe_unused]] Lanes& flow,
-                    [[maybe_unused]] LaneMask wet, [[maybe_unused]] LaneMask wide) const {
-        if constexpr (Solids) {
-            for (std::int32_t k = 0; walls.moving && k < 4; ++k) {
-                if (wet[k] != 0 && (wide[k] == 0 || touches_wall(walls, c + k))) {
-                    flow[k] += wall_flow(s, walls, c + k - s.index(0, j), j);
-                }
-            }
+/// As RowTask::add_flow.
+inline void add_wall_flow(const RowTask& task, std::int32_t c, std::uint32_t asked,
+                          std::uint32_t wide, float* divergence) {
+    const GridShape& s = task.grid.shape;
+    const Walls<float>& walls = *task.walls;
+    for (; asked != 0; asked &= asked - 1U) {
+        const std::int32_t k = __builtin_ctz(asked);
+        if ((wide >> static_cast<std::uint32_t>(k) & 1U) == 0 || touches_wall(walls, c + k)) {
+            divergence[k] += wall_flow(s, walls, c + k - s.index(0, task.j), task.j);
         }
     }
-};
+}
 
-/// Cells of row j, four or eight at a time; returns the next one to do. one_by_one(i, end) does
+/// Cells of a row, four or eight at a time; returns the next one to do. one_by_one(i, end) does
 /// others.
-template <bool Solids, class OneByOne>
-std::int32_t build_in_lanes(const FaceWeights<Solids, false, float>& weights, std::int32_t j,
-                            RowTask& task, const OneByOne& one_by_one) {
-    const GridShape& s = weights.grid.shape;
-    const std::int32_t row = s.index(0, j);
-    const WallFlow<Solids> add_flow{s, weights.walls, j};
+template <class OneByOne>
+std::int32_t build_in_lanes(RowTask& task, const OneByOne& one_by_one) {
+    const GridShape& s = task.grid.shape;
+    const std::int32_t row = s.index(0, task.j);
     std::int32_t i = 0;
     while (i + 4 <= s.nx) {
 #if WEIR_HAS_WIDE_LANES
@@ -212,7 +203,7 @@ std::int32_t build_in_lanes(const FaceWeights<Solids, false, float>& weights, st
         }
 #endif
         for (const std::int32_t end = i + 8; i < end && i + 4 <= s.nx; i += 4) {
-            if (!build_group<FourLanes>(task, row + i, add_flow)) {
+            if (!build_group<FourLanes>(task, row + i)) {
                 one_by_one(i, i + 4);
             }
         }
@@ -278,8 +269,11 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
         const bool seam = weights.borders.wrap_x;
         RowTask task{weights.grid, Solids ? &weights.walls : nullptr, fields, leap, system,
                      weights.has_lower(j), weights.has_upper(j), seam ? -1 : s.index(0, j),
-                     seam ? kMostWork : s.index(s.nx - 1, j)};
-        i = build_in_lanes(weights, j, task, one_by_one);
+                     seam ? kMostWork : s.index(s.nx - 1, j), j, nullptr};
+        if constexpr (Solids) {
+            task.add_flow = weights.walls.moving ? add_wall_flow : nullptr;
+        }
+        i = build_in_lanes(task, one_by_one);
         note_liquid(task.any, j, system);
     }
 #endif

@@ -35,17 +35,9 @@ inline Floats fraction_between(Lever lever, Floats a, Floats b, Floats open) {
     return L::clamp(fraction, least, L::all(kLargestFraction<float>));
 }
 
-/// Of moving walls none push into cells, or they are not asked.
-struct NoFlow {
-    static constexpr bool kAsks = false;
-    template <class... Whatever>
-    void operator()(const Whatever&...) const {}
-};
-
-/// The equations of cells of any kind. add_flow(c, divergence, which are wet, which have all their
-/// faces open) adds what moving walls push into them. False: the start is no number.
-template <class L, class Flow>
-inline bool build_any(RowTask& task, std::int32_t c, const Flow& add_flow) {
+/// The equations of cells of any kind. False: the start is no number.
+template <class L>
+inline bool build_any(RowTask& task, std::int32_t c) {
     using Floats = typename L::Floats;
     const StaggeredGrid<float>& grid = task.grid;
     PressureFields<float>& fields = task.fields;
@@ -93,7 +85,12 @@ inline bool build_any(RowTask& task, std::int32_t c, const Flow& add_flow) {
         const auto wanted = divergence + wanted_convergence_lanes<L>(grid, c, task.leap);
         divergence = straight ? wanted : divergence;
     }
-    add_flow(c, divergence, wet, wide);
+    if (task.add_flow != nullptr) {
+        float flow[L::kLanes];
+        L::store(flow, divergence);
+        task.add_flow(task, c, L::bits_of(wet), L::bits_of(wide), flow);
+        divergence = L::load(flow);
+    }
     const auto start = wet ? scaled : zero;
     L::store(fields.divergence + c, wet ? divergence : L::load(fields.divergence + c));
     L::store(fields.inverse_diagonal + c,
@@ -106,8 +103,8 @@ inline bool build_any(RowTask& task, std::int32_t c, const Flow& add_flow) {
 }
 
 /// Equations of some cells from c on. False: they are to be done otherwise.
-template <class L, class Flow>
-inline bool build_group(RowTask& task, std::int32_t c, const Flow& add_flow) {
+template <class L>
+inline bool build_group(RowTask& task, std::int32_t c) {
     PressureFields<float>& fields = task.fields;
     const std::int32_t stride = task.grid.shape.stride;
     const auto zero = L::all(0.0F);
@@ -119,17 +116,10 @@ inline bool build_group(RowTask& task, std::int32_t c, const Flow& add_flow) {
     const bool alike = task.has_lower && task.has_upper && c > task.first &&
                        c + L::kLanes - 1 < task.last &&
                        L::all_true(lowest_around<L>(fields.level, stride, c) > zero);
-    const bool pushed = task.walls != nullptr && task.walls->moving && !Flow::kAsks;
-    if (alike || pushed) {
-        if (task.walls == nullptr || are_untouched<L>(*task.walls, stride, c)) {
-            if (alike) {
-                return build_plain<L>(task, c);
-            }
-        } else if (pushed) {
-            return false;
-        }
+    if (alike && (task.walls == nullptr || are_untouched<L>(*task.walls, stride, c))) {
+        return build_plain<L>(task, c);
     }
-    return !fields.on_surface && build_any<L>(task, c, add_flow);
+    return !fields.on_surface && build_any<L>(task, c);
 }
 
 /// Takes pᵀ(neighbours of p) from `there`, cells c … as long as enough are left before `end`.

@@ -8,16 +8,6 @@
 
 namespace weir {
 
-/// What the excess of a cell is cut to.
-struct ExcessLimits {
-    float surface_slack;
-    float subsurface_slack;
-    float window;
-    bool exact_below;    ///< no allowance below the surface
-    float held_at_rest;  ///< as `Held`
-    float held_rise;
-};
-
 /// What the excess of cells and of patches is cut to, and of what a patch is overfull.
 struct PatchLimits {
     float cell_window;
@@ -41,86 +31,6 @@ inline Real in_turn(const Real (&column)[kCoarseEdge]) {
 }
 
 #if WEIR_HAS_LANES
-
-/// As `excess`; `lowest`: level of the lowest cell next to each.
-template <class L>
-inline typename L::Floats excess_of_cells(const PressureFields<float>& f,
-                                          const ExcessLimits& limits, std::int32_t c,
-                                          typename L::Floats lowest) {
-    const auto zero = L::all(0.0F);
-    const auto one = L::all(1.0F);
-    const auto slack = L::all(limits.subsurface_slack);
-    const auto window = L::all(limits.window);
-    const auto e = L::load(f.density + c) - one;
-    const auto inner = (L::load(f.level + c) > zero) & (lowest > zero);
-    const auto at_surface = L::clamp(e - L::all(limits.surface_slack), zero, window);
-    auto inside = e;
-    const auto missing = L::all(0.5F) - (lowest + L::all(least_head(f)));
-    const auto below = missing > zero;
-    if (!limits.exact_below && L::any_true(inner & below)) {
-        const auto more = e + L::all(0.125F) * missing * missing;
-        inside = below ? more - L::clamp(more, -slack, slack) : e;
-    }
-    const auto rise = L::all(limits.held_rise) * L::load(f.pressure + c);
-    const auto share = L::clamp(L::all(limits.held_at_rest) + rise, zero, one);
-    inside = inside < zero ? share * inside : inside;
-    return inner ? L::clamp(inside, -window, window) : at_surface;
-}
-
-/// Of cells c, c + 1 … as long as enough are left before `end`; returns the next one to do.
-template <class L>
-inline std::int32_t excess_cells(const PressureFields<float>& f, std::int32_t stride,
-                                 const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
-    for (; c + L::kLanes <= end; c += L::kLanes) {
-        const auto lowest =
-            L::minimum(L::minimum(L::load(f.level + c - 1), L::load(f.level + c + 1)),
-                       L::minimum(L::load(f.level + c - stride), L::load(f.level + c + stride)));
-        L::store(f.divergence + c, excess_of_cells<L>(f, limits, c, lowest));
-    }
-    return c;
-}
-
-/// Of those of four cells beside closed faces that a bit tells, if they are liquid.
-inline void excess_beside_walls_lanes(const Walls<float>& walls, const PressureFields<float>& f,
-                                      std::int32_t stride, const ExcessLimits& limits,
-                                      std::int32_t c, std::uint32_t bits) {
-    const auto told = static_cast<std::int32_t>(bits);
-    const Lanes level = load_lanes(f.level + c);
-    const LaneMask wet = (level > all_lanes(0.0F)) & ((LaneMask{1, 2, 4, 8} & told) != 0);
-    if (!any_true(wet)) {
-        return;
-    }
-    Lanes lowest = level;
-    const auto look = [&](const float* open, std::int32_t neighbour) {
-        lowest = load_lanes(open) > all_lanes(0.0F)
-                     ? minimum(lowest, load_lanes(f.level + neighbour))
-                     : lowest;
-    };
-    look(walls.open_u + c, c - 1);
-    look(walls.open_u + c + 1, c + 1);
-    look(walls.open_v + c, c - stride);
-    look(walls.open_v + c + stride, c + stride);
-    const Lanes e = excess_of_cells<FourLanes>(f, limits, c, lowest);
-    const Lanes slack = all_lanes(limits.subsurface_slack);
-    const Lanes room = minimum(all_lanes(1.0F), load_lanes(walls.full_density + c));
-    const Lanes counts = (e - clamp(e, -slack, slack)) * room;
-    store_lanes(f.divergence + c, wet ? counts : load_lanes(f.divergence + c));
-}
-
-#if WEIR_HAS_WIDE_LANES
-std::int32_t excess_wide(const PressureFields<float>& f, std::int32_t stride,
-                         const ExcessLimits& limits, std::int32_t c, std::int32_t end);
-#endif
-
-inline std::int32_t excess_lanes(const PressureFields<float>& f, std::int32_t stride,
-                                 const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = excess_wide(f, stride, limits, c, end);
-    }
-#endif
-    return excess_cells<FourLanes>(f, stride, limits, c, end);
-}
 
 /// Mean excess of as many patches as there are lanes, four cells wide, from cell c on; 0 in air.
 /// `most` takes the largest excess of each, either way; `overfull` grows as that of `average`. A
