@@ -78,7 +78,14 @@ void keep_row_order(const Part& rows, ArrayView<std::int32_t> scratch,
     }
 }
 
+template <class Real>
+const detail::RowOrder<Real>& detail::row_order() {
+    static constexpr RowOrder<Real> kStage{keep_row_order<Real>};
+    return kStage;
+}
+
 #define WEIR_INSTANTIATE(Real) \
+    template const detail::RowOrder<Real>& detail::row_order<Real>();\
     template void keep_row_order(const Part&, ArrayView<std::int32_t>, Particles<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

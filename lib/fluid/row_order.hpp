@@ -4,6 +4,7 @@
 
 #include "base/array_view.hpp"
 #include "fluid/particles.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -16,5 +17,10 @@ namespace weir {
 template <class Real>
 void keep_row_order(const Part& rows, ArrayView<std::int32_t> scratch,
                     Particles<Real>& particles);
+
+template <class Real>
+struct detail::RowOrder {
+    void (*keep)(const Part& rows, ArrayView<std::int32_t> scratch, Particles<Real>& particles);
+};
 
 }  // namespace weir

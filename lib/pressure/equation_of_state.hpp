@@ -3,6 +3,7 @@
 
 #include "pressure/face_weights.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -35,5 +36,16 @@ void compress(const Borders<Real>& borders, const GridShape& shape, PressureFiel
 /// When all have read the pressure: takes the viscosity out of it again.
 template <class Real>
 void release_pressure(const GridShape& shape, PressureFields<Real>& fields, Work work);
+
+/// All of it: a program whose definition asks for no equation of state does not link this file.
+template <class Real>
+struct detail::Elasticity {
+    void (*follow_sound)(Real sound_speed, PressureFields<Real>& fields);
+    void (*carry_pressure)(const OpenWeights<Real>& weights, PressureFields<Real>& fields,
+                           Work work);
+    void (*compress)(const Borders<Real>& borders, const GridShape& shape,
+                     PressureFields<Real>& fields, Work work);
+    void (*release_pressure)(const GridShape& shape, PressureFields<Real>& fields, Work work);
+};
 
 }  // namespace weir

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "grid/staggered_grid.hpp"
+#include "weir/features.hpp"
 #include "weir/memory.hpp"
 
 namespace weir {
@@ -61,6 +62,8 @@ struct PressureFields {
     /// Pressure under a cell of still liquid, and what gravity makes of a velocity in the step.
     Real cell_weight = Real(0);
     Solve<Real> solve = {};
+    const detail::Elasticity<Real>* elasticity = nullptr;       ///< null: incompressible
+    const detail::SecondLiquid<Real>* second_liquid = nullptr;  ///< null: there is one
 };
 
 /// Where the surface is nearer to a cell's centre, it counts as so near, cells: below a twentieth

@@ -252,9 +252,9 @@ void advance(const Borders<Real>& borders, const Walls<Real>& walls,
     StaggeredGrid<Real> before = grid;
     before.u = grid.mass_u;
     before.v = grid.mass_v;
-    carry_pressure(OpenWeights<Real>{before, borders, walls}, fields, work);
+    fields.elasticity->carry_pressure({before, borders, walls}, fields, work);
     build(FaceWeights<Solids, Mixed, Real>{before, borders, walls}, fields, work);
-    compress(borders, grid.shape, fields, work);
+    fields.elasticity->compress(borders, grid.shape, fields, work);
 }
 
 /// The pressure of an incompressible liquid, as near as so many sweeps bring it.
@@ -300,7 +300,7 @@ void solve_and_project(const Borders<Real>& borders, const Walls<Real>& walls,
                        StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work) {
     const GridShape& s = grid.shape;
     const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
-    if (fields.sound_speed > Real(0)) {
+    if (fields.elasticity != nullptr) {
         advance<Solids, Mixed>(borders, walls, grid, fields, work);
     } else {
         solve<Solids, Mixed>(borders, walls, sweeps, coupled, grid, fields, work);
@@ -314,20 +314,14 @@ void solve_and_project(const Borders<Real>& borders, const Walls<Real>& walls,
     });
 }
 
-/// What a solve starts from.
-template <class Real>
-Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Real>& fields) {
-    const bool cold = !(fields.last_dt > Seconds<Real>{});
-    // A much longer step than the last starts from less than the last pressure would suggest.
-    const Real rescale =
-        cold ? Real(0) : minimum(fields.change * (dt_s / fields.last_dt), Real(16));
-    fields.change = Real(1);
-    fields.last_dt = dt_s;
-    Solve<Real> solve;
-    solve.first_row = rows;
-    solve.cycles = cold ? kColdStart : 1;
-    solve.rescale = rescale;
-    return solve;
+/// Packed worlds have one liquid.
+template <bool Solids, class Real>
+constexpr typename detail::SecondLiquid<Real>::Solver two_liquids() {
+    if constexpr (Stored<Real>::shares_momentum) {
+        return nullptr;
+    } else {
+        return solve_and_project<Solids, true, Real>;
+    }
 }
 
 template <bool Solids, class Real>
@@ -343,10 +337,8 @@ void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls,
         extend_velocity(borders, grid.shape, grid.mass_u, grid.mass_v);
     }
     auto solver = solve_and_project<Solids, false, Real>;
-    if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
-        if (grid.inverse_density_u != nullptr) {
-            solver = solve_and_project<Solids, true, Real>;
-        }
+    if (fields.second_liquid != nullptr) {
+        solver = Solids ? fields.second_liquid->among_solids : fields.second_liquid->in_open;
     }
     solver(borders, walls, sweeps, coupled, grid, fields, work);
 }
@@ -369,7 +361,22 @@ void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
     make_incompressible<false, Real>(borders, walls, dt_s, sweeps, grid, fields, nullptr, work);
 }
 
+template <class Real>
+const detail::SecondLiquid<Real>& detail::second_liquid_in_open() {
+    static constexpr SecondLiquid<Real> kSolvers{two_liquids<false, Real>(), nullptr};
+    return kSolvers;
+}
+
+template <class Real>
+const detail::SecondLiquid<Real>& detail::second_liquid_among_solids() {
+    static constexpr SecondLiquid<Real> kSolvers{two_liquids<false, Real>(),
+                                                 two_liquids<true, Real>()};
+    return kSolvers;
+}
+
 #define WEIR_INSTANTIATE(Real)                                                                \
+    template const detail::SecondLiquid<Real>& detail::second_liquid_in_open<Real>();         \
+    template const detail::SecondLiquid<Real>& detail::second_liquid_among_solids<Real>();    \
     template void projection(const Borders<Real>&, const Walls<Real>&, Seconds<Real>,         \
                              std::int32_t, StaggeredGrid<Real>&, PressureFields<Real>&,       \
                              const CoupledSolve<Real>*, Work);                                \

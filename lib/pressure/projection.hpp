@@ -5,6 +5,7 @@
 #include "math/packed_arithmetic.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/free_body.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -18,7 +19,7 @@ inline constexpr std::int32_t kColdStart = 8;
 /// density that the grid holds. Starts from the last pressure, makes one correction on a coarse
 /// grid and then `sweeps` red-black relaxations, no more and no less: time is bounded, the result
 /// is the same on every machine. Cost: about 10 operations a liquid cell and sweep.
-/// Compressible liquid (`fields.sound_speed`) is not solved for: its pressure moves on by a step of
+/// Compressible liquid (`fields.elasticity`) is not solved for: its pressure moves on by a step of
 /// the equation of state. `coupled`: free bodies that are solved for together with the pressure,
 /// or null.
 template <class Real>
@@ -37,6 +38,16 @@ template <class Real>
 inline Real width_of(Real open) {
     return minimum(Real(1), Real(4) * open);
 }
+
+/// The same with two liquids: a program whose definition has room for one links nothing of it.
+template <class Real>
+struct detail::SecondLiquid {
+    using Solver = void (*)(const Borders<Real>& borders, const Walls<Real>& walls,
+                            std::int32_t sweeps, const CoupledSolve<Real>* coupled,
+                            StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work);
+    Solver in_open;
+    Solver among_solids;  ///< null: there is room for none
+};
 
 /// Way from a liquid cell's centre to the surface, over that to its air neighbour's centre. The
 /// face between them answers to the pressure by its inverse.

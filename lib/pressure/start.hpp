@@ -86,4 +86,20 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     }
 }
 
+/// What a solve starts from.
+template <class Real>
+Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Real>& fields) {
+    const bool cold = !(fields.last_dt > Seconds<Real>{});
+    // A much longer step than the last starts from less than the last pressure would suggest.
+    const Real rescale =
+        cold ? Real(0) : minimum(fields.change * (dt_s / fields.last_dt), Real(16));
+    fields.change = Real(1);
+    fields.last_dt = dt_s;
+    Solve<Real> solve;
+    solve.first_row = rows;
+    solve.cycles = cold ? kColdStart : 1;
+    solve.rescale = rescale;
+    return solve;
+}
+
 }  // namespace weir

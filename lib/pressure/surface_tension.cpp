@@ -110,7 +110,14 @@ void surface_tension(const GridShape& s, const Borders<Real>& borders, const Wal
     }
 }
 
+template <class Real>
+const detail::Tension<Real>& detail::tension() {
+    static constexpr Tension<Real> kStage{surface_tension<Real>};
+    return kStage;
+}
+
 #define WEIR_INSTANTIATE(Real)                                                                \
+    template const detail::Tension<Real>& detail::tension<Real>();                            \
     template void surface_tension(const GridShape&, const Borders<Real>&, const Walls<Real>&, \
                                   Real, PressureFields<Real>&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

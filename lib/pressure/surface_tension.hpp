@@ -5,6 +5,7 @@
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -20,5 +21,11 @@ template <class Real>
 void surface_tension(const GridShape& shape, const Borders<Real>& borders,
                      const Walls<Real>& walls, Real amount, PressureFields<Real>& fields,
                      Work work = {});
+
+template <class Real>
+struct detail::Tension {
+    void (*stage)(const GridShape& shape, const Borders<Real>& borders, const Walls<Real>& walls,
+                  Real amount, PressureFields<Real>& fields, Work work);
+};
 
 }  // namespace weir

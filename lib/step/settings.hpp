@@ -20,9 +20,6 @@ struct Settings {
     Real cfl = Real(1);          ///< cells per substep
     std::int16_t sweeps = 6;
     std::int16_t max_substeps = 16;
-    Pressure pressure = Pressure::projection;
-    Contour contour = Contour::interpolated;
-    bool keep_sorted = false;
 };
 
 }  // namespace weir

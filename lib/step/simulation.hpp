@@ -8,6 +8,7 @@
 #include "solid/free_body.hpp"
 #include "solid/layers.hpp"
 #include "step/settings.hpp"
+#include "weir/features.hpp"
 #include "weir/report.hpp"
 
 namespace weir {
@@ -52,6 +53,11 @@ struct Simulation {
     TickFunction ticks = nullptr;
     const Stages<Real>* stages = nullptr;
     Regions<Real>* regions = nullptr;  ///< null: the world sleeps as a whole (step/regions.hpp)
+    // Null: the definition does without.
+    const detail::RowOrder<Real>* row_order = nullptr;
+    const detail::Tension<Real>* tension = nullptr;
+    const detail::TwoWay<Real>* two_way = nullptr;
+    const detail::Viscosity<Real>* viscosity = nullptr;
 };
 
 template <class Real>

@@ -61,34 +61,37 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s)
     }
 }
 
-template <class Real>
-bool is_elastic(const Simulation<Real>& simulation) {
-    return simulation.settings.pressure == Pressure::equation_of_state;
-}
-
 template <bool Solids, class Real>
 void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     const Settings<Real>& settings = simulation.settings;
     const Walls<Real>& walls = simulation.layers.walls;
-    const bool elastic = is_elastic(simulation);
+    const detail::Elasticity<Real>* elasticity = simulation.pressure.elasticity;
     if (work.once(1)) {
         const Vec2<Real> g = settings.gravity;
         simulation.pressure.cell_weight = plan.dt_s * maximum(absolute(g.x), absolute(g.y));
-        if (elastic) {
-            follow_sound(plan.sound_speed, simulation.pressure);
+        if (elasticity != nullptr) {
+            elasticity->follow_sound(plan.sound_speed, simulation.pressure);
         }
     }
     if constexpr (!Stored<Real>::coarse) {  // packed worlds have no tension
         if (plan.surface_tension > Real(0)) {
-            surface_tension(simulation.grid.shape, settings.borders, walls,
-                            plan.surface_tension * plan.dt_s, simulation.pressure, work);
+            simulation.tension->stage(simulation.grid.shape, settings.borders, walls,
+                                               plan.surface_tension * plan.dt_s,
+                                               simulation.pressure, work);
         }
     }
     if constexpr (Solids) {
-        const CoupledSolve<Real> coupled = coupled_solve(simulation, plan.dt_s);
-        const bool yields = simulation.free_bodies != nullptr && !elastic;
-        projection(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
-                   simulation.pressure, yields ? &coupled : nullptr, work);
+        const auto solve = [&](const CoupledSolve<Real>* coupled) {
+            projection(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
+                       simulation.pressure, coupled, work);
+        };
+        if (simulation.free_bodies != nullptr && elasticity == nullptr) {
+            const CoupledSolve<Real> coupled = simulation.two_way->coupled_solve(simulation,
+                                                                                 plan.dt_s);
+            solve(&coupled);
+        } else {
+            solve(nullptr);
+        }
     } else {
         projection_in_open(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
                            simulation.pressure, work);
@@ -228,16 +231,17 @@ template <class Real>
 void order_particles(Simulation<Real>& simulation, Work work) {
     constexpr std::int32_t kFields =
         Stored<Real>::shares_momentum ? kCoarseFieldsPacked : kCoarseFields;
-    if (simulation.settings.keep_sorted && work.once(2 * simulation.particles.count)) {
+    const detail::RowOrder<Real>* order = simulation.row_order;
+    if (order != nullptr && work.once(2 * simulation.particles.count)) {
         // The coarse grid is not in use before the pressure.
         const CoarseGrid<Real>& coarse = simulation.pressure.coarse;
         const std::int32_t rows = coarse_cells(stored_part(simulation).ny) + 2;
         const auto row_of = [](PositionOf<Real> y) { return static_cast<std::int32_t>(Real(y)); };
         const Extent<Real>& extent = simulation.extent;
-        keep_row_order({row_of(extent.low.y), row_of(extent.high.y) + 1},
-                       {reinterpret_cast<std::int32_t*>(coarse.correction),
-                        kFields * coarse.shape.stride * rows},
-                       simulation.particles);
+        order->keep({row_of(extent.low.y), row_of(extent.high.y) + 1},
+                    {reinterpret_cast<std::int32_t*>(coarse.correction),
+                     kFields * coarse.shape.stride * rows},
+                    simulation.particles);
     }
 }
 
@@ -280,12 +284,12 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     skip_asleep(simulation, plan, work);
     skip_empty(simulation, work);
     order_particles(simulation, work);
-    const bool two_way = simulation.bodies.load != nullptr;
-    if (kHasLedger<Real> && two_way) {
-        open_ledger(simulation, work);
+    const detail::TwoWay<Real>* two_way = simulation.two_way;
+    if (kHasLedger<Real> && two_way != nullptr) {
+        two_way->open_ledger(simulation, work);
     }
-    if (Solids && two_way && work.once(simulation.bodies.capacity)) {
-        accelerate_bodies(simulation, dt_s);
+    if (Solids && two_way != nullptr && work.once(simulation.bodies.capacity)) {
+        two_way->accelerate_bodies(simulation, dt_s);
     }
     report.particles_crowded += particle_to_grid(simulation.particles, settings.borders,
                                                  settings.second_density, grid, thin, work);
@@ -294,23 +298,22 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     find_surface(simulation, plan, work);
     grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid, work);
     if (plan.viscosity > Real(0)) {
-        Impulse<Real>* tank = two_way ? &tank_received(simulation.bodies) : nullptr;
-        const auto stage = Solids ? diffuse_velocity<Real> : diffuse_velocity_in_open<Real>;
-        stage(settings.borders, walls, simulation.pressure, plan.viscosity * dt_s, grid, tank,
-              work);
+        Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
+        simulation.viscosity->diffuse(settings.borders, walls, simulation.pressure,
+                                               plan.viscosity * dt_s, grid, tank, work);
     }
     clock.charge(Stage::grid_update);
 
     solve_pressure<Solids>(simulation, plan, work);
-    if (two_way && work.once(grid.shape.size())) {
+    if (two_way != nullptr && work.once(grid.shape.size())) {
         if constexpr (Solids) {
-            press_bodies(simulation, dt_s, report);
+            two_way->press_bodies(simulation, dt_s, report);
         } else {
-            press_tank(simulation, dt_s);
+            two_way->press_tank(simulation, dt_s);
         }
     }
-    if (is_elastic(simulation)) {
-        release_pressure(grid.shape, simulation.pressure, work);
+    if (simulation.pressure.elasticity != nullptr) {
+        simulation.pressure.elasticity->release_pressure(grid.shape, simulation.pressure, work);
     }
     fill_borders<Solids>(simulation, work);
     clock.charge(Stage::pressure);
@@ -324,9 +327,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     }
     clock.charge(Stage::volume);
 
-    if (Solids && two_way && work.once(simulation.bodies.vertices_used + 1)) {
+    if (Solids && two_way != nullptr && work.once(simulation.bodies.vertices_used + 1)) {
         const std::int32_t before = report.nodes_rasterized;
-        move_free_bodies(simulation, dt_s, report);
+        two_way->move_bodies(simulation, dt_s, report);
         work.spend(report.nodes_rasterized - before);
         clock.charge(Stage::contour);
     }
@@ -337,8 +340,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
             clock.charge(Stage::grid_to_particle);
         }
     }
-    if (kHasLedger<Real> && two_way) {
-        close_ledger(simulation, dt_s, work);
+    if (kHasLedger<Real> && two_way != nullptr) {
+        two_way->close_ledger(simulation, dt_s, work);
         clock.charge(Stage::collide);
     }
     watch_asleep(simulation, work, clock, report);

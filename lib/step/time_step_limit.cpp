@@ -79,6 +79,7 @@ Seconds<Real> longest_step(const Settings<Real>& settings) {
 template <class Real>
 SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const Settings<Real>& settings = simulation.settings;
+    const bool elastic = simulation.pressure.elasticity != nullptr;
     const Real gravity = strength(settings.gravity);
     const Real speed = fastest(simulation);
     const std::int32_t most = settings.max_substeps;
@@ -89,7 +90,7 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     const Real last = simulation.pressure.sound_speed;
     plan.sound_speed = last > Real(0) ? minimum(settings.sound_speed, kSoundRecovery<Real> * last)
                                       : settings.sound_speed;
-    if (settings.pressure == Pressure::equation_of_state) {
+    if (elastic) {
         const Real waves = (settings.sound_speed + speed) * dt_s / kSoundCfl<Real>;
         wanted = maximum(wanted, at_least(waves, most));
     }
@@ -104,7 +105,7 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     plan.substeps = static_cast<std::int16_t>(minimum(wanted, most));
     plan.sweeps = settings.sweeps;
     plan.dt_s = part_of(dt_s, plan.substeps);
-    if (settings.pressure == Pressure::equation_of_state && wanted > most) {
+    if (elastic && wanted > most) {
         plan.sound_speed = minimum(plan.sound_speed,
                                    softened(kSoundCfl<Real> / plan.dt_s, speed + gravity * dt_s));
     }

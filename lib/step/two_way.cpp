@@ -1,5 +1,7 @@
 #include "step/two_way.hpp"
 
+#include "step/momentum_ledger.hpp"
+
 namespace weir {
 
 namespace {
@@ -46,8 +48,6 @@ PressedCells<Real> pressed_cells(const Simulation<Real>& simulation, Seconds<Rea
             dt_s * simulation.settings.gravity};
 }
 
-}  // namespace
-
 template <class Real>
 void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s) {
     locate_bodies(simulation.bodies);
@@ -56,22 +56,6 @@ void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s) {
         simulation.free_bodies->accelerate(simulation.layers.shape, simulation.settings.borders,
                                            simulation.bodies, simulation.settings.gravity, dt_s);
     }
-}
-
-template <class Real>
-CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
-    const PressureFields<Real>& fields = simulation.pressure;
-    const StaggeredGrid<Real>& grid = simulation.grid;
-    return {simulation.free_bodies,
-            grid.shape,
-            simulation.layers.walls,
-            grid.inverse_density_u,
-            grid.inverse_density_v,
-            pressed_cells(simulation, dt_s),
-            fields.pressure,
-            fields.divergence,
-            fields.inverse_diagonal,
-            simulation.body_diagonal};
 }
 
 template <class Real>
@@ -100,12 +84,62 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
     locate_bodies(simulation.bodies);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                         \
-    template void accelerate_bodies(Simulation<Real>&, Seconds<Real>);                 \
-    template CoupledSolve<Real> coupled_solve(const Simulation<Real>&, Seconds<Real>); \
-    template void press_tank(Simulation<Real>&, Seconds<Real>);                        \
-    template void press_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);         \
-    template void move_free_bodies(Simulation<Real>&, Seconds<Real>, StepReport&);
+template <class Real>
+CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
+    const PressureFields<Real>& fields = simulation.pressure;
+    const StaggeredGrid<Real>& grid = simulation.grid;
+    return {simulation.free_bodies,
+            grid.shape,
+            simulation.layers.walls,
+            grid.inverse_density_u,
+            grid.inverse_density_v,
+            pressed_cells(simulation, dt_s),
+            fields.pressure,
+            fields.divergence,
+            fields.inverse_diagonal,
+            simulation.body_diagonal};
+}
+
+/// Packed worlds keep no ledger.
+template <class Real>
+constexpr auto ledger_opener() {
+    if constexpr (kHasLedger<Real>) {
+        return open_ledger<Real>;
+    } else {
+        return nullptr;
+    }
+}
+template <class Real>
+constexpr auto ledger_closer() {
+    if constexpr (kHasLedger<Real>) {
+        return close_ledger<Real>;
+    } else {
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+template <class Real>
+const detail::TwoWay<Real>& detail::two_way_in_open() {
+    static constexpr TwoWay<Real> kStages{ledger_opener<Real>(), press_tank<Real>,
+                                          ledger_closer<Real>(), nullptr, nullptr, nullptr,
+                                          nullptr};
+    return kStages;
+}
+
+template <class Real>
+const detail::TwoWay<Real>& detail::two_way_among_solids() {
+    static constexpr TwoWay<Real> kStages{ledger_opener<Real>(), press_tank<Real>,
+                                          ledger_closer<Real>(), accelerate_bodies<Real>,
+                                          coupled_solve<Real>,   press_bodies<Real>,
+                                          move_free_bodies<Real>};
+    return kStages;
+}
+
+#define WEIR_INSTANTIATE(Real)                                                 \
+    template const detail::TwoWay<Real>& detail::two_way_in_open<Real>();      \
+    template const detail::TwoWay<Real>& detail::two_way_among_solids<Real>();
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

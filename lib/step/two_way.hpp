@@ -3,28 +3,30 @@
 #pragma once
 
 #include "step/simulation.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
-/// Before the pressure: free bodies take up gravity and blows.
+/// What a substep does for it; those of bodies are null where there is no room for any, those of
+/// the ledger in packed worlds.
 template <class Real>
-void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s);
+struct detail::TwoWay {
+    /// At the top (step/momentum_ledger.hpp).
+    void (*open_ledger)(Simulation<Real>& simulation, Work work);
+    /// After the pressure, where there are no bodies: its impulse on the tank.
+    void (*press_tank)(Simulation<Real>& simulation, Seconds<Real> dt_s);
+    /// At the end.
+    void (*close_ledger)(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work);
 
-/// The pressure solve, as free bodies share in it.
-template <class Real>
-CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Real> dt_s);
-
-/// After the pressure, where there are no bodies: its impulse on the tank.
-template <class Real>
-void press_tank(Simulation<Real>& simulation, Seconds<Real> dt_s);
-
-/// After the pressure: its impulse on the tank and on all bodies, and the velocity that free
-/// ones get of it.
-template <class Real>
-void press_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
-
-/// Free bodies go on, before the particles do, which meet them where they then are.
-template <class Real>
-void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
+    /// Before the pressure: free bodies take up gravity and blows.
+    void (*accelerate_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s);
+    /// The pressure solve, as free bodies share in it.
+    CoupledSolve<Real> (*coupled_solve)(const Simulation<Real>& simulation, Seconds<Real> dt_s);
+    /// After the pressure: its impulse on the tank and on all bodies, and the velocity that free
+    /// ones get of it.
+    void (*press_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
+    /// Free bodies go on, before the particles do, which meet them where they then are.
+    void (*move_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
+};
 
 }  // namespace weir

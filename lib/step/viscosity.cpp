@@ -68,26 +68,20 @@ void diffuse_faces(const Borders<Real>& borders, const Walls<Real>& walls,
 }  // namespace
 
 template <class Real>
-void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
-                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
-                      Impulse<Real>* tank, Work work) {
-    diffuse_faces<true>(borders, walls, fields, amount, grid, tank, work);
+const detail::Viscosity<Real>& detail::viscosity_in_open() {
+    static constexpr Viscosity<Real> kStage{diffuse_faces<false, Real>};
+    return kStage;
 }
 
 template <class Real>
-void diffuse_velocity_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                              PressureFields<Real>& fields, Real amount,
-                              StaggeredGrid<Real>& grid, Impulse<Real>* tank, Work work) {
-    diffuse_faces<false>(borders, walls, fields, amount, grid, tank, work);
+const detail::Viscosity<Real>& detail::viscosity_among_solids() {
+    static constexpr Viscosity<Real> kStage{diffuse_faces<true, Real>};
+    return kStage;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template void diffuse_velocity(const Borders<Real>&, const Walls<Real>&,                \
-                                   PressureFields<Real>&, Real, StaggeredGrid<Real>&,       \
-                                   Impulse<Real>*, Work);                                   \
-    template void diffuse_velocity_in_open(const Borders<Real>&, const Walls<Real>&,        \
-                                           PressureFields<Real>&, Real,                     \
-                                           StaggeredGrid<Real>&, Impulse<Real>*, Work);
+#define WEIR_INSTANTIATE(Real)                                               \
+    template const detail::Viscosity<Real>& detail::viscosity_in_open<Real>();\
+    template const detail::Viscosity<Real>& detail::viscosity_among_solids<Real>();
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -4,6 +4,7 @@
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -15,14 +16,10 @@ namespace weir {
 /// The fields' divergence and inverse diagonal are used as scratch, ghosts of the density mirrored.
 /// Order: none (reads only the velocities before). Cost: about 30 operations a face.
 template <class Real>
-void diffuse_velocity(const Borders<Real>& borders, const Walls<Real>& walls,
-                      PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
-                      Impulse<Real>* tank = nullptr, Work work = {});
-
-/// The same where there are no solids: a program that adds none links nothing of them.
-template <class Real>
-void diffuse_velocity_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                              PressureFields<Real>& fields, Real amount,
-                              StaggeredGrid<Real>& grid, Impulse<Real>* tank, Work work);
+struct detail::Viscosity {
+    void (*diffuse)(const Borders<Real>& borders, const Walls<Real>& walls,
+                    PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
+                    Impulse<Real>* tank, Work work);
+};
 
 }  // namespace weir

@@ -77,10 +77,10 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
                             bodies, layers, walls_behind, walls_moved, free_bodies, body_diagonal,
                             contacts, gathered, extent, max_speed, ticks, stages,
-                            regions] = simulation;
+                            regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
                             on_surface, leaps, drifted, last_dt, change, sound_speed, cell_weight,
-                            solve] = pressure_fields;
+                            solve, elasticity, second_liquid] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
                             scratch_list, load, vertex_capacity, vertices_used] = bodies;
@@ -93,7 +93,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     positive_member(stream, last_dt);
     stream.member(walls_behind, Seconds<Real>{}, Seconds<Real>(1));
     stream.member(change, Real(0), Real(1));
-    stream.member(sound_speed, Real(0), settings.sound_speed);
+    stream.member(sound_speed, Real(0), elasticity != nullptr ? settings.sound_speed : Real(0));
     stream.member(on_surface, false, true);
     if constexpr (Stored<Real>::coarse) {
         stream.member(drifted, 0, 0xFFFF);

@@ -212,8 +212,6 @@ Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
     settings.cfl = static_cast<Real>(def.cfl);
     settings.sweeps = static_cast<std::int16_t>(maximum(def.pressure_sweeps, kLeastSweeps));
     settings.max_substeps = static_cast<std::int16_t>(def.max_substeps);
-    settings.pressure = def.pressure;
-    settings.keep_sorted = def.keep_sorted;
     Face<Real> sound_speed = cells_per_m * static_cast<Face<Real>>(def.sound_speed_mps);
     if (def.sound_speed_mps == 0.0F) {
         const Face<Real> drop =
@@ -260,7 +258,8 @@ std::uint16_t tag_of(const void* memory) {
 }  // namespace
 
 template <class Real>
-Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
+Status World<Real>::init_with(const detail::Features<Real>& features, const WorldDef& def,
+                              void* memory, std::size_t bytes) {
     const Status valid = check_world(def, kReach<Real>);
     if (valid != Status::ok) {
         return valid;
@@ -281,6 +280,12 @@ Status World<Real>::init(const WorldDef& def, void* memory, std::size_t bytes) {
     carve(Carver(memory, plan), def.capacity, simulation.settings.borders, simulation);
     simulation.pressure.leaps =
         simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F;
+    simulation.row_order = features.row_order;
+    simulation.tension = features.tension;
+    simulation.two_way = features.two_way;
+    simulation.viscosity = features.viscosity;
+    simulation.pressure.elasticity = features.elasticity;
+    simulation.pressure.second_liquid = features.second_liquid;
     simulation.ticks = def.ticks;
 #if WEIR_PARALLEL
     state_->progress.parallel_for = def.parallel_for;
@@ -368,7 +373,9 @@ std::int32_t World<Real>::cells_y() const {
 }
 
 #define WEIR_INSTANTIATE(Real)                                                 \
-    template Status World<Real>::init(const WorldDef&, void*, std::size_t);    \
+    template Status World<Real>::init_with(const detail::Features<Real>&,      \
+                                           const WorldDef&, void*,             \
+                                           std::size_t);                       \
     template FieldView<Real> World<Real>::pressure() const;                    \
     template FieldView<DensityOf<Real>> World<Real>::density() const;          \
     template float World<Real>::pressure_scale() const;                        \

@@ -28,7 +28,7 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
         convert<Real>(state_->cells_per_m * convert<Face<Real>>(limited));
     // The pressure that a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
-    const bool elastic = simulation.settings.pressure == Pressure::equation_of_state;
+    const bool elastic = simulation.pressure.elasticity != nullptr;
     const Real now = elastic && before > Real(0)
                          ? maximum(Real(0), dot(gravity, simulation.settings.gravity) / before)
                          : length(gravity);

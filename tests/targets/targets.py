@@ -2,6 +2,7 @@
 
   targets.py check PROCESSOR BUILD_FOLDER     fails on 2 % more than accepted.txt has
   targets.py accept PROCESSOR=BUILD_FOLDER... writes accepted.txt
+  targets.py left_out IMAGE OBJECT...         fails if an object of the library is in an image
   targets.py table OUT.csv PROCESSOR=BUILD_FOLDER...   the table of the README, and a csv
 
 Instructions are counted on the emulated board and repeat to the last one; bytes are read off the
@@ -50,16 +51,24 @@ KNOWN = [
 
 
 def library_bytes(map_file):
-    """Bytes that objects of libweir.a have in an image, from the linker's map."""
+    """Bytes that objects of libweir.a have in an image, from the linker's map, by source file."""
     text = map_file.read_text(encoding="utf-8", errors="replace")
     text = text[text.index("Linker script and memory map"):]
-    total = 0
+    found = {}
     rows = re.finditer(r"^ \.(?:text|rodata|data)\S*\s+0x[0-9a-f]+\s+0x([0-9a-f]+) (\S+)$", text,
                        re.MULTILINE)
     for row in rows:
         if "libweir.a(" in row.group(2):
-            total += int(row.group(1), 16)
-    return total
+            name = row.group(2).split("(")[1].split(".")[0]
+            found[name] = found.get(name, 0) + int(row.group(1), 16)
+    return found
+
+
+def left_out(image, objects):
+    found = library_bytes(pathlib.Path(f"{image}.map"))
+    linked = [f"{name} {found[name]} bytes" for name in objects if name in found]
+    print(f"{len(found)} objects linked", *linked, sep="\nNOT LEFT OUT ")
+    return 1 if linked or not found else 0
 
 
 def measure(processor, build):
@@ -75,7 +84,7 @@ def measure(processor, build):
         steps = fact["substeps"] * fact["particles"]
         yield f"{name} instructions", round(fact["instructions"] / steps, 1)
         yield f"{name} transfers", round(sum(fact[stage] for stage in TRANSFERS) / steps, 1)
-        yield f"{name} code", library_bytes(pathlib.Path(f"{image}.map"))
+        yield f"{name} code", sum(library_bytes(pathlib.Path(f"{image}.map")).values())
         yield f"{name} stack", fact["stack"]
 
 
@@ -155,6 +164,8 @@ def main():
         return check(sys.argv[2], sys.argv[3])
     if command == "accept" and len(sys.argv) > 2:
         return accept([pair.split("=", 1) for pair in sys.argv[2:]])
+    if command == "left_out" and len(sys.argv) > 3:
+        return left_out(sys.argv[2], sys.argv[3:])
     if command == "table" and len(sys.argv) > 3:
         return table(sys.argv[2], [pair.split("=", 1) for pair in sys.argv[3:]])
     print(__doc__)

@@ -98,9 +98,9 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? (Stored<Real>::shares_momentum ? 864 : 880) : 1160) +
+        ? (sizeof(void*) == 4 ? 896 : 1200) +
               (std::is_same_v<Real, Fixed> ? 16 : 0)
-        : 1384;
+        : 1440;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;

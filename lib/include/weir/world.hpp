@@ -7,6 +7,7 @@
 #include "weir/config.hpp"
 #include "weir/contact.hpp"
 #include "weir/diagnostics.hpp"
+#include "weir/features.hpp"
 #include "weir/force.hpp"
 #include "weir/memory.hpp"
 #include "weir/report.hpp"
@@ -33,10 +34,13 @@ class World {
 public:
     /// Takes the caller's memory, which must outlive the world, and lays an empty tank in it.
     /// @param bytes at least `world_bytes<Real>(def.capacity)`, at a multiple of `world_alignment`.
-    Status init(const WorldDef& def, void* memory, std::size_t bytes);
+    /// A definition that is a constant links only what it asks for (weir/features.hpp).
+    [[gnu::always_inline]] Status init(const WorldDef& def, void* memory, std::size_t bytes) {
+        return init_with(detail::features_of<Real>(def), def, memory, bytes);
+    }
 
     template <std::size_t Bytes>
-    Status init(const WorldDef& def, std::byte (&memory)[Bytes]) {
+    [[gnu::always_inline]] Status init(const WorldDef& def, std::byte (&memory)[Bytes]) {
         return init(def, memory, Bytes);
     }
 
@@ -156,6 +160,10 @@ public:
 
 private:
     using State = detail::WorldState<Real>;
+
+    Status init_with(const detail::Features<Real>& features, const WorldDef& def, void* memory,
+                     std::size_t bytes);
+
     State* state_ = nullptr;  // at the head of the caller's memory
 };
 

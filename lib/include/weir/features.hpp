@@ -1,0 +1,84 @@
+// What a world needs beyond liquid in a tank, decided while linking. `World::init` is inline and
+// names the stages that its definition asks for: where that is a constant, as in firmware, the
+// compiler knows which, and the linker (--gc-sections) leaves the others out. A definition that is
+// known only when the program runs names all.
+#pragma once
+
+#include "weir/config.hpp"
+
+namespace weir::detail {
+
+// Tables of functions; each stands beside the stage that it names.
+template <class Real>
+struct Elasticity;
+template <class Real>
+struct RowOrder;
+template <class Real>
+struct SecondLiquid;
+template <class Real>
+struct Tension;
+template <class Real>
+struct TwoWay;
+template <class Real>
+struct Viscosity;
+
+template <class Real>
+const Elasticity<Real>& elasticity();
+template <class Real>
+const RowOrder<Real>& row_order();
+template <class Real>
+const SecondLiquid<Real>& second_liquid_in_open();
+template <class Real>
+const SecondLiquid<Real>& second_liquid_among_solids();
+template <class Real>
+const Tension<Real>& tension();
+template <class Real>
+const TwoWay<Real>& two_way_in_open();
+template <class Real>
+const TwoWay<Real>& two_way_among_solids();
+template <class Real>
+const Viscosity<Real>& viscosity_in_open();
+template <class Real>
+const Viscosity<Real>& viscosity_among_solids();
+
+/// Null: nothing in the definition asks for it, and it can never be called. A snapshot goes only
+/// into a world of the same definition.
+template <class Real>
+struct Features {
+    const Elasticity<Real>* elasticity = nullptr;
+    const RowOrder<Real>* row_order = nullptr;
+    const SecondLiquid<Real>* second_liquid = nullptr;
+    const Tension<Real>* tension = nullptr;
+    const TwoWay<Real>* two_way = nullptr;
+    const Viscosity<Real>* viscosity = nullptr;
+};
+
+/// A stage that also meets bodies has a second table where there is no room for any.
+template <class Real>
+[[gnu::always_inline]] inline Features<Real> features_of(const WorldDef& def) {
+    const Capacity& room = def.capacity;
+    const bool open = room.bodies == 0;
+    Features<Real> features;
+    if (def.pressure == Pressure::equation_of_state) {
+        features.elasticity = &elasticity<Real>();
+    }
+    if (def.keep_sorted) {
+        features.row_order = &row_order<Real>();
+    }
+    if (room.second_liquid) {
+        features.second_liquid =
+            open ? &second_liquid_in_open<Real>() : &second_liquid_among_solids<Real>();
+    }
+    if (def.surface_tension_m3ps2 > 0.0F) {
+        features.tension = &tension<Real>();
+    }
+    if (room.two_way) {
+        features.two_way = open ? &two_way_in_open<Real>() : &two_way_among_solids<Real>();
+    }
+    if (def.viscosity_m2ps > 0.0F) {
+        features.viscosity = open ? &viscosity_in_open<Real>() : &viscosity_among_solids<Real>();
+    }
+    return features;
+}
+
+}  // namespace weir::detail
