@@ -88,6 +88,12 @@ struct FourLanes {
     static Floats last_pairs(Floats a, Floats b) { return weir::shuffle<2, 3, 6, 7>(a, b); }
     static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
     static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
+    static Ints bytes(const std::uint8_t* from) {
+        using Bytes = std::uint8_t __attribute__((vector_size(4)));
+        Bytes lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return __builtin_convertvector(lanes, Ints);
+    }
     /// Two numbers again and again.
     static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {
         const auto a = static_cast<std::int16_t>(first);

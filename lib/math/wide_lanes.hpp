@@ -149,6 +149,12 @@ struct EightLanes {
     }
     static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
     static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
+    static Ints bytes(const std::uint8_t* from) {
+        using Bytes = std::uint8_t __attribute__((vector_size(8)));
+        Bytes lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return __builtin_convertvector(lanes, Ints);
+    }
     static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {
         const auto a = static_cast<std::int16_t>(first);
         const auto b = static_cast<std::int16_t>(second);

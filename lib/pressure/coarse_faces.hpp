@@ -155,6 +155,20 @@ bool among_empty(const Patch& patch, const CoarseGrid<Real>& coarse) {
              full[patch.q - coarse.shape.stride] > Real(0));
 }
 
+/// Whether all faces between a patch and the two before it are wide open.
+template <bool Solids, bool Mixed, class Real>
+bool first_faces_open(const FaceWeights<Solids, Mixed, Real>& weights, const Patch& patch) {
+    const GridShape& s = weights.grid.shape;
+    const std::int32_t first = s.index(patch.i, patch.j);
+    const auto wide = [](Real open) { return bound_key(open) == bound_key(Real(1)); };
+    for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
+        if (!wide(weights.open_u(first + k * s.stride)) || !wide(weights.open_v(first + k))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// Faces before the cells of a patch. In one that is full or empty only those to the patches before
 /// it matter.
 template <bool Solids, bool Mixed, class Real>
@@ -175,7 +189,7 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
         if (!targets.has(patch.q)) {
             return;
         }
-        if constexpr (!Solids && !Mixed) {
+        if (!Mixed && (!Solids || first_faces_open(weights, patch))) {
             coarse.weight_u[patch.q] = Real(1);  // four faces, four cells from middle to middle
             coarse.weight_v[patch.q] = Real(1);
             return;

@@ -14,9 +14,7 @@
 namespace weir {
 
 void relax_wide(const RelaxTask& task) {
-    const auto rows = task.open_u != nullptr ? relax_rows<EightLanes, true>
-                                             : relax_rows<EightLanes, false>;
-    rows(task);
+    relax_all<EightLanes>(task);
 }
 
 void relax_apart_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,

@@ -92,8 +92,8 @@ template <bool Solids, bool Mixed, class Real>
     if constexpr (kHasLanes<Real> && !(Solids && Mixed)) {
         const float* on_u = Solids ? weights.walls.open_u : weights.grid.inverse_density_u;
         const float* on_v = Solids ? weights.walls.open_v : weights.grid.inverse_density_v;
-        if (relax_in_lanes<Solids || Mixed>({fields, on_u, on_v, Mixed, kRelaxation<Real>,
-                                             s.stride, c, end, rows})) {
+        if (relax_in_lanes(
+                {fields, on_u, on_v, Mixed, kRelaxation<Real>, s.stride, c, end, rows})) {
             return;
         }
     }

@@ -46,7 +46,10 @@ constexpr bool enough_alternate(std::int32_t c, std::int32_t end, std::int32_t l
     return c + 2 * lanes <= end + 1;
 }
 
-template <class L, bool Weighted>
+/// Which cells' neighbours are weighted: those at walls or, of two liquids, all.
+enum class Weighing { nowhere, at_walls, everywhere };
+
+template <class L, Weighing Where>
 inline void relax_rows(const RelaxTask& task) {
     const PressureFields<float>& fields = task.fields;
     const std::int32_t stride = task.stride;
@@ -66,7 +69,8 @@ inline void relax_rows(const RelaxTask& task) {
         const auto lower = every_second(p + c - stride);
         const auto upper = every_second(p + c + stride);
         auto sum = (left + here.odd) + (lower + upper);
-        if (Weighted && (task.two_liquids || L::any_negative(inverse))) {
+        if (Where == Weighing::everywhere ||
+            (Where == Weighing::at_walls && L::any_negative(inverse))) {
             const auto u = L::load_alternate(task.open_u + c);
             sum = (u.even * left + u.odd * here.odd) +
                   (every_second(task.open_v + c) * lower +
@@ -84,13 +88,21 @@ inline void relax_rows(const RelaxTask& task) {
     }
 }
 
+/// `open_u` null: nothing is weighted.
+template <class L>
+inline void relax_all(const RelaxTask& task) {
+    const auto rows = task.open_u == nullptr ? relax_rows<L, Weighing::nowhere>
+                      : task.two_liquids     ? relax_rows<L, Weighing::everywhere>
+                                             : relax_rows<L, Weighing::at_walls>;
+    rows(task);
+}
+
 #if WEIR_HAS_WIDE_LANES
-/// `relax_rows` with eight lanes. `open_u` null: nothing is weighted.
+/// `relax_all` with eight lanes.
 void relax_wide(const RelaxTask& task);
 #endif
 
 /// False: rows are too short, nothing was done.
-template <bool Weighted>
 inline bool relax_in_lanes(const RelaxTask& task) {
 #if WEIR_HAS_WIDE_LANES
     if (enough_alternate(task.c, task.end, 8) && has_wide_lanes()) {
@@ -99,7 +111,7 @@ inline bool relax_in_lanes(const RelaxTask& task) {
     }
 #endif
     if (enough_alternate(task.c, task.end, 4)) {
-        relax_rows<FourLanes, Weighted>(task);
+        relax_all<FourLanes>(task);
         return true;
     }
     return false;

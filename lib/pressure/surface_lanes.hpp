@@ -132,11 +132,7 @@ inline auto surrounded_cells(const DimpleTask& task, std::int32_t c) {
     face(task.has_upper ? one : zero, task.open_v + c + task.stride, c + task.stride);
     Floats share = L::all(task.share);
     if (task.open_u != nullptr) {
-        float cut[L::kLanes];
-        for (std::int32_t k = 0; k < L::kLanes; ++k) {
-            cut[k] = task.cell_case[c + k] != 0 ? task.share_of_cut : task.share;
-        }
-        share = L::load(cut);
+        share = L::bytes(task.cell_case + c) != 0 ? L::all(task.share_of_cut) : share;
     }
     return (open > zero) & (covered >= share * open);
 }

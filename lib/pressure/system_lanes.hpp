@@ -35,8 +35,8 @@ inline Floats fraction_between(Lever lever, Floats a, Floats b, Floats open) {
     return L::clamp(fraction, least, L::all(kLargestFraction<float>));
 }
 
-/// The equations of cells of any kind. False: the start is no number.
-template <class L>
+/// The equations of cells of any kind, `Pushed`: by walls that move. False: the start is no number.
+template <class L, bool Pushed>
 inline bool build_any(RowTask& task, std::int32_t c) {
     using Floats = typename L::Floats;
     const StaggeredGrid<float>& grid = task.grid;
@@ -85,7 +85,7 @@ inline bool build_any(RowTask& task, std::int32_t c) {
         const auto wanted = divergence + wanted_convergence_lanes<L>(grid, c, task.leap);
         divergence = straight ? wanted : divergence;
     }
-    if (task.add_flow != nullptr) {
+    if constexpr (Pushed) {
         float flow[L::kLanes];
         L::store(flow, divergence);
         task.add_flow(task, c, L::bits_of(wet), L::bits_of(wide), flow);
@@ -100,6 +100,12 @@ inline bool build_any(RowTask& task, std::int32_t c) {
                    task.system);
     task.any = task.any || L::any_true(wet);
     return true;
+}
+
+/// Not inline: the other kind wants the registers.
+template <class L>
+[[gnu::noinline]] bool build_pushed(RowTask& task, std::int32_t c) {
+    return build_any<L, true>(task, c);
 }
 
 /// Equations of some cells from c on. False: they are to be done otherwise.
@@ -119,7 +125,8 @@ inline bool build_group(RowTask& task, std::int32_t c) {
     if (alike && (task.walls == nullptr || are_untouched<L>(*task.walls, stride, c))) {
         return build_plain<L>(task, c);
     }
-    return !fields.on_surface && build_any<L>(task, c);
+    return !fields.on_surface && (task.add_flow == nullptr ? build_any<L, false>(task, c)
+                                                           : build_pushed<L>(task, c));
 }
 
 /// Takes pᵀ(neighbours of p) from `there`, cells c … as long as enough are left before `end`.
