@@ -88,6 +88,28 @@ struct FourLanes {
     static Floats last_pairs(Floats a, Floats b) { return weir::shuffle<2, 3, 6, 7>(a, b); }
     static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
     static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
+    /// Numbers first, second … of a table, for the bytes at some places.
+    static Ints look_up(const std::int32_t* table, const std::uint8_t* bytes,
+                        const std::uint32_t* at) {
+        const auto number = [&](std::int32_t k) { return table[bytes[at[k]]]; };
+        return Ints{number(0), number(1), number(2), number(3)};
+    }
+    struct Places {
+        Floats x;
+        Floats y;
+    };
+    /// Some of many pairs.
+    static Places places_at(const float* pairs, const std::int32_t* at) {
+        const auto two = [&](std::int32_t a, std::int32_t b) {
+            return weir::shuffle<0, 1, 4, 5>(load_pair(pairs + 2 * at[a]),
+                                             load_pair(pairs + 2 * at[b]));
+        };
+        return {weir::shuffle<0, 2, 4, 6>(two(0, 1), two(2, 3)),
+                weir::shuffle<1, 3, 5, 7>(two(0, 1), two(2, 3))};
+    }
+    static Squares squares_at(const float* low, const float* high, const std::uint32_t* at) {
+        return weir::squares_at(low, high, at);
+    }
     static Ints bytes(const std::uint8_t* from) {
         using Bytes = std::uint8_t __attribute__((vector_size(4)));
         Bytes lanes;

@@ -119,13 +119,30 @@ struct EightLanes {
     /// `store_halves`. Three bytes more than the last one are read.
     static std::uint32_t set_bytes(const std::uint8_t* bytes, Ints lanes) {
         const Ints at = __builtin_shufflevector(lanes, lanes, 0, 1, 4, 5, 2, 3, 6, 7);
-        const auto* from = reinterpret_cast<const int*>(bytes);
-#if defined(__clang__)
-        const Ints found = __builtin_ia32_gatherd_d256(Ints{}, from, at, ~Ints{}, 1);
-#else
-        const Ints found = __builtin_ia32_gathersiv8si(Ints{}, from, at, ~Ints{}, 1);
-#endif
-        return bits_of((found & 0xFF) > 0);
+        return bits_of(bytes_at(bytes, at) > 0);
+    }
+    static Ints look_up(const std::int32_t* table, const std::uint8_t* bytes,
+                        const std::uint32_t* at) {
+        return numbers_at<4>(table, bytes_at(bytes, load_whole(at)));
+    }
+    struct Places {
+        Floats x;
+        Floats y;
+    };
+    static Places places_at(const float* pairs, const std::int32_t* at) {
+        const Ints n = load_whole(at);
+        return {floats_at<8>(pairs, n), floats_at<8>(pairs + 1, n)};
+    }
+    struct Squares {
+        Floats low_left;
+        Floats low_right;
+        Floats high_left;
+        Floats high_right;
+    };
+    static Squares squares_at(const float* low, const float* high, const std::uint32_t* at) {
+        const Ints n = load_whole(at);
+        return {floats_at<4>(low, n), floats_at<4>(low + 1, n), floats_at<4>(high, n),
+                floats_at<4>(high + 1, n)};
     }
     template <int I, int J, int K, int L>
     static Floats shuffle(Floats a, Floats b) {
@@ -205,6 +222,32 @@ struct EightLanes {
     }
 
 private:
+    template <class Number>
+    static Ints load_whole(const Number* from) {
+        Ints lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    }
+    /// Numbers so many times `Bytes` bytes from an address.
+    template <int Bytes>
+    static Ints numbers_at(const std::int32_t* from, Ints at) {
+#if defined(__clang__)
+        return __builtin_ia32_gatherd_d256(Ints{}, from, at, ~Ints{}, Bytes);
+#else
+        return __builtin_ia32_gathersiv8si(Ints{}, from, at, ~Ints{}, Bytes);
+#endif
+    }
+    template <int Bytes>
+    static Floats floats_at(const float* from, Ints at) {
+#if defined(__clang__)
+        return __builtin_ia32_gatherd_ps256(Floats{}, from, at, true_lanes(), Bytes);
+#else
+        return __builtin_ia32_gathersiv8sf(Floats{}, from, at, true_lanes(), Bytes);
+#endif
+    }
+    static Ints bytes_at(const std::uint8_t* from, Ints at) {
+        return numbers_at<1>(reinterpret_cast<const std::int32_t*>(from), at) & 0xFF;
+    }
     static Floats true_lanes() { return reinterpret_cast<Floats>(~Ints{}); }
     /// Of four from a and four from b to eight from each.
     template <int I>

@@ -219,12 +219,10 @@ template <class Real>
     return true;
 }
 
-/// A particle near the contour of a solid. False: it has no way out.
+/// A particle near the contour of a solid, to which it stands so. False: it has no way out.
 template <class Real>
-bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
-    const Vec2<Real> x = scene.particles.position[k];
-    const Standing<Real> at = standing(scene.shape, scene.walls, x);
-    scene.result.tested += at.which != kCellOutside ? 1 : 0;
+bool meet_contour(Scene<Real>& scene, std::int32_t k, const Standing<Real>& at,
+                  Vec2<Real> before, bool far) {
     if (scene.walls.binary) {
         scene.result.reflected += at.inside ? 1 : 0;
         return !at.inside || set_back(scene, k, at, before);
@@ -235,6 +233,13 @@ bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool fa
     }
     return ((at.inside || far) && stop_on_path(scene, k, at.slot, before, far)) || !at.inside ||
            lead_out(scene, k, at.slot, before);
+}
+
+template <class Real>
+bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
+    const Standing<Real> at = standing<Real>(scene.shape, scene.walls, scene.particles.position[k]);
+    scene.result.tested += at.which != kCellOutside ? 1 : 0;
+    return meet_contour(scene, k, at, before, far);
 }
 
 template <class Real>
@@ -315,34 +320,30 @@ void remove(Scene<Real>& scene, std::int32_t k, bool mark) {
 }
 
 #if WEIR_HAS_LANES
-
 /// A block of which nobody went far, and without thin walls. Most particles are clearly outside.
 void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
                       std::int32_t count) {
     const GridShape& s = scene.shape;
-    const std::int32_t origin = s.index(0, 0);
-    const std::uint8_t* cases = scene.walls.cell_case + origin;
     const Vec2<float>* position = scene.particles.position + first;
-    std::int32_t numbers[kBlock<float> + 4];
-    std::uint32_t cells[kBlock<float> + 4];
+    const ClearTask task{scene.walls.cell_case + s.index(0, 0),
+                         scene.walls.distance + s.index(0, 0), s.stride, &position->x,
+                         kClear<float>};
+    std::int32_t numbers[kBlock<float> + 8];
+    std::uint32_t cells[kBlock<float> + 8];
     NearWall near{0, numbers, cells};
-    find_near_wall(cases, s.stride, position, count, near);
-    fill_up(near);
-    for (std::int32_t next = 0; next < near.count; next += 4) {
-        const std::uint32_t clear =
-            four_clearly_outside(near, next, cases, scene.walls.distance + origin, s.stride,
-                                 position, kClear<float>);
-        for (std::int32_t k = 0; k < 4 && next + k < near.count; ++k) {
-            if ((clear >> static_cast<std::uint32_t>(k) & 1U) != 0) {
-                ++scene.result.tested;
-                continue;
-            }
-            const std::int32_t n = near.n[next + k];
-            if (!meet_contour(scene, first + n, Vec2<float>(flight.before[n]), false)) {
+    find_near_wall(task.cell_case, s.stride, position, count, near);
+    for (std::int32_t next = 0; next < near.count; next += 8) {
+        const std::uint32_t all = (1U << minimum(8, near.count - next)) - 1U;
+        for (std::uint32_t left = all & ~clear_of_eight(task, near, next); left != 0;
+             left &= left - 1U) {
+            const std::int32_t n = near.n[next + __builtin_ctz(left)];
+            if (!meet_contour(scene, first + n, standing_near(s, scene.walls, position[n]),
+                              Vec2<float>(flight.before[n]), false)) {
                 remove(scene, first + n, flight.mark_removed);
             }
         }
     }
+    scene.result.tested += near.count;
 }
 
 #endif

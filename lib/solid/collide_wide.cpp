@@ -1,4 +1,4 @@
-// Which particles are in cells with solid, eight at a time.
+// Which particles are in cells with solid, and which of them clearly outside it, eight at a time.
 #include "solid/near_wall_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
@@ -8,6 +8,10 @@ namespace weir {
 std::int32_t find_near_wall_wide(const std::uint8_t* cell_case, std::int32_t stride,
                                  const float* position, std::int32_t count, NearWall& found) {
     return find_near_wall<EightLanes>(cell_case, stride, position, count, found);
+}
+
+std::uint32_t clear_of_eight_wide(const ClearTask& task, const NearWall& near, std::int32_t next) {
+    return clear_of_group<EightLanes>(task, near, next);
 }
 
 }  // namespace weir

@@ -206,8 +206,29 @@ bool is_inside_in(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x
     return hit_in(cell, which).distance < Real(0);
 }
 
-/// Where all that is asked for is stored. A cell that is solid all over holds no open point, also
-/// where all its nodes lie on the outline.
+/// Of a point that is not clearly outside, in a cell of some case. One that is solid all over holds
+/// no open point, also where all its nodes lie on the outline.
+template <class Real>
+Standing<Real> standing_near(const GridShape& shape, const Walls<Real>& walls,
+                             const CellView<Real>& cell, std::uint8_t which, Vec2<Real> x) {
+    Standing<Real> at;
+    at.which = which;
+    at.hit = hit_in(cell, at.which);
+    at.inside = at.hit.distance < Real(0) || (at.which == kCellInside && !walls.binary);
+    if (at.inside && at.which != kCellInside && !walls.binary) {
+        at.hit.normal = normal_behind(shape, walls, cell, x, at.hit.normal);
+    }
+    at.slot = at.inside ? touched_body(shape, walls, cell.node) : kNoBody;
+    return at;
+}
+
+template <class Real>
+Standing<Real> standing_near(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
+    const CellView<Real> cell = cell_of(shape, walls, x);
+    return standing_near(shape, walls, cell, walls.cell_case[cell.node], x);
+}
+
+/// Where all that is asked for is stored.
 template <class Real>
 Standing<Real> standing_in(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
     Standing<Real> at;
@@ -217,16 +238,9 @@ Standing<Real> standing_in(const GridShape& shape, const Walls<Real>& walls, Vec
         return at;
     }
     const CellView<Real> cell = cell_of(shape, walls, x);
-    if (clearly_outside(at.which, cell.corner, cell.local)) {
-        return at;
-    }
-    at.hit = hit_in(cell, at.which);
-    at.inside = at.hit.distance < Real(0) || (at.which == kCellInside && !walls.binary);
-    if (at.inside && at.which != kCellInside && !walls.binary) {
-        at.hit.normal = normal_behind(shape, walls, cell, x, at.hit.normal);
-    }
-    at.slot = at.inside ? touched_body(shape, walls, cell.node) : kNoBody;
-    return at;
+    return clearly_outside(at.which, cell.corner, cell.local)
+               ? at
+               : standing_near(shape, walls, cell, at.which, x);
 }
 
 template <class Real>

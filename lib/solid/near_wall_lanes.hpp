@@ -12,13 +12,13 @@ namespace weir {
 /// Particles of a block in whose cells there is solid, from the last one on.
 struct NearWall {
     std::int32_t count = 0;
-    std::int32_t* n;      ///< number in the block; room for three more than there are
+    std::int32_t* n;      ///< number in the block; room for seven more than there are
     std::uint32_t* cell;  ///< from the tank's first one on
 };
 
-/// To groups of four: with the first one.
+/// To groups of eight: with the first one.
 inline void fill_up(const NearWall& near) {
-    for (std::int32_t k = near.count; k < near.count + 3; ++k) {
+    for (std::int32_t k = near.count; k < near.count + 7; ++k) {
         near.n[k] = near.n[0];
         near.cell[k] = near.cell[0];
     }
@@ -74,6 +74,7 @@ inline void find_near_wall(const std::uint8_t* cell_case, std::int32_t stride,
         found.cell[found.count] = cell;
         found.count += cell_case[cell] != 0 ? 1 : 0;
     }
+    fill_up(found);
 }
 
 /// What `clearly_outside` looks at in each case.
@@ -91,48 +92,65 @@ constexpr std::int32_t kClearRules[16] = {
     kCorner | kFlipY,  kUpright,          kUnknown,                   kCorner | kFlipX | kFlipY,
     kBehind,           kCorner | kFlipX,  kCorner,                    kUnknown};
 
-/// `clearly_outside` of the next four: a bit each. `distance`: of the tank's first node.
-inline std::uint32_t four_clearly_outside(const NearWall& near, std::int32_t next,
-                                          const std::uint8_t* cell_case, const float* distance,
-                                          std::int32_t stride, const Vec2<float>* position,
-                                          float clear_by) {
+/// What `clearly_outside` reads, all of the tank's first cell on.
+struct ClearTask {
+    const std::uint8_t* cell_case;
+    const float* distance;
+    std::int32_t stride;
+    const float* position;  ///< of the block
+    float clear_by;
+};
+
+/// `clearly_outside` of as many as there are lanes: a bit each.
+template <class L>
+inline std::uint32_t clear_of_group(const ClearTask& task, const NearWall& near,
+                                    std::int32_t next) {
+    using Floats = typename L::Floats;
     const std::uint32_t* cell = near.cell + next;
-    const std::int32_t* n = near.n + next;
-    const auto rule = [&](std::int32_t k) { return kClearRules[cell_case[cell[k]]]; };
-    const LaneMask rules{rule(0), rule(1), rule(2), rule(3)};
+    const auto rules = L::look_up(kClearRules, task.cell_case, cell);
     const auto has = [&](std::int32_t bit) { return (rules & bit) != 0; };
-    const Squares d = squares_at(distance, distance + stride, cell);
-    const auto two = [&](std::int32_t a, std::int32_t b) {
-        return shuffle<0, 1, 4, 5>(load_pair(&position[n[a]].x), load_pair(&position[n[b]].x));
-    };
-    const Lanes one = all_lanes(1.0F);
-    const Lanes clear = all_lanes(clear_by);
-    const auto within = [](Lanes x) {
-        return x - __builtin_convertvector(__builtin_convertvector(x, LaneMask), Lanes);
-    };
-    const Lanes x = within(shuffle<0, 2, 4, 6>(two(0, 1), two(2, 3)));
-    const Lanes y = within(shuffle<1, 3, 5, 7>(two(0, 1), two(2, 3)));
+    const auto d = L::squares_at(task.distance, task.distance + task.stride, cell);
+    const Floats one = L::all(1.0F);
+    const Floats clear = L::all(task.clear_by);
+    const auto place = L::places_at(task.position, near.n + next);
+    const Floats x = place.x - L::floats(L::whole(place.x));
+    const Floats y = place.y - L::floats(L::whole(place.y));
     // Across a corner.
-    const LaneMask flip_x = has(kFlipX);
-    const LaneMask flip_y = has(kFlipY);
-    const Lanes low = flip_x ? d.low_right : d.low_left;
-    const Lanes high = flip_x ? d.high_right : d.high_left;
-    const Lanes low_beside = flip_x ? d.low_left : d.low_right;
-    const Lanes high_beside = flip_x ? d.high_left : d.high_right;
-    const Lanes node = flip_y ? high : low;
-    const Lanes slope_x = (flip_y ? high_beside : low_beside) - node;
-    const Lanes slope_y = (flip_y ? low : high) - node;
-    const Lanes way = slope_x * (flip_x ? one - x : x) + slope_y * (flip_y ? one - y : y);
-    const LaneMask past_corner = node + way > clear * (absolute(slope_x) + absolute(slope_y));
+    const auto flip_x = has(kFlipX);
+    const auto flip_y = has(kFlipY);
+    const Floats low = flip_x ? d.low_right : d.low_left;
+    const Floats high = flip_x ? d.high_right : d.high_left;
+    const Floats low_beside = flip_x ? d.low_left : d.low_right;
+    const Floats high_beside = flip_x ? d.high_left : d.high_right;
+    const Floats node = flip_y ? high : low;
+    const Floats slope_x = (flip_y ? high_beside : low_beside) - node;
+    const Floats slope_y = (flip_y ? low : high) - node;
+    const Floats way = slope_x * (flip_x ? one - x : x) + slope_y * (flip_y ? one - y : y);
+    const auto past_corner = node + way > clear * (L::absolute(slope_x) + L::absolute(slope_y));
     // Over a line between opposite edges.
-    const LaneMask upright = has(kUpright);
-    const Lanes other = upright ? d.low_right : d.high_left;
-    const Lanes end = upright ? d.high_left : d.low_right;
-    const Lanes first = d.low_left / (d.low_left - other);
-    const Lanes last = end / (end - d.high_right);
-    const Lanes height = (upright ? x : y) - (first + (last - first) * (upright ? y : x));
-    const LaneMask past_line = has(kBehind) ? height < -clear : height > clear;
-    return bits_of((has(kCorner) ? past_corner : past_line) & ~has(kUnknown));
+    const auto upright = has(kUpright);
+    const Floats other = upright ? d.low_right : d.high_left;
+    const Floats end = upright ? d.high_left : d.low_right;
+    const Floats first = d.low_left / (d.low_left - other);
+    const Floats last = end / (end - d.high_right);
+    const Floats height = (upright ? x : y) - (first + (last - first) * (upright ? y : x));
+    const auto past_line = has(kBehind) ? height < -clear : height > clear;
+    return L::bits_of((has(kCorner) ? past_corner : past_line) & ~has(kUnknown));
+}
+
+#if WEIR_HAS_WIDE_LANES
+std::uint32_t clear_of_eight_wide(const ClearTask& task, const NearWall& near, std::int32_t next);
+#endif
+
+inline std::uint32_t clear_of_eight(const ClearTask& task, const NearWall& near,
+                                    std::int32_t next) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        return clear_of_eight_wide(task, near, next);
+    }
+#endif
+    return clear_of_group<FourLanes>(task, near, next) |
+           clear_of_group<FourLanes>(task, near, next + 4) << 4U;
 }
 
 #endif
