@@ -107,8 +107,35 @@ struct FourLanes {
         return {weir::shuffle<0, 2, 4, 6>(two(0, 1), two(2, 3)),
                 weir::shuffle<1, 3, 5, 7>(two(0, 1), two(2, 3))};
     }
-    static Squares squares_at(const float* low, const float* high, const std::uint32_t* at) {
+    template <class Place>
+    static Squares squares_at(const float* low, const float* high, const Place* at) {
         return weir::squares_at(low, high, at);
+    }
+    /// Numbers before, at and behind some places.
+    struct Threes {
+        Floats left;
+        Floats middle;
+        Floats right;
+    };
+    static Threes threes_at(const float* from, const std::int32_t* at) {
+        const auto four = [&](std::int32_t k) { return load_lanes(from - 2 + at[k]); };
+        const Lanes a = weir::shuffle<0, 4, 1, 5>(four(0), four(1));
+        const Lanes b = weir::shuffle<0, 4, 1, 5>(four(2), four(3));
+        const Lanes c = weir::shuffle<2, 6, 3, 7>(four(0), four(1));
+        const Lanes d = weir::shuffle<2, 6, 3, 7>(four(2), four(3));
+        return {weir::shuffle<2, 3, 6, 7>(a, b), weir::shuffle<0, 1, 4, 5>(c, d),
+                weir::shuffle<2, 3, 6, 7>(c, d)};
+    }
+    static Floats numbers_at(const float* from, Ints at) {
+        return Floats{from[at[0]], from[at[1]], from[at[2]], from[at[3]]};
+    }
+    static Ints load_whole(const std::int32_t* from) {
+        Ints lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    }
+    static void store_whole(std::int32_t* to, Ints lanes) {
+        __builtin_memcpy(to, &lanes, sizeof lanes);
     }
     static Ints bytes(const std::uint8_t* from) {
         using Bytes = std::uint8_t __attribute__((vector_size(4)));

@@ -123,7 +123,7 @@ struct EightLanes {
     }
     static Ints look_up(const std::int32_t* table, const std::uint8_t* bytes,
                         const std::uint32_t* at) {
-        return numbers_at<4>(table, bytes_at(bytes, load_whole(at)));
+        return whole_at<4>(table, bytes_at(bytes, load_whole(at)));
     }
     struct Places {
         Floats x;
@@ -139,7 +139,8 @@ struct EightLanes {
         Floats high_left;
         Floats high_right;
     };
-    static Squares squares_at(const float* low, const float* high, const std::uint32_t* at) {
+    template <class Place>
+    static Squares squares_at(const float* low, const float* high, const Place* at) {
         const Ints n = load_whole(at);
         return {floats_at<4>(low, n), floats_at<4>(low + 1, n), floats_at<4>(high, n),
                 floats_at<4>(high + 1, n)};
@@ -221,16 +222,30 @@ struct EightLanes {
         return __builtin_ia32_vtestzps256(a, true_lanes()) == 0;
     }
 
-private:
+    struct Threes {
+        Floats left;
+        Floats middle;
+        Floats right;
+    };
+    static Threes threes_at(const float* from, const std::int32_t* at) {
+        const Ints n = load_whole(at);
+        return {floats_at<4>(from - 1, n), floats_at<4>(from, n), floats_at<4>(from + 1, n)};
+    }
+    static Floats numbers_at(const float* from, Ints at) { return floats_at<4>(from, at); }
     template <class Number>
     static Ints load_whole(const Number* from) {
         Ints lanes;
         __builtin_memcpy(&lanes, from, sizeof lanes);
         return lanes;
     }
+    static void store_whole(std::int32_t* to, Ints lanes) {
+        __builtin_memcpy(to, &lanes, sizeof lanes);
+    }
+
+private:
     /// Numbers so many times `Bytes` bytes from an address.
     template <int Bytes>
-    static Ints numbers_at(const std::int32_t* from, Ints at) {
+    static Ints whole_at(const std::int32_t* from, Ints at) {
 #if defined(__clang__)
         return __builtin_ia32_gatherd_d256(Ints{}, from, at, ~Ints{}, Bytes);
 #else
@@ -246,7 +261,7 @@ private:
 #endif
     }
     static Ints bytes_at(const std::uint8_t* from, Ints at) {
-        return numbers_at<1>(reinterpret_cast<const std::int32_t*>(from), at) & 0xFF;
+        return whole_at<1>(reinterpret_cast<const std::int32_t*>(from), at) & 0xFF;
     }
     static Floats true_lanes() { return reinterpret_cast<Floats>(~Ints{}); }
     /// Of four from a and four from b to eight from each.

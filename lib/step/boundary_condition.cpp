@@ -116,59 +116,79 @@ struct BothMirrors {
     }
 
 #if WEIR_HAS_LANES
-    /// Faces of a row that are to be mirrored together.
     template <bool OnU>
-    struct Four {
-        std::int32_t count = 0;
-        std::int32_t face[4];
-        std::int32_t column[4];
-    };
+    void find(const MirrorTask& task, const MirrorFaces& faces, std::int32_t j,
+              Mirrors& found) const {
+#if WEIR_HAS_WIDE_LANES
+        if (faces.count > 4) {
+            find_mirrors_wide(task, OnU, faces, j, found);
+        } else
+#endif
+        {
+            find_mirrors<FourLanes, OnU>(task, faces, j, found);
+        }
+        const FaceAxis<float>& axis = OnU ? u.axis : v.axis;
+        for (std::int32_t k = 0; walls.moving && k < faces.count; ++k) {
+            const std::int32_t face = faces.face[k];
+            const Vec2<float> wall = wall_velocity(walls, face, face + axis.other_node(),
+                                                   axis.centre(faces.column[k], j));
+            found.wall_x[k] = wall.x;
+            found.wall_y[k] = wall.y;
+        }
+    }
 
     template <bool OnU>
-    void in_lanes(Four<OnU>& four, std::int32_t j) {
+    void in_lanes(const MirrorTask& task, MirrorFaces& faces, std::int32_t j) {
         BothFields<float>& of = OnU ? u : v;
-        for (std::int32_t k = four.count; k < 4; ++k) {
-            four.face[k] = four.face[0];
-            four.column[k] = four.column[0];
+        for (std::int32_t k = faces.count; k < (faces.count > 4 ? 8 : 4); ++k) {
+            faces.face[k] = faces.face[0];
+            faces.column[k] = faces.column[0];
         }
-        const MirrorTask task{now.shape, walls, fields.level, now.u, now.v, was.u, was.v};
-        const FourMirrors mirrors = mirrors_of<OnU>(task, four.face, four.column, j);
-        std::uint32_t found = mirrors.wet;
-        for (std::int32_t k = 0; k < four.count; ++k) {
-            if ((found >> static_cast<std::uint32_t>(k) & 1U) == 0) {
-                found |= look_again(of.axis, four.face[k], four.column[k], j, mirrors, k)
-                             ? 1U << static_cast<std::uint32_t>(k)
-                             : 0U;
+        Mirrors mirrors;
+        find<OnU>(task, faces, j, mirrors);
+        std::uint32_t found = mirrors.wet & ((1U << faces.count) - 1U);
+        std::uint32_t dry = found ^ ((1U << faces.count) - 1U);
+        for (; dry != 0; dry &= dry - 1U) {
+            const std::int32_t k = __builtin_ctz(dry);
+            if (look_again(of.axis, faces.face[k], faces.column[k], j, mirrors, k)) {
+                found |= 1U << static_cast<std::uint32_t>(k);
             }
         }
         if (found == 0) {
             return;
         }
-        const FourChanges of_four = mirror_four<OnU>(task, four.face, mirrors);
-        for (std::int32_t k = 0; k < four.count; ++k) {
-            if ((found >> static_cast<std::uint32_t>(k) & 1U) != 0) {
-                of.hold(four.column[k], j, of_four.now[k], of_four.was[k]);
-            }
+        MirrorChanges changes;
+#if WEIR_HAS_WIDE_LANES
+        if (faces.count > 4) {
+            mirror_faces_wide(task, OnU, faces.face, mirrors, changes);
+        } else
+#endif
+        {
+            mirror_faces<FourLanes, OnU>(task, faces.face, mirrors, changes);
+        }
+        for (; found != 0; found &= found - 1U) {
+            const std::int32_t k = __builtin_ctz(found);
+            of.hold(faces.column[k], j, changes.now[k], changes.was[k]);
         }
     }
 
     /// A face whose mirror point lies in no liquid cell: whether one is near it. Else it may mirror
     /// the other side.
     bool look_again(const FaceAxis<float>& axis, std::int32_t there, std::int32_t i, std::int32_t j,
-                    const FourMirrors& mirrors, std::int32_t k) {
-        if (near_liquid(axis.s, fields.level, of_lane(mirrors.point, k))) {
+                    const Mirrors& mirrors, std::int32_t k) {
+        if (near_liquid(axis.s, fields.level, mirrors.point(k))) {
             return true;
         }
         const Edge<float> edge{axis.centre(i, j), there, there + axis.other_node()};
         Mirror<float> mirror;
-        if (from_other_side(axis, edge, of_lane(mirrors.normal, k), mirror)) {
+        if (from_other_side(axis, edge, mirrors.normal(k), mirror)) {
             face(axis.is_u ? u : v, i, j);
         }
         return false;
     }
 
     template <bool OnU>
-    void add(Four<OnU>& four, std::int32_t i, std::int32_t j) {
+    void add(const MirrorTask& task, MirrorFaces& faces, std::int32_t i, std::int32_t j) {
         const FaceAxis<float>& axis = OnU ? u.axis : v.axis;
         const std::int32_t face = axis.s.index(i, j);
         if (axis.open()[face] > 0.0F || axis.distance(face) < kDeepestMirror<float>) {
@@ -177,30 +197,41 @@ struct BothMirrors {
         if (is_unread(axis, fields, face)) {
             return;
         }
-        four.face[four.count] = face;
-        four.column[four.count] = i;
-        if (++four.count == 4) {
-            in_lanes(four, j);
-            four.count = 0;
+        faces.face[faces.count] = face;
+        faces.column[faces.count] = i;
+        if (++faces.count == task.at_once) {
+            in_lanes<OnU>(task, faces, j);
+            faces.count = 0;
         }
     }
 
     void row_in_lanes(std::int32_t j) {
-        Four<true> on_u;
-        Four<false> on_v;
+        const GridShape& s = now.shape;
+        const MirrorTask task{s,
+                              walls.distance,
+                              fields.level,
+                              now.u,
+                              now.v,
+                              was.u,
+                              was.v,
+                              within_tank(s, Vec2<float>{-1.0F, -1.0F}),
+                              within_tank(s, Vec2<float>{__builtin_inff(), __builtin_inff()}),
+                              mirrors_at_once()};
+        MirrorFaces on_u;
+        MirrorFaces on_v;
         for_each_near(now.shape, walls, {j, j + 1}, [&](std::int32_t i, std::int32_t) {
             if (i > 0) {
-                add(on_u, i, j);
+                add<true>(task, on_u, i, j);
             }
             if (j > 0) {
-                add(on_v, i, j);
+                add<false>(task, on_v, i, j);
             }
         });
         if (on_u.count > 0) {
-            in_lanes(on_u, j);
+            in_lanes<true>(task, on_u, j);
         }
         if (on_v.count > 0) {
-            in_lanes(on_v, j);
+            in_lanes<false>(task, on_v, j);
         }
     }
 #endif

@@ -2,6 +2,7 @@
 #include "step/bend_lanes.hpp"
 #include "step/extrapolate_lanes.hpp"
 #include "step/face_lanes.hpp"
+#include "step/mirror_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
 
@@ -26,6 +27,18 @@ std::int32_t blend_wide(const float* now, const float* sharp, float share, std::
 std::int32_t bend_wide(const BendTask& task, std::int32_t row, std::int32_t face,
                        std::int32_t end) {
     return bend_faces<EightLanes>(task, row, face, end);
+}
+
+void find_mirrors_wide(const MirrorTask& task, bool on_u, const MirrorFaces& faces,
+                       std::int32_t j, Mirrors& found) {
+    const auto find = on_u ? find_mirrors<EightLanes, true> : find_mirrors<EightLanes, false>;
+    find(task, faces, j, found);
+}
+
+void mirror_faces_wide(const MirrorTask& task, bool on_u, const std::int32_t* face,
+                       const Mirrors& mirrors, MirrorChanges& changes) {
+    const auto mirror = on_u ? mirror_faces<EightLanes, true> : mirror_faces<EightLanes, false>;
+    mirror(task, face, mirrors, changes);
 }
 
 bool extrapolate_wide(const ExtrapolateTask& task) {
