@@ -221,8 +221,8 @@ template <class Real>
 
 /// A particle near the contour of a solid, to which it stands so. False: it has no way out.
 template <class Real>
-bool meet_contour(Scene<Real>& scene, std::int32_t k, const Standing<Real>& at,
-                  Vec2<Real> before, bool far) {
+[[gnu::always_inline]] inline bool meet_at(Scene<Real>& scene, std::int32_t k,
+                                           const Standing<Real>& at, Vec2<Real> before, bool far) {
     if (scene.walls.binary) {
         scene.result.reflected += at.inside ? 1 : 0;
         return !at.inside || set_back(scene, k, at, before);
@@ -239,7 +239,7 @@ template <class Real>
 bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
     const Standing<Real> at = standing<Real>(scene.shape, scene.walls, scene.particles.position[k]);
     scene.result.tested += at.which != kCellOutside ? 1 : 0;
-    return meet_contour(scene, k, at, before, far);
+    return meet_at(scene, k, at, before, far);
 }
 
 template <class Real>
@@ -337,8 +337,8 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
         for (std::uint32_t left = all & ~clear_of_eight(task, near, next); left != 0;
              left &= left - 1U) {
             const std::int32_t n = near.n[next + __builtin_ctz(left)];
-            if (!meet_contour(scene, first + n, standing_near(s, scene.walls, position[n]),
-                              Vec2<float>(flight.before[n]), false)) {
+            if (!meet_at(scene, first + n, standing_near(s, scene.walls, position[n]),
+                         Vec2<float>(flight.before[n]), false)) {
                 remove(scene, first + n, flight.mark_removed);
             }
         }

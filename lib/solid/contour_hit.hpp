@@ -206,26 +206,27 @@ bool is_inside_in(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x
     return hit_in(cell, which).distance < Real(0);
 }
 
-/// Of a point that is not clearly outside, in a cell of some case. One that is solid all over holds
-/// no open point, also where all its nodes lie on the outline.
+/// Of a point that is not clearly outside, in a cell of a case that is known. One that is solid all
+/// over holds no open point, also where all its nodes lie on the outline.
 template <class Real>
-Standing<Real> standing_near(const GridShape& shape, const Walls<Real>& walls,
-                             const CellView<Real>& cell, std::uint8_t which, Vec2<Real> x) {
-    Standing<Real> at;
-    at.which = which;
+[[gnu::always_inline]] inline void stand_near(const GridShape& shape, const Walls<Real>& walls,
+                                              const CellView<Real>& cell, Vec2<Real> x,
+                                              Standing<Real>& at) {
     at.hit = hit_in(cell, at.which);
     at.inside = at.hit.distance < Real(0) || (at.which == kCellInside && !walls.binary);
     if (at.inside && at.which != kCellInside && !walls.binary) {
         at.hit.normal = normal_behind(shape, walls, cell, x, at.hit.normal);
     }
     at.slot = at.inside ? touched_body(shape, walls, cell.node) : kNoBody;
-    return at;
 }
 
 template <class Real>
 Standing<Real> standing_near(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
     const CellView<Real> cell = cell_of(shape, walls, x);
-    return standing_near(shape, walls, cell, walls.cell_case[cell.node], x);
+    Standing<Real> at;
+    at.which = walls.cell_case[cell.node];
+    stand_near(shape, walls, cell, x, at);
+    return at;
 }
 
 /// Where all that is asked for is stored.
@@ -238,9 +239,10 @@ Standing<Real> standing_in(const GridShape& shape, const Walls<Real>& walls, Vec
         return at;
     }
     const CellView<Real> cell = cell_of(shape, walls, x);
-    return clearly_outside(at.which, cell.corner, cell.local)
-               ? at
-               : standing_near(shape, walls, cell, at.which, x);
+    if (!clearly_outside(at.which, cell.corner, cell.local)) {
+        stand_near(shape, walls, cell, x, at);
+    }
+    return at;
 }
 
 template <class Real>
