@@ -27,6 +27,9 @@ struct FaceAxis {
         return is_u ? j >= 0 && j < s.ny : i >= 0 && i < s.nx;
     }
     Real of(Vec2<Real> v) const { return is_u ? v.x : v.y; }
+    Vec2<Real> along(Real v) const {
+        return is_u ? Vec2<Real>{v, Real(0)} : Vec2<Real>{Real(0), v};
+    }
     const ShareOf<Real>* open() const { return is_u ? walls.open_u : walls.open_v; }
     Real distance(std::int32_t face) const {
         const DistanceOf<Real>* d = walls.distance;

@@ -88,6 +88,7 @@ struct Pull {
     Real weight = Real(0);       ///< Σ 1/θ
     Real towards = Real(0);      ///< Σ u_wall/θ
     Real liquid = Real(0);       ///< Σ of what faces in the liquid pull
+    Real turning = Real(0);      ///< Σ of what turning walls are braked by besides
     std::uint16_t slot = kNoBody;
 };
 
@@ -118,6 +119,10 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         // Not the neighbour's normal: on the tank's wall it would ask for nodes beyond.
         pull.weight += stiff;
         pull.towards += stiff * axis.of(axis.wall(slot, place, axis.normal(face)));
+        // Traction on a wall is ∂u/∂n + (∇u)ᵀn; the liquid's Laplacian has the first of the two, the
+        // second is that of the wall's own rotation.
+        const std::int32_t outward = axis.is_u ? -dj : di;
+        pull.turning += static_cast<Real>(outward) * axis.walls.body[slot].spin;
         pull.slot = slot;
     };
     look(-1, 0);
@@ -125,6 +130,17 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
     look(0, -1);
     look(0, 1);
     return pull;
+}
+
+/// The turning of a body takes a push, its motion not: around a body such pushes add up to none.
+template <class Real>
+void brake(const Walls<Real>& walls, std::uint16_t slot, Face<Real> mass, Vec2<Real> place,
+           Vec2<Real> lost) {
+    if (slot != kNoBody) {
+        Impulse<Real>& received = walls.load[slot].received;
+        received.angular += mass * cross(convert<Face<Real>>(place) - walls.load[slot].at,
+                                         convert<Face<Real>>(lost));
+    }
 }
 
 template <class Real>
@@ -144,11 +160,17 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         const Real bound = (unbound + amount * pull.towards) /
                            (Real(1) + amount * pull.weight);
         out[face] = bound;
-        if (axis.walls.load != nullptr && pull.slot != kNoBody) {
-            const Real lost = unbound - bound;
-            receive(axis.walls, pull.slot, static_cast<Face<Real>>(share.at(face)),
-                    axis.centre(i, j),
-                    axis.is_u ? Vec2<Real>{lost, Real(0)} : Vec2<Real>{Real(0), lost});
+        if (axis.walls.load != nullptr) {
+            // What pulls on faces that are bound to the wall, pulls on the wall.
+            const bool is_bound = d < kBoundLayer<Real>;
+            const std::uint16_t slot = is_bound ? axis.sticking(face) : pull.slot;
+            if (slot != kNoBody) {
+                const auto mass = static_cast<Face<Real>>(share.at(face));
+                const Vec2<Real> place = axis.centre(i, j);
+                receive(axis.walls, slot, mass, place,
+                        axis.along(is_bound ? amount * pull.liquid : unbound - bound));
+                brake(axis.walls, pull.slot, mass, place, axis.along(amount * pull.turning));
+            }
         }
     });
 }

@@ -16,6 +16,8 @@ using Vec2d = weir::Vec2<double>;
 
 constexpr double kCell = 1.0 / 64.0;
 constexpr double kReynolds = 10.0;
+constexpr int kGaps = 8;  // that a channel is long: within 1½ of an end flow is off by 2 permille
+constexpr double kSettled = 0.24;  // of gap²/viscosity: what is not steady has fallen to 1e-4
 
 /// Of a gap of so many cells whose wall goes a gap a second.
 weir::WorldDef definition(int gap, int cells_x, int cells_y) {
@@ -28,6 +30,7 @@ weir::WorldDef definition(int gap, int cells_x, int cells_y) {
     def.capacity.bodies = 2;
     def.capacity.vertices = 2048;
     def.capacity.two_way = true;
+    def.max_substeps = 64;  // with 16 what 64 cells have of viscosity is limited
     def.viscosity_m2ps = static_cast<float>(gap * kCell * gap * kCell / kReynolds);
     return def;
 }
@@ -67,27 +70,27 @@ double plane_error(Tank<float>& tank, int gap, double floor) {
         const double y = (x.y - floor) / gap;
         return Vec2d{gap * (3.0 * y * y - 2.0 * y), 0.0};
     };
-    return difference(tank, flow, [&](Vec2d x) { return std::abs(x.x - 2.0 * gap) < 0.5 * gap; });
+    return difference(tank, flow, [&](Vec2d x) { return std::abs(x.x - 0.5 * kGaps * gap) < 0.5 * gap; });
 }
 
 /// The same flow as `plane` between walls of the tank, for what the rest of the scheme leaves.
 double plane_of_tank_walls(int gap) {
-    weir::WorldDef def = definition(gap, 4 * gap, gap);
+    weir::WorldDef def = definition(gap, kGaps * gap, gap);
     def.walls.bottom.no_slip = true;
     def.walls.top.no_slip = true;
     def.walls.top.conveyor_mps = static_cast<float>(-gap * kCell);
     Tank<float> tank(def);
     require(tank->fill({{0.0F, 0.0F},
-                        {static_cast<float>(4.0 * gap * kCell), static_cast<float>(gap * kCell)}}));
-    simulate(tank, 0.4 * kReynolds);
+                        {static_cast<float>(kGaps * gap * kCell), static_cast<float>(gap * kCell)}}));
+    simulate(tank, kSettled * kReynolds);
     return plane_error(tank, gap, 0.0);
 }
 
 void plane(Report& report, int gap) {
-    const double length = 4.0 * gap;
+    const double length = kGaps * gap;
     const double floor = 2.37;  // not on the grid's lines
     const double ceiling = floor + gap;
-    Tank<float> tank(definition(gap, 4 * gap, gap + 6));
+    Tank<float> tank(definition(gap, kGaps * gap, gap + 6));
     const Ring still = rectangle(1.5 * length * kCell, 8.0 * kCell);
     const Ring belt = rectangle(5.0 * length * kCell, 8.0 * kCell);
     weir::BodyId id;
@@ -97,7 +100,7 @@ void plane(Report& report, int gap) {
     require(tank->add_moving_body(moving, &id));
     require(tank->fill({{0.0F, static_cast<float>(floor * kCell)},
                         {static_cast<float>(length * kCell), static_cast<float>(ceiling * kCell)}}));
-    simulate(tank, 0.4 * kReynolds);
+    simulate(tank, kSettled * kReynolds);
     const std::string n = std::to_string(gap);
     report.at_most("R10.plane.velocity_error." + n, plane_error(tank, gap, floor), "%",
                    gap > 16 ? 0.2 : 0.8);
@@ -157,7 +160,8 @@ void annulus(Report& report, int gap) {
     }
     const double viscosity = gap * gap / kReynolds;
     const double exact = -4.0 * M_PI * viscosity * b * kCell * kCell * kCell * kCell;
-    report.figure("R10.annulus.torque_on_the_disc_error." + n, 100.0 * (torque / time / exact - 1.0), "%");
+    report.at_most("R10.annulus.torque_on_the_disc_error." + n,
+                   100.0 * std::abs(torque / time / exact - 1.0), "%", gap > 16 ? 5.0 : 10.0);
 }
 
 }  // namespace

@@ -158,6 +158,49 @@ TEST(Surface, ViscousLiquidSticksToBodies) {
     EXPECT_GT(speed_above_a_belt<Fixed>(true, true, &drag), 0.05F);
 }
 
+Ring circle(float radius_m, int corners) {
+    Ring ring;
+    for (int k = 0; k < corners; ++k) {
+        const float angle = 6.2831853F * static_cast<float>(k) / static_cast<float>(corners);
+        ring.push_back({radius_m * std::cos(angle), radius_m * std::sin(angle)});
+    }
+    return ring;
+}
+
+/// Torque of the liquid in a ring of 16 cells on a disc of 8 that turns in it, over −4πνB (Couette
+/// 1890), B = ω R₁² R₂² / (R₂² − R₁²).
+TEST(Surface, ATurningDiscIsBraked) {
+    constexpr float kInner = 0.16F, kOuter = 0.32F, kViscosity = 4.0e-3F, kSpin = 1.0F;
+    WorldDef def = small_def();
+    def.gravity_mps2 = {0, 0};
+    def.capacity.cells_x = def.capacity.cells_y = 40;
+    def.capacity.particles = 4 * 40 * 40;
+    def.capacity.vertices = 512;
+    def.capacity.two_way = true;
+    def.viscosity_m2ps = kViscosity;
+    TestWorld<float> world{def};
+    const Ring hole = circle(kOuter, 96), frame = rectangle(1.6F, 1.6F), disc = circle(kInner, 64);
+    const View<Vec2f> holes[] = {{hole.data(), static_cast<std::int32_t>(hole.size())}};
+    BodyDef outer = body_of(frame, {0.404F, 0.398F}), inner = body_of(disc, {0.404F, 0.398F});
+    outer.holes = {holes, 1};
+    outer.surface.no_slip = inner.surface.no_slip = true;
+    inner.motion.spin_radps = kSpin;
+    BodyId id;
+    ASSERT_EQ(world->add_static_body(outer, &id), Status::ok);
+    ASSERT_EQ(world->add_moving_body(inner, &id), Status::ok);
+    ASSERT_EQ(world->fill({{0, 0}, {0.8F, 0.8F}}), Status::ok);
+    float impulse = 0, time = 0;
+    for (int k = 0; k < 600; ++k) {
+        const float dt = world->step(1.0F / 60.0F).dt_s;
+        BodyForce force;
+        ASSERT_EQ(world->force(id, &force), Status::ok);
+        impulse += k < 540 ? 0 : force.angular_impulse_m4ps;
+        time += k < 540 ? 0 : dt;
+    }
+    const float squares = kInner * kInner * kOuter * kOuter / (kOuter * kOuter - kInner * kInner);
+    EXPECT_NEAR(impulse / time / (-12.56637F * kViscosity * kSpin * squares), 1.0F, 0.08F);
+}
+
 TEST(Surface, WithoutViscosityNothingSticks) {
     float drag = 0;
     const float slips = speed_above_a_belt<float>(false, false, &drag);
