@@ -81,6 +81,7 @@ Soak notch_and_needle(int n) {
         {{-2.0, -2.0}, {tip.x, -2.0}, tip, {tip.x - half, floor}, {-2.0, floor}},
         {{tip.x, -2.0}, {n + 2.0, -2.0}, {n + 2.0, floor}, {tip.x + half, floor}, tip},
         {{foot, floor - 1.0}, {foot + 1.0, floor - 1.0}, {foot + 0.5, top}}};
+    soak.vessel.wall_edges = 40 * n;  // for the needle
     soak.room = [=](Vec p) {
         const bool in_notch = std::abs(p.x - tip.x) < (p.y - tip.y) * std::tan(M_PI / 6.0);
         const bool in_needle = p.y < top && std::abs(p.x - foot - 0.5) <
