@@ -30,9 +30,12 @@ Wedge v_tank(int depth, double tilt) {
     const double far = 4.0 * depth + 20.0;
     wedge.apex = apex;
     wedge.depth = depth;
-    wedge.vessel.walls = {
-        {apex, {apex.x - far, apex.y + far}, {apex.x - far, apex.y - far}, {apex.x, apex.y - far}},
-        {apex, {apex.x, apex.y - far}, {apex.x + far, apex.y - far}, {apex.x + far, apex.y + far}}};
+    // One body: of two that only touch, the nodes on their seam would count as their surface.
+    wedge.vessel.walls = {{apex,
+                           {apex.x - far, apex.y + far},
+                           {apex.x - far, apex.y - far},
+                           {apex.x + far, apex.y - far},
+                           {apex.x + far, apex.y + far}}};
     wedge.vessel.liquid = [apex, depth](Vec p) {
         const Vec d = p - apex;
         return d.y < depth && d.y > std::abs(d.x);
