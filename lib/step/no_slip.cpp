@@ -119,7 +119,7 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         // Not the neighbour's normal: on the tank's wall it would ask for nodes beyond.
         pull.weight += stiff;
         pull.towards += stiff * axis.of(axis.wall(slot, place, axis.normal(face)));
-        // Traction on a wall is ∂u/∂n + (∇u)ᵀn; the liquid's Laplacian has the first of the two, the
+        // Traction on a wall is ∂u/∂n + (∇u)ᵀn; the Laplacian has the first of the two, the
         // second is that of the wall's own rotation.
         const std::int32_t outward = axis.is_u ? -dj : di;
         pull.turning += static_cast<Real>(outward) * axis.walls.body[slot].spin;
