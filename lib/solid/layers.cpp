@@ -4,6 +4,7 @@
 
 #include "contour/raster.hpp"
 #include "solid/cut_cells.hpp"
+#include "solid/touching.hpp"
 
 namespace weir {
 
@@ -63,6 +64,16 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
     const NodeField<Real> field{distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
     return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>,
                      layers.nodes, field);
+}
+
+/// Of the static layer in a box, once its bodies are drawn.
+template <class Real>
+void deepen(const Layers<Real>& layers, const BodyTable<Real>& table, const NodeBox& box) {
+    if (layers.contour != Contour::mid_edge) {
+        deepen_where_bodies_touch<Real>(layers.shape, table, stored_of(layers, box),
+                                        {layers.static_distance, layers.static_nearest,
+                                         layers.shape.index(0, 0), layers.shape.stride});
+    }
 }
 
 /// Copies the static layer into the merged one.
@@ -207,17 +218,8 @@ std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table) {
                           layers.static_nearest);
         }
     }
+    deepen(layers, table, everywhere(layers));
     return nodes + refresh(layers, table, everywhere(layers));
-}
-
-/// The most nodes of a body that moves, wherever it is, and the window in the substep to come.
-template <class Real>
-std::int64_t nodes_of_moving(const Layers<Real>& layers, const Body<Real>& body) {
-    const GridShape& tank = layers.shape;
-    // Floor and 1: that many nodes come upon an interval. A hundredth for rounding.
-    const Real reach = body.radius + kBand<Real> + Real(0.01);
-    const std::int64_t width = floor_to_int(reach + reach) + 1;
-    return minimum<std::int64_t>(width, tank.nx + 1) * minimum<std::int64_t>(width, tank.ny + 1);
 }
 
 /// Thin walls are looked at where there are any.
@@ -269,6 +271,7 @@ std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int3
     }
     const std::int32_t nodes = draw(layers, table, slot, body.drawn, layers.static_distance,
                                     layers.static_nearest);
+    deepen(layers, table, body.drawn);
     return nodes + refresh(layers, table, body.drawn);
 }
 
@@ -332,34 +335,6 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
     return nodes;
 }
 
-template <class Real>
-std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table) {
-    std::int64_t nodes = 0;
-    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
-        const Body<Real>& body = table.body[slot];
-        if (body.kind == BodyKind::moving) {
-            const std::int64_t box = nodes_of_moving(layers, body);
-            nodes += table.load != nullptr ? 2 * box : box;
-        }
-    }
-    return static_cast<std::int32_t>(minimum<std::int64_t>(nodes, 0x7FFFFFFF));
-}
-
-template <class Real>
-std::int32_t most_stored_nodes(const Layers<Real>& layers, const BodyTable<Real>& table) {
-    std::int64_t nodes = 0;
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        const Body<Real>& body = table.body[slot];
-        if (body.kind == BodyKind::moving) {
-            nodes += nodes_of_moving(layers, body);
-        } else if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
-            const NodeBox& box = body.drawn;
-            nodes += static_cast<std::int64_t>(box.i1 - box.i0 + 1) * (box.j1 - box.j0 + 1);
-        }
-    }
-    return static_cast<std::int32_t>(minimum<std::int64_t>(nodes, 0x3FFFFFFF));
-}
-
 /// The vertices of the others close up: records of thin edges, which name them, are kept anew.
 template <class Real>
 void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
@@ -391,8 +366,6 @@ void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
     template void redraw_all(Layers<Real>&, BodyTable<Real>&);                        \
     template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);              \
     template std::int32_t draw_stored(Layers<Real>&, const BodyTable<Real>&);         \
-    template std::int32_t most_nodes(const Layers<Real>&, const BodyTable<Real>&);    \
-    template std::int32_t most_stored_nodes(const Layers<Real>&, const BodyTable<Real>&); \
     template void remove_drawn(Layers<Real>&, BodyTable<Real>&, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

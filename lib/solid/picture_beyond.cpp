@@ -1,6 +1,7 @@
 #include "solid/picture_beyond.hpp"
 
 #include "contour/marching_squares.hpp"
+#include "solid/touching.hpp"
 
 namespace weir {
 
@@ -46,16 +47,22 @@ void PictureBeyond<Real>::draw(const BodyTable<Real>& bodies, const NodeBox& nod
     Real* const numbered = numbered_from(scratch, shape_.index(nodes.i0, nodes.j0));
     const NodeField<Real> field{walls_.distance, walls_.nearest, shape_.index(0, 0),
                                 shape_.stride};
-    for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
-        const Body<Real>& body = bodies.body[slot];
-        const NodeBox part = common(body.drawn, nodes);
-        if (body.kind == BodyKind::free || body.hollow || part.empty()) {
-            continue;
+    const auto draw_all = [&](BodyKind kind) {
+        for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
+            const Body<Real>& body = bodies.body[slot];
+            const NodeBox part = common(body.drawn, nodes);
+            if (body.kind == kind && !body.hollow && !part.empty()) {
+                const RasterPolygon<Real> polygon{bodies.outline(body),
+                                                  static_cast<std::uint16_t>(slot), {{}, size}};
+                rasterize(polygon, part, walls_.binary, kBand<Real>, numbered, field);
+            }
         }
-        const RasterPolygon<Real> polygon{bodies.outline(body), static_cast<std::uint16_t>(slot),
-                                          {{}, size}};
-        rasterize(polygon, part, walls_.binary, kBand<Real>, numbered, field);
+    };
+    draw_all(BodyKind::fixed);
+    if (!walls_.binary) {
+        deepen_where_bodies_touch<Real>(shape_, bodies, nodes, field);
     }
+    draw_all(BodyKind::moving);
 }
 
 #define WEIR_INSTANTIATE(Real) template class PictureBeyond<Real>;

@@ -30,7 +30,6 @@ Wedge v_tank(int depth, double tilt) {
     const double far = 4.0 * depth + 20.0;
     wedge.apex = apex;
     wedge.depth = depth;
-    // One body: of two that only touch, the nodes on their seam would count as their surface.
     wedge.vessel.walls = {{apex,
                            {apex.x - far, apex.y + far},
                            {apex.x - far, apex.y - far},

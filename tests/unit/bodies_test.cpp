@@ -151,7 +151,7 @@ TEST(Field, OverlappingBodiesAreTheirUnion) {
     BodyId id;
     ASSERT_EQ(world->add_static_body(a, &id), Status::ok);
     ASSERT_EQ(world->add_moving_body(b, &id), Status::ok);
-    ASSERT_EQ(world->add_static_body(c, &id), Status::ok);
+    ASSERT_EQ(world->add_moving_body(c, &id), Status::ok);
     expect_field(*world, {placed(kArrow, a.motion), placed(kArrow, b.motion),
                           placed(kArrow, c.motion)});
 }

@@ -1,0 +1,108 @@
+#include "solid/touching.hpp"
+
+namespace weir {
+
+namespace {
+
+/// An edge is covered where a body is so far in front of it, cells.
+template <class Real>
+constexpr Real kInFront = Real(1.0 / 16.0);
+
+/// What a node has to be deeper by than its bodies say, cells: more than by rounding.
+template <class Real>
+constexpr Real kDeeper = Real(1.0 / 64.0);
+
+/// Distances are exact up to here.
+template <class Real>
+constexpr Real kDeepest = Real(1);
+
+template <class Real>
+struct Union {
+    const BodyTable<Real>& table;
+    Bounds<Real> tank;
+
+    static bool is_drawn(const Body<Real>& body, std::int32_t i, std::int32_t j) {
+        return body.kind == BodyKind::fixed && !body.hollow && body.drawn.i0 <= i &&
+               i <= body.drawn.i1 && body.drawn.j0 <= j && j <= body.drawn.j1;
+    }
+
+    template <class Visit>
+    void for_each_at(std::int32_t i, std::int32_t j, const Visit& visit) const {
+        for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+            if (is_drawn(table.body[slot], i, j)) {
+                visit(table.body[slot]);
+            }
+        }
+    }
+
+    /// Whether a body that has drawn the node (i, j) is at a point.
+    bool holds(std::int32_t i, std::int32_t j, Vec2<Real> point) const {
+        bool found = false;
+        for_each_at(i, j, [&](const Body<Real>& body) {
+            found = found || signed_distance(table.outline(body), table.piece_list(body),
+                                             body.piece_length, point, kDeeper<Real>) <= Real(0);
+        });
+        return found;
+    }
+
+    /// From a node to the nearest point of an edge that is in front of nothing; at most kDeepest.
+    Real depth(std::int32_t i, std::int32_t j) const {
+        const Vec2<Real> node{static_cast<Real>(i), static_cast<Real>(j)};
+        Real least = kDeepest<Real>;
+        for_each_at(i, j, [&](const Body<Real>& body) {
+            for_each_edge(table.outline(body), [&](Vec2<Real> from, Vec2<Real> to) {
+                const Real away = beyond(tank, from, to) ? least
+                                                         : distance_to_segment(node, from, to);
+                if (away < least && !holds(i, j, before_edge(node, from, to))) {
+                    least = away;
+                }
+            });
+        });
+        return least;
+    }
+
+    /// A little before the point of an edge that is nearest to another one.
+    static Vec2<Real> before_edge(Vec2<Real> other, Vec2<Real> from, Vec2<Real> to) {
+        const Vec2<Real> edge = to - from;
+        const Real size = length(edge);
+        const Vec2<Real> along{edge.x / size, edge.y / size};
+        const Vec2<Real> arm = other - from;
+        const Real at = clamp<Real>(along.x * arm.x + along.y * arm.y, Real(0), size);
+        return from + at * along + kInFront<Real> * Vec2<Real>{along.y, -along.x};
+    }
+};
+
+}  // namespace
+
+template <class Real>
+void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& table,
+                               const NodeBox& box, const NodeField<Real>& field) {
+    const Union<Real> bodies{
+        table, {{}, {static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)}}};
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+            const std::int32_t node = field.origin + j * field.stride + i;
+            const Real inside = field.distance[node];
+            if (inside > Real(0) || inside <= -kDeepest<Real>) {
+                continue;
+            }
+            std::int32_t drawn = 0;
+            bodies.for_each_at(i, j, [&](const Body<Real>&) { ++drawn; });
+            if (drawn < 2) {
+                continue;
+            }
+            const Real depth = bodies.depth(i, j);
+            if (depth > kDeeper<Real> - inside) {
+                field.distance[node] = Real(0) - depth;
+            }
+        }
+    }
+}
+
+#define WEIR_INSTANTIATE(Real)                                                                \
+    template void deepen_where_bodies_touch(const GridShape&, const BodyTable<Real>&,         \
+                                            const NodeBox&, const NodeField<Real>&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir
