@@ -35,28 +35,15 @@ void extend_velocity(const Borders<Real>& borders, const GridShape& shape,
 /// Ghost cells of a cell field take the tank's other side. Walls: nothing is done.
 template <class Real, class Field>
 inline void extend_cells(const Borders<Real>& b, const GridShape& s, Field* field) {
-    if (b.wrap_x) {
-        copy(field, column(s, -1), column(s, s.nx - 1));
-        copy(field, column(s, s.nx), column(s, 0));
-    }
-    if (b.wrap_y) {
-        copy(field, row(s, -1), row(s, s.ny - 1));
-        copy(field, row(s, s.ny), row(s, 0));
+    if (b.wrap_x || b.wrap_y) {
+        fill_ghosts(field, sizeof(Field), s, b.wrap_x, b.wrap_y, true);
     }
 }
 
 /// The same, and beyond a wall ghost cells repeat the cell before it.
 template <class Real, class Field>
 inline void mirror_cells(const Borders<Real>& b, const GridShape& s, Field* field) {
-    if (!b.wrap_x) {
-        copy(field, column(s, -1), column(s, 0));
-        copy(field, column(s, s.nx), column(s, s.nx - 1));
-    }
-    if (!b.wrap_y) {
-        copy(field, row(s, -1), row(s, 0));
-        copy(field, row(s, s.ny), row(s, s.ny - 1));
-    }
-    extend_cells(b, s, field);
+    fill_ghosts(field, sizeof(Field), s, b.wrap_x, b.wrap_y, false);
 }
 
 /// Velocity through the walls is 0 where liquid (level > 0) is at or beside the face's cell. Drops

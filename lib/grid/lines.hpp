@@ -17,19 +17,17 @@ inline Line column(const GridShape& s, std::int32_t i) {
 }
 inline Line row(const GridShape& s, std::int32_t j) { return {s.index(-1, j), 1, s.nx + 2}; }
 
+/// Of numbers of any kind, of 1, 2, 4 or 8 bytes.
+void copy_line(void* field, std::size_t size, Line to, Line from);
+
 template <class Field>
-void copy(Field* field, Line to, Line from) {
-    if (to.step == 1) {  // rows
-        std::memcpy(static_cast<void*>(field + to.first), field + from.first,
-                    static_cast<std::size_t>(to.count) * sizeof(Field));
-        return;
-    }
-    Field* at = field + to.first;
-    const Field* other = field + from.first;
-    for (std::int32_t k = 0; k < to.count; ++k, at += to.step, other += from.step) {
-        *at = *other;
-    }
+inline void copy(Field* field, Line to, Line from) {
+    copy_line(field, sizeof(Field), to, from);
 }
+
+/// Ghost cells repeat the cell before them, or, across a seam, the tank's other side.
+void fill_ghosts(void* field, std::size_t size, const GridShape& shape, bool seam_x, bool seam_y,
+                 bool seams_only);
 
 template <class Field>
 void add(Field* field, Line to, Line from) {

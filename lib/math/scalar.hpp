@@ -17,10 +17,22 @@
 #else
 #define WEIR_FOR_DOUBLE(DO) DO(double)
 #endif
+/// Where packed worlds are compiled for size, their sources are compiled once for them, and once
+/// for all others.
+#if WEIR_WITHOUT_PACKED
+#define WEIR_FOR_PACKED(DO)
+#else
+#define WEIR_FOR_PACKED(DO) DO(SmallFixed)
+#endif
+#if WEIR_ONLY_PACKED
+#define WEIR_FOR_EACH_ROOMY_SCALAR(DO)
+#else
+#define WEIR_FOR_EACH_ROOMY_SCALAR(DO) DO(float) WEIR_FOR_DOUBLE(DO) DO(Fixed)
+#endif
+
 /// Does it for each scalar that is not packed; for each that worlds come in; and for each that
 /// there is: outlines are checked in double everywhere.
-#define WEIR_FOR_EACH_ROOMY_SCALAR(DO) DO(float) WEIR_FOR_DOUBLE(DO) DO(Fixed)
-#define WEIR_FOR_EACH_SCALAR(DO) WEIR_FOR_EACH_ROOMY_SCALAR(DO) DO(SmallFixed)
+#define WEIR_FOR_EACH_SCALAR(DO) WEIR_FOR_EACH_ROOMY_SCALAR(DO) WEIR_FOR_PACKED(DO)
 #define WEIR_FOR_EACH_NUMBER(DO) DO(float) DO(double) DO(Fixed) DO(SmallFixed)
 
 namespace weir {
