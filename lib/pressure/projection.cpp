@@ -349,8 +349,9 @@ template <class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
                 const CoupledSolve<Real>* coupled, Work work) {
-    const auto stage = walls.active ? make_incompressible<true, Real>
-                                    : make_incompressible<false, Real>;
+    // Packed worlds have one for both: little room for code.
+    const auto stage = Stored<Real>::coarse || walls.active ? make_incompressible<true, Real>
+                                                            : make_incompressible<false, Real>;
     stage(borders, walls, dt_s, sweeps, grid, fields, coupled, work);
 }
 

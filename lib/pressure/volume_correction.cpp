@@ -158,7 +158,8 @@ template <class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
                        StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
-    const auto stage = walls.active ? keep_volume<true, Real> : keep_volume<false, Real>;
+    const auto stage = Stored<Real>::coarse || walls.active ? keep_volume<true, Real>
+                                                            : keep_volume<false, Real>;
     stage(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
 }
 

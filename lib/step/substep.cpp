@@ -357,11 +357,7 @@ const Stages<Real>& open_stages() {
     static constexpr auto kNothing = [](Layers<Real>&, BodyTable<Real>&) -> std::int32_t {
         return 0;
     };
-    static constexpr auto kNoSolid = [](Layers<Real>& layers,
-                                        const BodyTable<Real>& table) -> std::int32_t {
-        if (table.capacity > 0) {
-            clear_layers(layers);
-        }
+    static constexpr auto kNoSolid = [](Layers<Real>&, const BodyTable<Real>&) -> std::int32_t {
         return 0;
     };
     static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere, kNothing, kNoSolid};

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "step/time_step_limit.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
-/// What differs in a world with bodies. The table of such a world is named only where a body is
-/// added or restored: a program that does neither links no code for solids.
+/// What differs in a world with room for bodies: one without links no code for solids.
 template <class Real>
 struct Stages {
     /// Advances everything by plan.dt_s, or does as much of it as the work allows. Adds counts and
@@ -19,11 +19,5 @@ struct Stages {
     /// Draws all bodies: another part of the tank is stored.
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
 };
-
-/// Of a world in which there never was a body.
-template <class Real>
-const Stages<Real>& open_stages();
-template <class Real>
-const Stages<Real>& solid_stages();
 
 }  // namespace weir

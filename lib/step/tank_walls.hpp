@@ -24,7 +24,8 @@ inline Vec2<Real> limited(Vec2<Real> v, Real limit, TransferResult<Real>& count)
 
 /// A blow of speed `into` (> 0) against a tank's wall rubs along it (Coulomb).
 template <class Real>
-inline Real rubbed(Real along, Real slide, const SurfaceLaw<Real>& wall, Real into) {
+[[gnu::cold]] inline Real rubbed(Real along, Real slide, const SurfaceLaw<Real>& wall,
+                                 Real into) {
     const Real most = wall.friction * ((Real(1) + wall.restitution) * into);
     return along - clamp(along - slide, -most, most);
 }
@@ -49,8 +50,9 @@ struct TankBlow {
 /// along it. `sense`: the axis along which the low wall's conveyor runs; the high one's runs the
 /// other way. Whether it was hit.
 template <class Real>
-inline bool keep_inside(Real& x, Real& v, Real& along, Real size, const SurfaceLaw<Real>& low,
-                        const SurfaceLaw<Real>& high, Real sense) {
+[[gnu::cold]] inline bool keep_inside(Real& x, Real& v, Real& along, Real size,
+                                      const SurfaceLaw<Real>& low, const SurfaceLaw<Real>& high,
+                                      Real sense) {
     if (x < kWallGap<Real>) {
         x = kWallGap<Real>;
         if (v < Real(0)) {
@@ -82,9 +84,10 @@ inline void wrap_around(Real& x, Real size) {
     }
 }
 
-/// Who has come to the walls of a tank of that size stays in it.
+/// Who has come to the walls of a tank of that size stays in it. Few do: compiled for size.
 template <class Real>
-inline void meet_tank(Vec2<Real> size, const TankBlow<Real>& blow, Vec2<Real>& x, Vec2<Real>& v) {
+[[gnu::cold]] inline void meet_tank(Vec2<Real> size, const TankBlow<Real>& blow, Vec2<Real>& x,
+                                    Vec2<Real>& v) {
     const Borders<Real>& b = blow.transfer.borders;
     const Vec2<Real> before = v;
     bool hit = false;

@@ -273,7 +273,6 @@ void redraw(Simulation<Real>& simulation) {
     }
     note_movable(table);
     simulation.layers.walls.active = table.used > 0;
-    simulation.stages = table.used > 0 ? &solid_stages<Real>() : &open_stages<Real>();
     simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = stored_part(simulation);  // what is not kept may stand anywhere
     if (simulation.regions != nullptr) {

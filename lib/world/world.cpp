@@ -290,7 +290,7 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
 #if WEIR_PARALLEL
     state_->progress.parallel_for = def.parallel_for;
 #endif
-    simulation.stages = &open_stages<Real>();
+    simulation.stages = features.stages;
     simulation.layers.contour = def.contour;
     simulation.layers.walls.binary = def.contour == Contour::mid_edge;
     name_units(*state_);

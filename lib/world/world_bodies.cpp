@@ -126,7 +126,6 @@ template <class Real>
     ++table.used;
     note_movable(table);
     layers.walls.active = true;
-    state.simulation.stages = &solid_stages<Real>();
     if (table.load != nullptr) {
         weigh(def, table, body, table.load[slot]);
     }

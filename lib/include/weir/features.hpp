@@ -6,7 +6,16 @@
 
 #include "weir/config.hpp"
 
-namespace weir::detail {
+namespace weir {
+
+template <class Real>
+struct Stages;
+template <class Real>
+const Stages<Real>& open_stages();
+template <class Real>
+const Stages<Real>& solid_stages();
+
+namespace detail {
 
 // Tables of functions; each stands beside the stage that it names.
 template <class Real>
@@ -45,6 +54,7 @@ const Viscosity<Real>& viscosity_among_solids();
 /// into a world of the same definition.
 template <class Real>
 struct Features {
+    const Stages<Real>* stages = nullptr;  ///< never null; for bodies only if there is room for any
     const Elasticity<Real>* elasticity = nullptr;
     const RowOrder<Real>* row_order = nullptr;
     const SecondLiquid<Real>* second_liquid = nullptr;
@@ -59,6 +69,7 @@ template <class Real>
     const Capacity& room = def.capacity;
     const bool open = room.bodies == 0;
     Features<Real> features;
+    features.stages = open ? &open_stages<Real>() : &solid_stages<Real>();
     if (def.pressure == Pressure::equation_of_state) {
         features.elasticity = &elasticity<Real>();
     }
@@ -81,4 +92,6 @@ template <class Real>
     return features;
 }
 
-}  // namespace weir::detail
+}  // namespace detail
+
+}  // namespace weir
