@@ -18,6 +18,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 ACCEPTED = HERE / "accepted.txt"
 ALLOWED = 1.02
+# An operator of the scalars stands in one object for all who call it: that is not its stage.
+SHARED = 64
 
 BOARD = {"cortex-m0": "microbit", "cortex-m3": "mps2-an385", "cortex-m4f": "netduinoplus2"}
 SCENES = {"0": "liquid", "1": "solid"}
@@ -66,7 +68,8 @@ def library_bytes(map_file):
 
 def left_out(image, objects):
     found = library_bytes(pathlib.Path(f"{image}.map"))
-    linked = [f"{name} {found[name]} bytes" for name in objects if name in found]
+    linked = [f"{name} {found[name]} bytes" for name in objects
+              if found.get(name, 0) > SHARED]
     print(f"{len(found)} objects linked", *linked, sep="\nNOT LEFT OUT ")
     return 1 if linked or not found else 0
 
