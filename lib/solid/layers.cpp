@@ -51,6 +51,12 @@ NodeBox reach(const GridShape& shape, const BodyTable<Real>& table, const Body<R
 }
 
 template <class Real>
+NodeField<Real> field_of(const Layers<Real>& layers, DistanceOf<Real>* distance,
+                         SlotOf<Real>* nearest) {
+    return {distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
+}
+
+template <class Real>
 std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot,
                   const NodeBox& nodes, DistanceOf<Real>* distance, SlotOf<Real>* nearest) {
     const Body<Real>& body = table.body[slot];
@@ -61,18 +67,17 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
     const RasterPolygon<Real> polygon{table.outline(body), static_cast<std::uint16_t>(slot),
                                       {{}, size}};
-    const NodeField<Real> field{distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
     return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>,
-                     layers.nodes, field);
+                     layers.nodes, field_of(layers, distance, nearest));
 }
 
 /// Of the static layer in a box, once its bodies are drawn.
 template <class Real>
 void deepen(const Layers<Real>& layers, const BodyTable<Real>& table, const NodeBox& box) {
     if (layers.contour != Contour::mid_edge) {
-        deepen_where_bodies_touch<Real>(layers.shape, table, stored_of(layers, box),
-                                        {layers.static_distance, layers.static_nearest,
-                                         layers.shape.index(0, 0), layers.shape.stride});
+        deepen_where_bodies_touch(
+            layers.shape, table, stored_of(layers, box),
+            field_of(layers, layers.static_distance, layers.static_nearest));
     }
 }
 

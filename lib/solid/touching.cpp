@@ -51,8 +51,8 @@ struct Union {
         Real least = kDeepest<Real>;
         for_each_at(i, j, [&](const Body<Real>& body) {
             for_each_edge(table.outline(body), [&](Vec2<Real> from, Vec2<Real> to) {
-                const Real away = beyond(tank, from, to) ? least
-                                                         : distance_to_segment(node, from, to);
+                const bool none = (from.x == to.x && from.y == to.y) || beyond(tank, from, to);
+                const Real away = none ? least : distance_to_segment(node, from, to);
                 if (away < least && !holds(i, j, before_edge(node, from, to))) {
                     least = away;
                 }

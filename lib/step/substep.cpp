@@ -76,8 +76,8 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     if constexpr (!Stored<Real>::coarse) {  // packed worlds have no tension
         if (plan.surface_tension > Real(0)) {
             simulation.tension->stage(simulation.grid.shape, settings.borders, walls,
-                                               plan.surface_tension * plan.dt_s,
-                                               simulation.pressure, work);
+                                      plan.surface_tension * plan.dt_s, simulation.pressure,
+                                      work);
         }
     }
     if constexpr (Solids) {
@@ -300,7 +300,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (plan.viscosity > Real(0)) {
         Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
         simulation.viscosity->diffuse(settings.borders, walls, simulation.pressure,
-                                               plan.viscosity * dt_s, grid, tank, work);
+                                      plan.viscosity * dt_s, grid, tank, work);
     }
     clock.charge(Stage::grid_update);
 
