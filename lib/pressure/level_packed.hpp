@@ -3,7 +3,7 @@
 
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/slivers.hpp"
 
 namespace weir {
 
@@ -27,24 +27,33 @@ inline std::int8_t packed_level(std::int32_t density) {
 }
 
 /// Density and level of the cells of some rows. There are no thin walls.
-inline void packed_density(const StaggeredGrid<SmallFixed>& grid, const Walls<SmallFixed>& walls,
-                    std::int32_t rest_count, const Part& rows,
-                    PressureFields<SmallFixed>& fields) {
+inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
+                           const Borders<SmallFixed>& borders,
+                           const CutDensity<SmallFixed>& cut, const Part& rows,
+                           PressureFields<SmallFixed>& fields) {
     const GridShape& s = grid.shape;
-    const ShareOf<SmallFixed>* full = walls.active ? walls.full_density : nullptr;
+    const ShareOf<SmallFixed>* full = cut.full;
+    const auto rest_count = static_cast<std::int32_t>(cut.rest_count);
     // Mass of a face is in 256ths of a particle, four faces a cell.
     const std::uint32_t per_face = 0x4000U / static_cast<std::uint32_t>(rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        Part slivers;
         for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
             const auto mass = static_cast<std::uint32_t>(
                 (grid.mass_u[c].raw + grid.mass_u[c + 1].raw) +
                 (grid.mass_v[c].raw + grid.mass_v[c + s.stride].raw));
             auto density = static_cast<std::int32_t>((mass * per_face + 0x8000U) >> 16U);
             if (full != nullptr && full[c].raw < 128 && density > 0) {
+                if (full[c].raw * rest_count < 128) {
+                    slivers = {slivers.empty() ? c : slivers.first, c + 1};
+                }
                 density = full[c].raw < 3 ? 0 : density * 128 / full[c].raw;
             }
             fields.density[c].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
             fields.level[c].raw = packed_level(density);
+        }
+        if (!slivers.empty()) {
+            empty_lone_slivers(grid, borders, cut, j, slivers, fields.level);
         }
     }
 }

@@ -53,10 +53,10 @@ std::int32_t accelerate_wide(const PressureFields<float>& fields, const float* o
     return accelerate_cells<EightLanes>(fields, open_u, open_v, has_lower, c, end, grid);
 }
 
-std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_density,
-                          float least_full, float per_face, std::int32_t c, std::int32_t end,
+std::int32_t density_wide(const StaggeredGrid<float>& grid, const CutDensity<float>& cut,
+                          float per_face, std::int32_t c, std::int32_t end, Part& slivers,
                           PressureFields<float>& fields) {
-    return density_cells<EightLanes>(grid, full_density, least_full, per_face, c, end, fields);
+    return density_cells<EightLanes>(grid, cut, per_face, c, end, slivers, fields);
 }
 
 std::int32_t fill_wide(const DimpleTask& task, std::int32_t c, std::int32_t end) {

@@ -4,8 +4,8 @@
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "pressure/slivers.hpp"
 #include "pressure/some_lanes.hpp"
-#include "solid/walls.hpp"
 
 namespace weir {
 
@@ -32,11 +32,11 @@ inline typename L::Floats level_of_density_lanes(typename L::Floats density) {
 }
 
 /// Cells c, c + 1 … as long as enough are left before `end`. Returns the next cell to do.
-/// `full_density`: null: no solids; `least_full`: cells of less have no density.
+/// `slivers` grows to hold those that one particle would make liquid.
 template <class L>
-inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float* full_density,
-                                  float least_full, float per_face, std::int32_t c,
-                                  std::int32_t end, PressureFields<float>& fields) {
+inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const CutDensity<float>& cut,
+                                  float per_face, std::int32_t c, std::int32_t end, Part& slivers,
+                                  PressureFields<float>& fields) {
     const std::int32_t up = grid.shape.stride;
     const auto zero = L::all(0.0F);
     const auto empty = L::all(kEmptyLevel<float>);
@@ -51,11 +51,14 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float*
             continue;
         }
         auto density = wet ? mass * L::all(per_face) : zero;
-        if (full_density != nullptr) {
-            const auto full = L::load(full_density + c);
-            const auto shown =
-                full < L::all(least_full) ? L::all(kNoRoom<float>) : density / full;
+        if (cut.full != nullptr) {
+            const auto full = L::load(cut.full + c);
+            const auto shown = full < L::all(cut.least) ? L::all(kNoRoom<float>) : density / full;
             density = (wet & (full < L::all(1.0F))) ? shown : density;
+            if (L::any_true(wet & (full < L::all(cut.sliver)))) {
+                slivers.first = slivers.first == slivers.end ? c : slivers.first;
+                slivers.end = c + L::kLanes;
+            }
         }
         L::store(fields.density + c, density);
         const auto level = level_of_density_lanes<L>(density) - head;
@@ -65,20 +68,20 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const float*
 }
 
 #if WEIR_HAS_WIDE_LANES
-std::int32_t density_wide(const StaggeredGrid<float>& grid, const float* full_density,
-                          float least_full, float per_face, std::int32_t c, std::int32_t end,
+std::int32_t density_wide(const StaggeredGrid<float>& grid, const CutDensity<float>& cut,
+                          float per_face, std::int32_t c, std::int32_t end, Part& slivers,
                           PressureFields<float>& fields);
 #endif
 
-inline std::int32_t density_row(const StaggeredGrid<float>& grid, const float* full_density,
-                                float least_full, float per_face, std::int32_t c,
-                                std::int32_t end, PressureFields<float>& fields) {
+inline std::int32_t density_row(const StaggeredGrid<float>& grid, const CutDensity<float>& cut,
+                                float per_face, std::int32_t c, std::int32_t end, Part& slivers,
+                                PressureFields<float>& fields) {
 #if WEIR_HAS_WIDE_LANES
     if (has_wide_lanes()) {
-        c = density_wide(grid, full_density, least_full, per_face, c, end, fields);
+        c = density_wide(grid, cut, per_face, c, end, slivers, fields);
     }
 #endif
-    return density_cells<FourLanes>(grid, full_density, least_full, per_face, c, end, fields);
+    return density_cells<FourLanes>(grid, cut, per_face, c, end, slivers, fields);
 }
 
 /// What `fill_dimples` asks of the cells of a row.

@@ -1,15 +1,12 @@
 #include "pressure/surface_level.hpp"
 
 #include "pressure/level_packed.hpp"
+#include "pressure/slivers.hpp"
 #include "pressure/surface_lanes.hpp"
 
 namespace weir {
 
 namespace {
-
-/// A cell of which less than this can hold liquid has no density worth dividing for.
-template <class Real>
-constexpr Real kLeastFullDensity = Real(0.02);
 
 /// Share of a cell's open faces that liquid must cover for an air cell to be taken as filled.
 template <class Real>
@@ -33,72 +30,82 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
             (sees.upper ? grid.mass_v[c + grid.shape.stride] : Real(0)));
 }
 
-/// Density of a cell of which so much is room: `full` is what it shows when that is full.
+/// Density and level of a cell whose faces hold some mass.
 template <class Real>
-inline Real density_of_room(Real density, Real full) {
-    return full < kLeastFullDensity<Real> ? kNoRoom<Real> : density / full;
+inline void show_cell(Real mass, Real per_face, const CutDensity<Real>& cut, std::int32_t c,
+                      Part& slivers, PressureFields<Real>& fields) {
+    Real density = mass * per_face;
+    if (cut.full != nullptr && bound_key(Real(cut.full[c])) < bound_key(Real(1))) {
+        const Real full = cut.full[c];
+        if (full < cut.sliver) {
+            slivers = {slivers.empty() ? c : slivers.first, c + 1};
+        }
+        density = full < cut.least ? kNoRoom<Real> : density / full;
+    }
+    fields.density[c] = density;
+    fields.level[c] = level_of_density(density) - least_head(fields);
 }
 
-/// Cells c … end − 1 of a row. `full` null: there are no solids.
+/// Cells c … end − 1 of a row.
 template <class Real>
 [[gnu::noinline]] void densities_of_row(const StaggeredGrid<Real>& grid, Real per_face,
-                                        const ShareOf<Real>* full, std::int32_t c,
-                                        std::int32_t end, PressureFields<Real>& fields) {
+                                        const CutDensity<Real>& cut, std::int32_t c,
+                                        std::int32_t end, Part& slivers,
+                                        PressureFields<Real>& fields) {
     const VelocityOf<Real>* lower = grid.mass_v + c;
     const VelocityOf<Real>* upper = lower + grid.shape.stride;
     const VelocityOf<Real>* right = grid.mass_u + c + 1;
-    const Real head = least_head(fields);
     Real left = right[-1];
     for (; c < end; ++c) {
         const Real next = *right++;
         const Real mass = (left + next) + (*lower++ + *upper++);
         left = next;
-        Real density = Real(0);
-        Real level = kEmptyLevel<Real>;
         if (mass > Real(0)) {
-            density = mass * per_face;
-            if (full != nullptr && bound_key(Real(full[c])) < bound_key(Real(1))) {
-                density = density_of_room<Real>(density, full[c]);
-            }
-            level = level_of_density(density) - head;
+            show_cell(mass, per_face, cut, c, slivers, fields);
+        } else {
+            fields.density[c] = Real(0);
+            fields.level[c] = kEmptyLevel<Real>;
         }
-        fields.density[c] = density;
-        fields.level[c] = level;
+    }
+}
+
+/// The same where there are thin walls.
+template <class Real>
+void densities_beside_thin(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin,
+                           Real per_face, const CutDensity<Real>& cut, std::int32_t c,
+                           std::int32_t end, Part& slivers, PressureFields<Real>& fields) {
+    for (; c < end; ++c) {
+        const Real mass = (thin.mark[c] & kTouching) != 0 ? seen_mass(grid, thin, c)
+                                                          : mass_of_cell(grid, c);
+        if (mass > Real(0)) {
+            show_cell(mass, per_face, cut, c, slivers, fields);
+        } else {
+            fields.density[c] = Real(0);
+            fields.level[c] = kEmptyLevel<Real>;
+        }
     }
 }
 
 template <class Real>
-void density_from_faces(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
-                        Real rest_count, const Part& rows, PressureFields<Real>& fields) {
+void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
+                        const CutDensity<Real>& cut, const ThinWalls<Real>* thin,
+                        const Part& rows, PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
-    const ThinWalls<Real>* thin = walls.thin;
-    const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * rest_count);
-    const Real head = least_head(fields);
+    const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * cut.rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t c = s.index(0, j);
         const std::int32_t end = s.index(s.nx, j);
-        if constexpr (kHasLanes<Real>) {
-            c = thin != nullptr ? c
-                                : density_row(grid, walls.active ? walls.full_density : nullptr,
-                                              kLeastFullDensity<Real>, per_face, c, end, fields);
-        }
-        if (thin == nullptr) {
-            densities_of_row(grid, per_face, walls.active ? walls.full_density : nullptr, c, end,
-                             fields);
-            continue;
-        }
-        for (; c < end; ++c) {
-            const Real mass = (thin->mark[c] & kTouching) != 0
-                                  ? seen_mass(grid, *thin, c)
-                                  : (grid.mass_u[c] + grid.mass_u[c + 1]) +
-                                        (grid.mass_v[c] + grid.mass_v[c + s.stride]);
-            const bool any = mass > Real(0);
-            Real density = any ? mass * per_face : Real(0);
-            if (any && walls.active && walls.full_density[c] < Real(1)) {
-                density = density_of_room<Real>(density, walls.full_density[c]);
+        Part slivers;
+        if (thin != nullptr) {
+            densities_beside_thin(grid, *thin, per_face, cut, c, end, slivers, fields);
+        } else {
+            if constexpr (kHasLanes<Real>) {
+                c = density_row(grid, cut, per_face, c, end, slivers, fields);
             }
-            fields.density[c] = density;
-            fields.level[c] = any ? level_of_density(density) - head : kEmptyLevel<Real>;
+            densities_of_row(grid, per_face, cut, c, end, slivers, fields);
+        }
+        if (!slivers.empty()) {
+            empty_lone_slivers(grid, borders, cut, j, slivers, fields.level);
         }
     }
 }
@@ -207,14 +214,17 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
                    const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
                    Work work) {
     const GridShape& s = grid.shape;
-    const Part cells = work.take(s.ny, s.nx);
-    if constexpr (Stored<Real>::coarse) {
-        packed_density(grid, walls, static_cast<std::int32_t>(rest_count), cells, fields);
-    } else {
-        work.share(cells, s.nx, 1, [&](const Part& rows, std::int32_t) {
-            density_from_faces(grid, walls, rest_count, rows, fields);
-        });
-    }
+    CutDensity<Real> cut;
+    cut.full = walls.active ? walls.full_density : nullptr;
+    cut.rest_count = rest_count;
+    cut.sliver = Real(1) / rest_count;
+    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+        if constexpr (Stored<Real>::coarse) {
+            packed_density(grid, borders, cut, rows, fields);
+        } else {
+            density_from_faces(grid, borders, cut, walls.thin, rows, fields);
+        }
+    });
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.level);
         if (borders.wrap_x || borders.wrap_y) {  // faces on the seam look at both sides

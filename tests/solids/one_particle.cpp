@@ -149,8 +149,7 @@ void all_walls(Report& report, const std::string& name, weir::Contour contour,
 
 void one_particle(Report& report, const Effort&) {
     all_walls(report, "R1", weir::Contour::interpolated, 4, true);
-    // Of four a cell, one is liquid in a sliver beside a wall, and the pressure takes its share.
-    all_walls(report, "R1.never_liquid", weir::Contour::interpolated, 16, true);
+    all_walls(report, "R1.sixteen_a_cell", weir::Contour::interpolated, 16, true);
     all_walls(report, "R1.binary", weir::Contour::mid_edge, 4, false);
 }
 
