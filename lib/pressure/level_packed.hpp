@@ -29,11 +29,11 @@ inline std::int8_t packed_level(std::int32_t density) {
 /// Density and level of the cells of some rows. There are no thin walls.
 inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
                            const Borders<SmallFixed>& borders,
-                           const CutDensity<SmallFixed>& cut, const Part& rows,
+                           const CutDensity<SmallFixed>& cut, std::int32_t rest_count,
+                           EmptySlivers<SmallFixed> empty_slivers, const Part& rows,
                            PressureFields<SmallFixed>& fields) {
     const GridShape& s = grid.shape;
     const ShareOf<SmallFixed>* full = cut.full;
-    const auto rest_count = static_cast<std::int32_t>(cut.rest_count);
     // Mass of a face is in 256ths of a particle, four faces a cell.
     const std::uint32_t per_face = 0x4000U / static_cast<std::uint32_t>(rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
@@ -52,8 +52,8 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
             fields.density[c].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
             fields.level[c].raw = packed_level(density);
         }
-        if (!slivers.empty()) {
-            empty_lone_slivers(grid, borders, cut, j, slivers, fields.level);
+        if (!slivers.empty() && empty_slivers != nullptr) {
+            empty_slivers(grid, borders, cut, j, slivers, fields.level);
         }
     }
 }

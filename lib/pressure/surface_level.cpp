@@ -1,7 +1,6 @@
 #include "pressure/surface_level.hpp"
 
 #include "pressure/level_packed.hpp"
-#include "pressure/slivers.hpp"
 #include "pressure/surface_lanes.hpp"
 
 namespace weir {
@@ -33,7 +32,7 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
 /// Density and level of a cell whose faces hold some mass.
 template <class Real>
 inline void show_cell(Real mass, Real per_face, const CutDensity<Real>& cut, std::int32_t c,
-                      Part& slivers, PressureFields<Real>& fields) {
+                      Part& slivers, const PressureFields<Real>& fields) {
     Real density = mass * per_face;
     if (cut.full != nullptr && bound_key(Real(cut.full[c])) < bound_key(Real(1))) {
         const Real full = cut.full[c];
@@ -49,9 +48,8 @@ inline void show_cell(Real mass, Real per_face, const CutDensity<Real>& cut, std
 /// Cells c … end − 1 of a row.
 template <class Real>
 [[gnu::noinline]] void densities_of_row(const StaggeredGrid<Real>& grid, Real per_face,
-                                        const CutDensity<Real>& cut, std::int32_t c,
-                                        std::int32_t end, Part& slivers,
-                                        PressureFields<Real>& fields) {
+                                        CutDensity<Real> cut, std::int32_t c, std::int32_t end,
+                                        Part& slivers, PressureFields<Real> fields) {
     const VelocityOf<Real>* lower = grid.mass_v + c;
     const VelocityOf<Real>* upper = lower + grid.shape.stride;
     const VelocityOf<Real>* right = grid.mass_u + c + 1;
@@ -88,10 +86,10 @@ void densities_beside_thin(const StaggeredGrid<Real>& grid, const ThinWalls<Real
 
 template <class Real>
 void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
-                        const CutDensity<Real>& cut, const ThinWalls<Real>* thin,
-                        const Part& rows, PressureFields<Real>& fields) {
+                        const CutDensity<Real>& cut, Real per_face, const ThinWalls<Real>* thin,
+                        EmptySlivers<Real> empty_slivers, const Part& rows,
+                        PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
-    const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * cut.rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         std::int32_t c = s.index(0, j);
         const std::int32_t end = s.index(s.nx, j);
@@ -104,8 +102,8 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& bo
             }
             densities_of_row(grid, per_face, cut, c, end, slivers, fields);
         }
-        if (!slivers.empty()) {
-            empty_lone_slivers(grid, borders, cut, j, slivers, fields.level);
+        if (!slivers.empty() && empty_slivers != nullptr) {
+            empty_slivers(grid, borders, cut, j, slivers, fields.level);
         }
     }
 }
@@ -212,17 +210,19 @@ Real level_of_density(Real density) {
 template <class Real>
 void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                    const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
-                   Work work) {
+                   EmptySlivers<Real> empty_slivers, Work work) {
     const GridShape& s = grid.shape;
     CutDensity<Real> cut;
     cut.full = walls.active ? walls.full_density : nullptr;
-    cut.rest_count = rest_count;
     cut.sliver = Real(1) / rest_count;
+    const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * rest_count);
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         if constexpr (Stored<Real>::coarse) {
-            packed_density(grid, borders, cut, rows, fields);
+            packed_density(grid, borders, cut, static_cast<std::int32_t>(rest_count),
+                           empty_slivers, rows, fields);
         } else {
-            density_from_faces(grid, borders, cut, walls.thin, rows, fields);
+            density_from_faces(grid, borders, cut, per_face, walls.thin, empty_slivers, rows,
+                               fields);
         }
     });
     if (work.once(s.border())) {
@@ -246,7 +246,8 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
 #define WEIR_INSTANTIATE(Real)                                                    \
     template Real level_of_density(Real);                                         \
     template void surface_level(const StaggeredGrid<Real>&, const Borders<Real>&, \
-                                const Walls<Real>&, Real, PressureFields<Real>&, Work);
+                                const Walls<Real>&, Real, PressureFields<Real>&,  \
+                                EmptySlivers<Real>, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -3,6 +3,7 @@
 
 #include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "pressure/slivers.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -14,10 +15,10 @@ Real level_of_density(Real density);
 
 /// Density = mean of the masses on the cell's four faces over what a full cell would show there;
 /// level from it. An air cell that liquid surrounds counts as liquid: it would be a sink of
-/// pressure. Order: by row. Cost: 4 sums and about one square root a cell near the surface.
+/// pressure. `empty_slivers`: null where there is no room for bodies. Order: by row. Cost: 4 sums and about one square root a cell near the surface.
 template <class Real>
 void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                    const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
-                   Work work = {});
+                   EmptySlivers<Real> empty_slivers = nullptr, Work work = {});
 
 }  // namespace weir

@@ -108,7 +108,7 @@ void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, W
     fields.on_surface = fields.on_surface ||
                         (!Stored<Real>::coarse && plan.surface_tension > Real(0));
     surface_level(simulation.grid, settings.borders, simulation.layers.walls, settings.rest_count,
-                  fields, work);
+                  fields, simulation.stages->empty_slivers, work);
 }
 
 /// The gain holds for a substep in which something moves half a cell, or a wave of the size of a
@@ -360,14 +360,16 @@ const Stages<Real>& open_stages() {
     static constexpr auto kNoSolid = [](Layers<Real>&, const BodyTable<Real>&) -> std::int32_t {
         return 0;
     };
-    static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere, kNothing, kNoSolid};
+    static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere, kNothing, kNoSolid,
+                                          nullptr};
     return kStages;
 }
 
 template <class Real>
 const Stages<Real>& solid_stages() {
     static constexpr Stages<Real> kStages{substep<true, Real>, inside_solid<Real>,
-                                          merge_moving<Real>, draw_stored<Real>};
+                                          merge_moving<Real>, draw_stored<Real>,
+                                          empty_lone_slivers<Real>};
     return kStages;
 }
 

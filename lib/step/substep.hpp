@@ -1,6 +1,7 @@
 // One substep, from particles back to particles.
 #pragma once
 
+#include "pressure/slivers.hpp"
 #include "step/time_step_limit.hpp"
 #include "weir/features.hpp"
 
@@ -18,6 +19,7 @@ struct Stages {
     std::int32_t (*draw_moved)(Layers<Real>& layers, BodyTable<Real>& table);
     /// Draws all bodies: another part of the tank is stored.
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
+    EmptySlivers<Real> empty_slivers;
 };
 
 }  // namespace weir

@@ -92,7 +92,8 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     particle_to_grid<Real>(simulation.particles, borders, simulation.settings.second_density,
                            simulation.grid, simulation.layers.walls.thin);
     surface_level(simulation.grid, borders, simulation.layers.walls,
-                  simulation.settings.rest_count, simulation.pressure);
+                  simulation.settings.rest_count, simulation.pressure,
+                  simulation.stages->empty_slivers);
     grid_update(borders, Vec2<Real>{}, Seconds<Real>{}, simulation.pressure.level, simulation.grid);
     sum_cells(simulation, cell_m, *diagnostics);
     simulation.grid.shape = simulation.layers.shape;
