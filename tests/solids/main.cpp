@@ -20,7 +20,7 @@ constexpr measure::Problem<solids::Report, solids::Effort> kProblems[] = {
     {"torture", "particles thrown at random polygons", solids::torture},
     {"thin", "walls thinner than a cell hold a column of liquid", solids::thin_walls},
     // Moving bodies.
-    {"R10", "viscous liquid between a body at rest and one that moves", solids::couette},
+    {"R10", "viscous liquid between bodies without slip", solids::couette},
     {"R12", "a floating box: draft, and heave", solids::floating_box},
     {"R13a", "a jet on a plate: force", solids::jet_on_plate},
     {"piston", "a body that compresses a full tank", solids::piston},
