@@ -15,7 +15,8 @@ Real level_of_density(Real density);
 
 /// Density = mean of the masses on the cell's four faces over what a full cell would show there;
 /// level from it. An air cell that liquid surrounds counts as liquid: it would be a sink of
-/// pressure. `empty_slivers`: null where there is no room for bodies. Order: by row. Cost: 4 sums and about one square root a cell near the surface.
+/// pressure. `empty_slivers`: null where there is no room for bodies. Order: by row. Cost: 4 sums
+/// and about one square root a cell near the surface.
 template <class Real>
 void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                    const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
