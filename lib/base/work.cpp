@@ -52,8 +52,8 @@ Part Work::take(std::int32_t items, std::int32_t cost) const {
 
 #if WEIR_PARALLEL
 std::int32_t Work::pieces(std::int32_t items, std::int32_t cost, std::int32_t grain) const {
-    // A piece of less work than this is done sooner than it is handed over.
-    constexpr std::int64_t kLeastPiece = 4096;
+    // A piece of less work than this, some microseconds, is done sooner than it is handed over.
+    constexpr std::int64_t kLeastPiece = 1024;
     if (progress_ == nullptr || progress_->parallel_for == nullptr) {
         return 1;
     }

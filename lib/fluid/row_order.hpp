@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/array_view.hpp"
+#include "base/work.hpp"
 #include "fluid/particles.hpp"
 #include "weir/features.hpp"
 
@@ -16,11 +17,12 @@ namespace weir {
 /// @param scratch two numbers for each row. Too little: nothing is done.
 template <class Real>
 void keep_row_order(const Part& rows, ArrayView<std::int32_t> scratch,
-                    Particles<Real>& particles);
+                    Particles<Real>& particles, Work work = {});
 
 template <class Real>
 struct detail::RowOrder {
-    void (*keep)(const Part& rows, ArrayView<std::int32_t> scratch, Particles<Real>& particles);
+    void (*keep)(const Part& rows, ArrayView<std::int32_t> scratch, Particles<Real>& particles,
+                 Work work);
 };
 
 }  // namespace weir

@@ -241,7 +241,7 @@ void order_particles(Simulation<Real>& simulation, Work work) {
         order->keep({row_of(extent.low.y), row_of(extent.high.y) + 1},
                     {reinterpret_cast<std::int32_t*>(coarse.correction),
                      kFields * coarse.shape.stride * rows},
-                    simulation.particles);
+                    simulation.particles, work);
     }
 }
 

@@ -214,10 +214,38 @@ inline Contribution<L> contribution(const float* weights, typename L::Floats vel
             L::template shuffle<2, 3, 6, 7>(left_upper, right_upper)};
 }
 
-/// Adds mass and momentum of particles, in their order.
-template <class L>
+/// All rows of the arrays are added to.
+struct EveryRow {
+    static float* u(float* pair) { return pair; }
+    static float* v(float* pair) { return pair; }
+};
+
+/// Rows first … end − 1 of the arrays are added to; what others would get goes nowhere.
+class RowsBetween {
+public:
+    RowsBetween(const Pairs<float>& pairs, std::int32_t first, std::int32_t end)
+        : first_u_(pairs.u + first * pairs.up()),
+          first_v_(pairs.v + first * pairs.up()),
+          numbers_(static_cast<std::size_t>((end - first) * pairs.up())) {}
+
+    float* u(float* pair) const { return at(pair, first_u_, nowhere_[0]); }
+    float* v(float* pair) const { return at(pair, first_v_, nowhere_[1]); }
+
+private:
+    float* at(float* pair, float* first, float* nowhere) const {
+        return static_cast<std::size_t>(pair - first) < numbers_ ? pair : nowhere;
+    }
+
+    float* first_u_;
+    float* first_v_;
+    std::size_t numbers_;
+    mutable float nowhere_[2][4] = {};
+};
+
+/// Adds mass and momentum of particles, in their order, to some rows.
+template <class L, class Rows>
 inline void scatter_all(const float* position, const float* velocity, std::int32_t count,
-                        const Pairs<float>& pairs) {
+                        const Pairs<float>& pairs, const Rows& rows) {
     Run run;
     const std::ptrdiff_t up = pairs.up();
     float* const first_u = pairs.first_u();
@@ -225,10 +253,10 @@ inline void scatter_all(const float* position, const float* velocity, std::int32
     const auto add = [&](std::int32_t k, const Contribution<L>& what, auto group) {
         float* const u = first_u + 2 * static_cast<std::size_t>(run.u[k + group]);
         float* const v = first_v + 2 * static_cast<std::size_t>(run.v[k + group]);
-        L::template add_group<group>(u, what.lower_u);
-        L::template add_group<group>(u + up, what.upper_u);
-        L::template add_group<group>(v, what.lower_v);
-        L::template add_group<group>(v + up, what.upper_v);
+        L::template add_group<group>(rows.u(u), what.lower_u);
+        L::template add_group<group>(rows.u(u + up), what.upper_u);
+        L::template add_group<group>(rows.v(v), what.lower_v);
+        L::template add_group<group>(rows.v(v + up), what.upper_v);
     };
     for (std::int32_t first = 0; first < count; first += kRun) {
         const std::int32_t some = count - first < kRun ? count - first : kRun;
@@ -243,6 +271,64 @@ inline void scatter_all(const float* position, const float* velocity, std::int32
             const auto what =
                 contribution<L>(run.weight[k], L::load_some(v + 2 * k, 2));
             add(k, what, L::kFirstGroup);
+        }
+    }
+}
+
+/// Adds what particles give to faces of one kind, in their order: the same sums. Two particles a
+/// group.
+template <class L, bool OnU>
+inline void scatter_component(const float* position, const float* velocity, std::int32_t count,
+                              const Pairs<float>& pairs) {
+    constexpr std::int32_t kStep = 2 * L::kGroups;
+    Run run;
+    float* const weights = run.weight[0];
+    float* const faces = OnU ? pairs.first_u() : pairs.first_v();
+    const std::ptrdiff_t up = pairs.up();
+    const auto factors = L::pairs_of_shorts(1, pairs.stride);
+    const auto middle =
+        OnU ? L::repeat(0.0F, 0.5F, 0.0F, 0.5F) : L::repeat(0.5F, 0.0F, 0.5F, 0.0F);
+    const auto add = [&](std::int32_t k, const Contribution<L>& what, auto group, bool both) {
+        float* const a = faces + 2 * static_cast<std::size_t>(run.u[k + 2 * group]);
+        L::template add_group<group>(a, what.lower_u);
+        L::template add_group<group>(a + up, what.upper_u);
+        if (both) {
+            float* const b = faces + 2 * static_cast<std::size_t>(run.u[k + 2 * group + 1]);
+            L::template add_group<group>(b, what.lower_v);
+            L::template add_group<group>(b + up, what.upper_v);
+        }
+    };
+    const auto given = [&](std::int32_t k, typename L::Floats velocities) {
+        return contribution<L>(weights + 2 * k,
+                               OnU ? L::template shuffle<0, 2, 0, 2>(velocities, velocities)
+                                   : L::template shuffle<1, 3, 1, 3>(velocities, velocities));
+    };
+    for (std::int32_t first = 0; first < count; first += kRun) {
+        const std::int32_t some = count - first < kRun ? count - first : kRun;
+        const float* const x = position + 2 * first;
+        const float* const v = velocity + 2 * first;
+        const auto load = [&](const float* from, std::int32_t k) {
+            return k + kStep <= some ? L::load(from + 2 * k)
+                                     : L::load_some(from + 2 * k, 2 * (some - k));
+        };
+        for (std::int32_t k = 0; k < some; k += kStep) {
+            const auto at = load(x, k) + middle;
+            const auto node = L::whole(at);
+            L::store(weights + 2 * k, at - L::floats(node));
+            L::store_halves(run.u + k, run.v + k, L::sums_of_products(node, node, factors));
+        }
+        std::int32_t k = 0;
+        for (; k + kStep <= some; k += kStep) {
+            const Contribution<L> what = given(k, L::load(v + 2 * k));
+            L::each_group([&](auto group) { add(k, what, group, true); });
+        }
+        if (k < some) {
+            const Contribution<L> what = given(k, load(v, k));
+            L::each_group([&](auto group) {
+                if (k + 2 * group < some) {
+                    add(k, what, group, k + 2 * group + 1 < some);
+                }
+            });
         }
     }
 }

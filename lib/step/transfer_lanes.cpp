@@ -61,17 +61,33 @@ void scatter(const Particles<float>& particles, const Part& part, const Pairs<fl
         return;
     }
 #endif
-    scatter_all<FourLanes>(position, velocity, count, pairs);
+    scatter_all<FourLanes>(position, velocity, count, pairs, EveryRow());
 }
 
 #if WEIR_PARALLEL
+
+/// What particles give to u faces, or to v faces.
+void scatter_kind(const Particles<float>& particles, bool on_u, const Pairs<float>& pairs) {
+    const float* position = &particles.position->x;
+    const float* velocity = &particles.velocity->x;
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        scatter_component_wide(position, velocity, particles.count, pairs, on_u);
+        return;
+    }
+#endif
+    const auto some = on_u ? scatter_component<FourLanes, true>
+                           : scatter_component<FourLanes, false>;
+    some(position, velocity, particles.count, pairs);
+}
 
 /// Particles that follow each other in the pool are looked at together: their lowest and highest
 /// place say which rows they give to.
 constexpr std::int32_t kTogether = kRun;
 
-/// Rows that particles together may span on the average, if rows are to be done side by side.
-constexpr float kWidestSpan = 12.0F;
+/// Of two pieces, and of each of more: two rows about a cut are done twice.
+constexpr std::int32_t kLeastRows = 24;
+constexpr std::int32_t kRowsOfEach = 40;
 
 struct Span {
     float low;
@@ -105,34 +121,28 @@ Span span_of(const Vec2<float>* position, std::int32_t count) {
     return span;
 }
 
-/// What some particles, of which not all are to be asked, give to entries of the arrays.
+/// What some particles, of which not all give to rows first … end − 1 of the arrays, give to them.
 void scatter_to_some(const Particles<float>& particles, const Part& block, const Part& rows,
                      const Pairs<float>& pairs) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(rows.first) * pairs.stride;
-    const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(rows.end) * pairs.stride;
     const auto low = static_cast<float>(rows.first) - 2.0F;
     const auto high = static_cast<float>(rows.end);
-    const auto give = [&](float* field, std::ptrdiff_t entry, Lanes what) {
-        if (entry >= first && entry < end) {
-            FourLanes::add_group<0>(field + 2 * entry, what);
-        }
-    };
-    const Vec2<float>* position = particles.position + block.first;
-    Run run;
-    find_stencils<FourLanes>(pairs.stride, &position->x, block.end - block.first, run);
-    for (std::int32_t k = 0; k < block.end - block.first; ++k) {
-        if (position[k].y < low || position[k].y >= high) {
-            continue;
-        }
-        const Contribution<FourLanes> what = contribution<FourLanes>(
-            run.weight[k], load_pair(&particles.velocity[block.first + k].x));
-        const std::ptrdiff_t u = static_cast<std::ptrdiff_t>(run.u[k]) + 1;
-        const std::ptrdiff_t v = static_cast<std::ptrdiff_t>(run.v[k]) + pairs.stride;
-        give(pairs.u, u, what.lower_u);
-        give(pairs.u, u + pairs.stride, what.upper_u);
-        give(pairs.v, v, what.lower_v);
-        give(pairs.v, v + pairs.stride, what.upper_v);
+    Vec2<float> position[kTogether];
+    Vec2<float> velocity[kTogether];
+    std::int32_t count = 0;
+    for (std::int32_t k = block.first; k < block.end; ++k) {  // no branch: it would be guessed
+        const float y = particles.position[k].y;
+        position[count] = particles.position[k];
+        velocity[count] = particles.velocity[k];
+        count += static_cast<std::int32_t>(y >= low) & static_cast<std::int32_t>(y < high);
     }
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        scatter_between_wide(&position->x, &velocity->x, count, pairs, rows.first, rows.end);
+        return;
+    }
+#endif
+    scatter_all<FourLanes>(&position->x, &velocity->x, count, pairs,
+                           RowsBetween(pairs, rows.first, rows.end));
 }
 
 /// Everything that particles give to some rows of the arrays, in the pool's order: the same sums
@@ -141,6 +151,12 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
                      const Pairs<float>& pairs) {
     const auto low = static_cast<float>(rows.first);
     const auto high = static_cast<float>(rows.end);
+    Part inside{0, 0};  // particles that follow each other and give to no other row
+    const auto scatter_inside = [&] {
+        if (!inside.empty()) {
+            scatter(particles, inside, pairs);
+        }
+    };
     // A particle in row j of the cells gives to rows j … j + 2 of the arrays.
     for (std::int32_t k = 0; k < particles.count; k += kTogether) {
         const Span& span = spans[k / kTogether];
@@ -149,29 +165,70 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
             continue;
         }
         if (span.low >= low && span.high < high - 2.0F) {
-            scatter(particles, block, pairs);
+            if (inside.end != block.first) {
+                scatter_inside();
+                inside.first = block.first;
+            }
+            inside.end = block.end;
         } else {
+            scatter_inside();
+            inside = {};
             scatter_to_some(particles, block, rows, pairs);
         }
     }
+    scatter_inside();
 }
 
-/// Row by row instead of particle by particle. False: it was not worth it, nothing was done.
-bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid<float>& grid,
-                          Work work, const Pairs<float>& pairs) {
-    constexpr std::int32_t kCost = 4;  // units a particle: it takes as long as so many cells
-    const GridShape& s = grid.shape;
+/// Rows as they are cut into pieces for threads.
+struct Cuts {
+    std::int32_t pieces = 0;
+    std::int32_t at[kMostPieces + 1] = {};
+};
+
+/// Cuts rows where as many particles are below as above it takes, to within a few rows. Where too
+/// many particles are looked at from both sides of a cut: no pieces.
+Cuts cut_rows(const Span* spans, std::int32_t blocks, float span, const Part& rows,
+              std::int32_t pieces) {
+    constexpr std::int32_t kSteps = 64;  // from the lowest row to the highest
+    std::int32_t found[kSteps] = {};
+    const float rows_a_step =
+        static_cast<float>(rows.end - rows.first) / static_cast<float>(kSteps);
+    const float scale = 0.5F / rows_a_step;
+    const float lowest = 2.0F * static_cast<float>(rows.first - 1);
+    for (std::int32_t b = 0; b < blocks; ++b) {
+        const float middle = scale * (spans[b].low + spans[b].high - lowest);
+        ++found[clamp(static_cast<std::int32_t>(middle), 0, kSteps - 1)];
+    }
+    Cuts cuts;
+    float again = 0.0F;
+    std::int32_t piece = 1;
+    std::int32_t below = 0;
+    for (std::int32_t step = 0; step < kSteps; ++step) {
+        below += found[step];
+        for (; piece < pieces && below * pieces >= blocks * piece; ++piece) {
+            const std::int32_t over = below - blocks * piece / pieces;
+            const auto here = static_cast<float>(found[step]);
+            const float rows_below =
+                rows_a_step * (static_cast<float>(step + 1) - static_cast<float>(over) / here);
+            cuts.at[piece] = rows.first + static_cast<std::int32_t>(rows_below);
+            again += here / rows_a_step * (span + 2.0F);
+        }
+    }
+    cuts.at[0] = rows.first;
+    cuts.at[pieces] = rows.end;
+    cuts.pieces = 4.0F * again < static_cast<float>(blocks) ? pieces : 0;
+    return cuts;
+}
+
+/// Looks at all particles, and where rows are best cut if they are to be done side by side.
+Cuts find_cuts(const Particles<float>& particles, const GridShape& s, Work work,
+               ArrayView<float> scratch) {
     const std::int32_t blocks = (particles.count + kTogether - 1) / kTogether;
     const std::int32_t height = s.ny + 2;
-    const Part rows{s.j0, s.j0 + height};
-    // What lies about a border is looked at from both sides: two pieces if they are not too small,
-    // more only of many rows.
-    const std::int32_t least_rows = clamp(height / 2, 24, 40);
-    const std::int32_t cost = particles.count / height * kCost;
-    if (2 * blocks > grid.spans.size || work.pieces(height, cost, least_rows) <= 1) {
-        return false;
+    if (2 * blocks > scratch.size || height < kLeastRows) {
+        return {};
     }
-    auto* spans = reinterpret_cast<Span*>(grid.spans.data);
+    auto* spans = reinterpret_cast<Span*>(scratch.data);
     float wide[kMostPieces] = {};
     work.share({0, blocks}, kTogether, 1, [&](const Part& some, std::int32_t piece) {
         for (std::int32_t b = some.first; b < some.end; ++b) {
@@ -185,11 +242,38 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
     for (const float some : wide) {
         all += some;
     }
-    if (all > kWidestSpan * static_cast<float>(blocks)) {
+    // As many for each of two threads.
+    const std::int32_t pieces = clamp(height / kRowsOfEach / 2, 1, kMostPieces / 2) * 2;
+    const float span = all / static_cast<float>(blocks);
+    Cuts cuts = cut_rows(spans, blocks, span, {s.j0, s.j0 + height}, pieces);
+    if (cuts.pieces == 0 && pieces > 2) {
+        cuts = cut_rows(spans, blocks, span, {s.j0, s.j0 + height}, 2);
+    }
+    return cuts;
+}
+
+/// By rows instead of particle by particle, or by kinds of faces. False: it was not worth it,
+/// nothing was done.
+bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid<float>& grid,
+                          Work work, const Pairs<float>& pairs) {
+    constexpr std::int32_t kCost = 4;  // units a particle: it takes as long as so many cells
+    if (work.pieces(particles.count, kCost, kTogether) <= 1) {
         return false;
     }
-    work.share(rows, cost, least_rows, [&](const Part& some, std::int32_t) {
-        scatter_to_rows(particles, spans, some, pairs);
+    const Cuts cuts = find_cuts(particles, grid.shape, work, grid.spans);
+    const auto* spans = reinterpret_cast<const Span*>(grid.spans.data);
+    if (cuts.pieces == 0) {
+        work.share({0, 2}, particles.count, 1, [&](const Part& kinds, std::int32_t) {
+            for (std::int32_t kind = kinds.first; kind < kinds.end; ++kind) {
+                scatter_kind(particles, kind == 0, pairs);
+            }
+        });
+        return true;
+    }
+    work.share({0, cuts.pieces}, particles.count, 1, [&](const Part& some, std::int32_t) {
+        for (std::int32_t k = some.first; k < some.end; ++k) {
+            scatter_to_rows(particles, spans, {cuts.at[k], cuts.at[k + 1]}, pairs);
+        }
     });
     return true;
 }

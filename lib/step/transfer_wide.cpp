@@ -12,7 +12,19 @@ float gather_wide(const GatherTask& task) {
 
 void scatter_wide(const float* position, const float* velocity, std::int32_t count,
                   const Pairs<float>& pairs) {
-    scatter_all<EightLanes>(position, velocity, count, pairs);
+    scatter_all<EightLanes>(position, velocity, count, pairs, EveryRow());
+}
+
+void scatter_between_wide(const float* position, const float* velocity, std::int32_t count,
+                          const Pairs<float>& pairs, std::int32_t first, std::int32_t end) {
+    scatter_all<EightLanes>(position, velocity, count, pairs, RowsBetween(pairs, first, end));
+}
+
+void scatter_component_wide(const float* position, const float* velocity, std::int32_t count,
+                            const Pairs<float>& pairs, bool on_u) {
+    const auto some = on_u ? scatter_component<EightLanes, true>
+                           : scatter_component<EightLanes, false>;
+    some(position, velocity, count, pairs);
 }
 
 std::int32_t unpack_wide(const float* pairs, std::int32_t k, std::int32_t end, float* first,

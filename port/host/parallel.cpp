@@ -21,27 +21,35 @@ void pause(int spins) {
 #endif
 }
 
-/// Tasks that are left of a round: its number, how many tasks it has and the next one to do, in one
-/// word, so that a task is taken from the round that was looked at or not at all. Nobody waits for
-/// a worker that the machine has no processor for, unless it holds a task.
-class Round {
+/// Tasks of a round that are left of those kept for one thread: the round's number, behind the last
+/// task and the next one to do, in one word, so that a task is taken from the round that was looked
+/// at or not at all. Nobody waits for a worker that the machine has no processor for, unless it
+/// holds a task.
+class Tasks {
  public:
-  Round() = default;
-  explicit Round(std::uint64_t bits) : bits_(bits) {}
-  Round(std::uint64_t number, std::int32_t count)
-      : bits_(number << 32U | static_cast<std::uint64_t>(count) << 16U) {}
+  Tasks() = default;
+  explicit Tasks(std::uint64_t bits) : bits_(bits) {}
+  Tasks(std::uint64_t round, std::int64_t first, std::int64_t end)
+      : bits_(round << 32U | static_cast<std::uint64_t>(end) << 16U |
+              static_cast<std::uint64_t>(first)) {}
 
   std::uint64_t bits() const { return bits_; }
-  std::uint64_t number() const { return bits_ >> 32U; }
-  std::int32_t count() const { return static_cast<std::int32_t>(bits_ >> 16U & 0xFFFFU); }
   std::int32_t next() const { return static_cast<std::int32_t>(bits_ & 0xFFFFU); }
-  bool empty() const { return next() >= count(); }
+  std::int32_t end() const { return static_cast<std::int32_t>(bits_ >> 16U & 0xFFFFU); }
+  bool empty() const { return next() >= end(); }
+  Tasks without_next() const { return Tasks(bits_ + 1U); }
+  Tasks without_last() const { return Tasks(bits_ - (1U << 16U)); }
 
  private:
   std::uint64_t bits_ = 0;
 };
 
 constexpr std::int32_t kMostTasks = 0xFFFF;  // of a round
+
+/// What one thread is to do, where no other thread's numbers are near.
+struct alignas(64) Kept {
+  std::atomic<std::uint64_t> tasks{0};
+};
 
 class Crew {
  public:
@@ -53,7 +61,8 @@ class Crew {
     for (std::thread& worker : workers_) worker.join();
     workers_.clear();
     stop_.store(false);
-    for (int k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
+    kept_ = std::vector<Kept>(static_cast<std::size_t>(threads > 1 ? threads : 1));
+    for (std::size_t k = 1; k < kept_.size(); ++k) workers_.emplace_back([this, k] { work(k); });
   }
 
   void run(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
@@ -64,10 +73,14 @@ class Crew {
     task_ = task;
     context_ = context;
     done_.store(0, std::memory_order_relaxed);
-    ++number_;
-    round_.store(Round(number_, count).bits());
+    ++round_;
+    const auto threads = static_cast<std::int64_t>(kept_.size());
+    for (std::int64_t k = threads - 1; k >= 0; --k) {
+      const Tasks some(round_, count * k / threads, count * (k + 1) / threads);
+      kept_[static_cast<std::size_t>(k)].tasks.store(some.bits());
+    }
     if (sleepers_.load() > 0) wake();
-    while (take_task()) {
+    while (take_task(0)) {
     }
     for (int spins = 0; done_.load(std::memory_order_acquire) != count; ++spins) pause(spins);
   }
@@ -80,11 +93,25 @@ class Crew {
 
   /// Does one; false if there is none. What a round is about does not change while it has a task
   /// that is not done.
-  bool take_task() {
-    std::uint64_t seen = round_.load(std::memory_order_acquire);
-    while (!Round(seen).empty()) {
-      if (round_.compare_exchange_weak(seen, seen + 1, std::memory_order_acq_rel)) {
-        task_(context_, Round(seen).next());
+  ///
+  /// A thread does its part of the tasks from the first one on, the same part in each round: what
+  /// it did before is in its cache. Then it helps the others, from their last one down.
+  bool take_task(std::size_t thread) {
+    if (take(kept_[thread], &Tasks::next, &Tasks::without_next, 0)) return true;
+    for (std::size_t k = 1; k < kept_.size(); ++k) {
+      Kept& other = kept_[(thread + k) % kept_.size()];
+      if (take(other, &Tasks::end, &Tasks::without_last, -1)) return true;
+    }
+    return false;
+  }
+
+  bool take(Kept& of, std::int32_t (Tasks::*at)() const, Tasks (Tasks::*rest)() const,
+            std::int32_t offset) {
+    std::uint64_t seen = of.tasks.load(std::memory_order_acquire);
+    while (!Tasks(seen).empty()) {
+      if (of.tasks.compare_exchange_weak(seen, (Tasks(seen).*rest)().bits(),
+                                         std::memory_order_acq_rel)) {
+        task_(context_, (Tasks(seen).*at)() + offset);
         done_.fetch_add(1, std::memory_order_release);
         return true;
       }
@@ -92,9 +119,9 @@ class Crew {
     return false;
   }
 
-  void work() {
+  void work(std::size_t thread) {
     for (int spins = 0; !stop_.load(std::memory_order_relaxed);) {
-      if (take_task()) {
+      if (take_task(thread)) {
         spins = 0;
       } else if (++spins < kSpins) {
         pause(spins);
@@ -105,19 +132,26 @@ class Crew {
     }
   }
 
+  bool any_task() const {
+    for (const Kept& some : kept_) {
+      if (!Tasks(some.tasks.load()).empty()) return true;
+    }
+    return false;
+  }
+
   void sleep() {
     std::unique_lock<std::mutex> lock(mutex_);
     sleepers_.fetch_add(1);
-    wake_.wait(lock, [&] { return stop_.load() || !Round(round_.load()).empty(); });
+    wake_.wait(lock, [&] { return stop_.load() || any_task(); });
     sleepers_.fetch_sub(1);
   }
 
   std::vector<std::thread> workers_;
   void (*task_)(void*, std::int32_t) = nullptr;
   void* context_ = nullptr;
-  std::uint64_t number_ = 0;
-  std::atomic<std::uint64_t> round_{0};
-  std::atomic<std::int32_t> done_{0};
+  std::uint64_t round_ = 0;
+  std::vector<Kept> kept_{1};
+  alignas(64) std::atomic<std::int32_t> done_{0};
   std::atomic<bool> stop_{false};
   std::atomic<int> sleepers_{0};
   std::mutex mutex_;
