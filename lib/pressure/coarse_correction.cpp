@@ -298,7 +298,12 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
         extend_cells(weights.borders, big, coarse.centre_x);
         extend_cells(weights.borders, big, coarse.centre_y);
     }
-    share_sums_of_patches(s, big, work, [&](const Part& rows, const Targets& targets) {
+    // Patches add to the faces before them.
+    const bool seam = weights.borders.wrap_y;
+    const Part beside_liquid{seam ? 0 : fields.solve.first_row / kCoarseEdge,
+                             seam ? big.ny : fields.solve.last_row / kCoarseEdge + 2};
+    share_sums_of_patches(s, big, beside_liquid, work, [&](const Part& rows,
+                                                           const Targets& targets) {
         for_each_patch(s, big, rows, [&](const Patch& patch) {
             add_patch(weights, fields, patch, targets, coarse);
         });
@@ -338,7 +343,8 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
         clear(coarse.residual, big);
         clear(coarse.correction, big);
     }
-    share_sums_of_patches(s, big, work, [&](const Part& rows, const Targets& targets) {
+    const Part filled{coarse.first_row, coarse.last_row + 1};
+    share_sums_of_patches(s, big, filled, work, [&](const Part& rows, const Targets& targets) {
         gather_residuals(weights, fields, rows, targets, coarse);
     });
     if (work.once(big.border())) {

@@ -62,13 +62,18 @@ struct Targets {
 
 /// The same where a patch adds to its own coarse cell and those around it: visit(rows of patches,
 /// what they may add to). Pieces go through the rows beside theirs, too, and take from them what is
-/// added to theirs, so that every sum has the order that it has in one piece.
+/// added to theirs, so that every sum has the order that it has in one piece. `filled`: no other row
+/// adds anything.
 template <class Visit>
-void share_sums_of_patches(const GridShape& s, const GridShape& big, Work work,
-                           const Visit& visit) {
+void share_sums_of_patches(const GridShape& s, const GridShape& big,
+                           [[maybe_unused]] const Part& filled, Work work, const Visit& visit) {
     constexpr std::int32_t kLeastRows = 12;  // two are done twice
     const std::int32_t cost = kCoarseEdge * s.nx;
-    const Part all = work.take(big.ny, cost);
+    Part all = work.take(big.ny, cost);
+#if WEIR_PARALLEL
+    all.first = minimum(maximum(all.first, filled.first), all.end);
+    all.end = maximum(minimum(all.end, filled.end), all.first);
+#endif
     work.share(all, cost, kLeastRows, [&](const Part& piece, std::int32_t) {
         Part rows = piece;
         Targets targets;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "math/four_lanes.hpp"
+#include "step/extent_lanes.hpp"
 #include "step/transfer_wide.hpp"
 
 namespace weir {
@@ -96,32 +97,46 @@ struct Span {
 
 Span span_of(const Vec2<float>* position, std::int32_t count) {
     Span span{position[0].y, position[0].y};
+    const auto add = [&](float low, float high) {
+        span.low = minimum(span.low, low);
+        span.high = maximum(span.high, high);
+    };
+    float low[8];
+    float high[8];
     std::int32_t k = 0;
-    if (count >= 4) {  // two particles four numbers
-        Lanes low = load_lanes(&position->x);
-        Lanes high = low;
-        Lanes low_too = low;
-        Lanes high_too = low;
-        for (; k + 4 <= count; k += 4) {
-            const Lanes one = load_lanes(&position[k].x);
-            const Lanes other = load_lanes(&position[k + 2].x);
-            low = minimum(low, one);
-            high = maximum(high, one);
-            low_too = minimum(low_too, other);
-            high_too = maximum(high_too, other);
-        }
-        low = minimum(low, low_too);
-        high = maximum(high, high_too);
-        span = {minimum(low[1], low[3]), maximum(high[1], high[3])};
+#if WEIR_HAS_WIDE_LANES
+    if (count >= 8 && has_wide_lanes()) {
+        k = count & ~7;
+        find_extremes_wide(&position->x, k, low, high);
+        add(minimum(low[1], low[3]), maximum(high[1], high[3]));
+        add(minimum(low[5], low[7]), maximum(high[5], high[7]));
     }
-    for (; k < count; ++k) {
-        span.low = minimum(span.low, position[k].y);
-        span.high = maximum(span.high, position[k].y);
+#endif
+    const std::int32_t fours = (count - k) & ~3;
+    if (fours > 0) {
+        find_extremes<FourLanes>(&position[k].x, fours, low, high);
+        add(minimum(low[1], low[3]), maximum(high[1], high[3]));
+    }
+    for (k += fours; k < count; ++k) {
+        add(position[k].y, position[k].y);
     }
     return span;
 }
 
-/// What some particles, of which not all give to rows first … end − 1 of the arrays, give to them.
+/// What particles give to some rows of the arrays.
+void scatter_between(const Vec2<float>* position, const Vec2<float>* velocity, std::int32_t count,
+                     const Part& rows, const Pairs<float>& pairs) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        scatter_between_wide(&position->x, &velocity->x, count, pairs, rows.first, rows.end);
+        return;
+    }
+#endif
+    scatter_all<FourLanes>(&position->x, &velocity->x, count, pairs,
+                           RowsBetween(pairs, rows.first, rows.end));
+}
+
+/// The same of particles that not all give to them.
 void scatter_to_some(const Particles<float>& particles, const Part& block, const Part& rows,
                      const Pairs<float>& pairs) {
     const auto low = static_cast<float>(rows.first) - 2.0F;
@@ -135,14 +150,7 @@ void scatter_to_some(const Particles<float>& particles, const Part& block, const
         velocity[count] = particles.velocity[k];
         count += static_cast<std::int32_t>(y >= low) & static_cast<std::int32_t>(y < high);
     }
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        scatter_between_wide(&position->x, &velocity->x, count, pairs, rows.first, rows.end);
-        return;
-    }
-#endif
-    scatter_all<FourLanes>(&position->x, &velocity->x, count, pairs,
-                           RowsBetween(pairs, rows.first, rows.end));
+    scatter_between(position, velocity, count, rows, pairs);
 }
 
 /// Everything that particles give to some rows of the arrays, in the pool's order: the same sums
@@ -173,7 +181,13 @@ void scatter_to_rows(const Particles<float>& particles, const Span* spans, const
         } else {
             scatter_inside();
             inside = {};
-            scatter_to_some(particles, block, rows, pairs);
+            if (span.low >= low - 2.0F && span.high < high) {
+                scatter_between(particles.position + block.first,
+                                particles.velocity + block.first, block.end - block.first, rows,
+                                pairs);
+            } else {
+                scatter_to_some(particles, block, rows, pairs);
+            }
         }
     }
     scatter_inside();
@@ -185,38 +199,47 @@ struct Cuts {
     std::int32_t at[kMostPieces + 1] = {};
 };
 
-/// Cuts rows where as many particles are below as above it takes, to within a few rows. Where too
-/// many particles are looked at from both sides of a cut: no pieces.
-Cuts cut_rows(const Span* spans, std::int32_t blocks, float span, const Part& rows,
+/// Cuts rows where as much is to be done below as above it takes, to within a few rows. Where too
+/// many particles are looked at from both sides of a cut: no pieces. `span`: rows that particles
+/// together lie in.
+Cuts cut_rows(const Span* spans, std::int32_t blocks, float span, const GridShape& s,
               std::int32_t pieces) {
     constexpr std::int32_t kSteps = 64;  // from the lowest row to the highest
-    std::int32_t found[kSteps] = {};
-    const float rows_a_step =
-        static_cast<float>(rows.end - rows.first) / static_cast<float>(kSteps);
+    float found[kSteps] = {};
+    const float rows_a_step = static_cast<float>(s.ny + 2) / static_cast<float>(kSteps);
     const float scale = 0.5F / rows_a_step;
-    const float lowest = 2.0F * static_cast<float>(rows.first - 1);
+    const float lowest = 2.0F * static_cast<float>(s.j0 - 1);
     for (std::int32_t b = 0; b < blocks; ++b) {
         const float middle = scale * (spans[b].low + spans[b].high - lowest);
-        ++found[clamp(static_cast<std::int32_t>(middle), 0, kSteps - 1)];
+        found[clamp(static_cast<std::int32_t>(middle), 0, kSteps - 1)] += 1.0F;
+    }
+    // A cell that anything is given to takes as long as a particle.
+    const float cells = rows_a_step * static_cast<float>(s.nx) / static_cast<float>(kTogether);
+    float all = 0.0F;
+    for (const float here : found) {
+        all += here > 0.0F ? here + cells : 0.0F;
     }
     Cuts cuts;
+    cuts.at[0] = s.j0;
     float again = 0.0F;
+    float below = 0.0F;
     std::int32_t piece = 1;
-    std::int32_t below = 0;
-    for (std::int32_t step = 0; step < kSteps; ++step) {
-        below += found[step];
-        for (; piece < pieces && below * pieces >= blocks * piece; ++piece) {
-            const std::int32_t over = below - blocks * piece / pieces;
-            const auto here = static_cast<float>(found[step]);
-            const float rows_below =
-                rows_a_step * (static_cast<float>(step + 1) - static_cast<float>(over) / here);
-            cuts.at[piece] = rows.first + static_cast<std::int32_t>(rows_below);
-            again += here / rows_a_step * (span + 2.0F);
+    for (std::int32_t step = 0; step < kSteps && piece < pieces; ++step) {
+        const float here = found[step] > 0.0F ? found[step] + cells : 0.0F;
+        for (; piece < pieces; ++piece) {
+            const float least = all * static_cast<float>(piece) / static_cast<float>(pieces);
+            if (below + here < least) {
+                break;
+            }
+            const float part = static_cast<float>(step) + (least - below) / here;
+            cuts.at[piece] = s.j0 + static_cast<std::int32_t>(rows_a_step * part);
+            again += found[step] / rows_a_step * (span + 2.0F);
         }
+        below += here;
     }
-    cuts.at[0] = rows.first;
-    cuts.at[pieces] = rows.end;
-    cuts.pieces = 4.0F * again < static_cast<float>(blocks) ? pieces : 0;
+    cuts.at[pieces] = s.j0 + s.ny + 2;
+    const bool few = piece == pieces && 4.0F * again < static_cast<float>(blocks);
+    cuts.pieces = few ? pieces : 0;
     return cuts;
 }
 
@@ -245,9 +268,9 @@ Cuts find_cuts(const Particles<float>& particles, const GridShape& s, Work work,
     // As many for each of two threads.
     const std::int32_t pieces = clamp(height / kRowsOfEach / 2, 1, kMostPieces / 2) * 2;
     const float span = all / static_cast<float>(blocks);
-    Cuts cuts = cut_rows(spans, blocks, span, {s.j0, s.j0 + height}, pieces);
+    Cuts cuts = cut_rows(spans, blocks, span, s, pieces);
     if (cuts.pieces == 0 && pieces > 2) {
-        cuts = cut_rows(spans, blocks, span, {s.j0, s.j0 + height}, 2);
+        cuts = cut_rows(spans, blocks, span, s, 2);
     }
     return cuts;
 }

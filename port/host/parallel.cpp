@@ -15,7 +15,7 @@ namespace {
 constexpr int kSpins = 4000;
 
 void pause(int spins) {
-  if (spins % 64 == 63) std::this_thread::yield();
+  if (spins % 256 == 255) std::this_thread::yield();
 #if defined(__SSE2__)
   __builtin_ia32_pause();
 #endif
@@ -80,8 +80,7 @@ class Crew {
       kept_[static_cast<std::size_t>(k)].tasks.store(some.bits());
     }
     if (sleepers_.load() > 0) wake();
-    while (take_task(0)) {
-    }
+    do_tasks(0);
     for (int spins = 0; done_.load(std::memory_order_acquire) != count; ++spins) pause(spins);
   }
 
@@ -91,8 +90,17 @@ class Crew {
     wake_.notify_all();
   }
 
+  /// Does what there is; false if there was nothing. They are counted together: the number is every
+  /// thread's.
+  bool do_tasks(std::size_t thread) {
+    std::int32_t count = 0;
+    while (take_task(thread)) ++count;
+    if (count > 0) done_.fetch_add(count, std::memory_order_release);
+    return count > 0;
+  }
+
   /// Does one; false if there is none. What a round is about does not change while it has a task
-  /// that is not done.
+  /// that is not counted.
   ///
   /// A thread does its part of the tasks from the first one on, the same part in each round: what
   /// it did before is in its cache. Then it helps the others, from their last one down.
@@ -112,7 +120,6 @@ class Crew {
       if (of.tasks.compare_exchange_weak(seen, (Tasks(seen).*rest)().bits(),
                                          std::memory_order_acq_rel)) {
         task_(context_, (Tasks(seen).*at)() + offset);
-        done_.fetch_add(1, std::memory_order_release);
         return true;
       }
     }
@@ -121,7 +128,7 @@ class Crew {
 
   void work(std::size_t thread) {
     for (int spins = 0; !stop_.load(std::memory_order_relaxed);) {
-      if (take_task(thread)) {
+      if (do_tasks(thread)) {
         spins = 0;
       } else if (++spins < kSpins) {
         pause(spins);
