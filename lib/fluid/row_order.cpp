@@ -42,11 +42,28 @@ std::int64_t spanned(const Particles<Real>& particles, Work work) {
     return all;
 }
 
-/// Whoever stands in another row's part is swapped there (American flag sort: McIlroy, Bostic &
-/// McIlroy 1993).
+/// So many groups of rows are ordered each by itself: always, since the order follows from it.
+constexpr std::int32_t kGroups = 4;
+
+/// Rows that follow each other, and the places of the pool that their particles take.
+struct Groups {
+    Part rows[kGroups];
+    Part places[kGroups];
+
+    std::int32_t of_row(std::int32_t row) const {
+        std::int32_t group = 0;
+        for (std::int32_t k = 1; k < kGroups; ++k) {
+            group += row >= rows[k].first ? 1 : 0;
+        }
+        return group;
+    }
+};
+
+/// Counts rows, and says where in the pool each begins and ends. Groups are as large as each other,
+/// to within a row.
 template <class Real>
-void sort_by_row(const Part& rows, std::int32_t* next, std::int32_t* end,
-                 Particles<Real>& particles) {
+Groups find_places(const Part& rows, const Particles<Real>& particles, std::int32_t* next,
+                   std::int32_t* end) {
     const std::int32_t count = rows.end - rows.first;
     for (std::int32_t row = 0; row < count; ++row) {
         end[row] = 0;
@@ -54,22 +71,84 @@ void sort_by_row(const Part& rows, std::int32_t* next, std::int32_t* end,
     for (std::int32_t k = 0; k < particles.count; ++k) {
         ++end[row_of(particles, k) - rows.first];
     }
+    Groups groups;
+    std::int32_t group = 0;
     std::int32_t first = 0;
     for (std::int32_t row = 0; row < count; ++row) {
         next[row] = first;
         first += end[row];
         end[row] = first;
+        if (group + 1 < kGroups && first >= particles.count / kGroups * (group + 1)) {
+            groups.rows[group].end = row + 1;
+            groups.places[group].end = first;
+            ++group;
+            groups.rows[group].first = row + 1;
+            groups.places[group].first = first;
+        }
     }
-    for (std::int32_t row = 0; row < count; ++row) {
-        while (next[row] < end[row]) {
-            const std::int32_t k = next[row];
-            const std::int32_t home = row_of(particles, k) - rows.first;
-            if (home != row) {
+    groups.rows[group].end = count;
+    groups.places[group].end = first;
+    for (++group; group < kGroups; ++group) {
+        groups.rows[group] = {count, count};
+        groups.places[group] = {first, first};
+    }
+    return groups;
+}
+
+/// Whoever stands in the part of another bucket is swapped there (American flag sort: McIlroy,
+/// Bostic & McIlroy 1993). bucket(k): of particle k.
+template <class Real, class Bucket>
+void swap_home(const Part& buckets, std::int32_t* next, const std::int32_t* end,
+               Particles<Real>& particles, const Bucket& bucket) {
+    for (std::int32_t b = buckets.first; b < buckets.end; ++b) {
+        while (next[b] < end[b]) {
+            const std::int32_t k = next[b];
+            const std::int32_t home = bucket(k);
+            if (home != b) {
                 particles.swap(k, next[home]);
             }
             ++next[home];
         }
     }
+}
+
+/// First particles go into their rows' group, then into their rows.
+template <class Real>
+void sort_by_row(const Part& rows, std::int32_t* next, std::int32_t* end,
+                 Particles<Real>& particles, Work work) {
+    constexpr std::int32_t kCost = 4;
+    const Groups groups = find_places(rows, particles, next, end);
+    const auto row = [&](std::int32_t k) { return row_of(particles, k) - rows.first; };
+    const auto each_group = [&](const auto& body) {
+        work.share({0, kGroups}, particles.count / kGroups * kCost, 1,
+                   [&](const Part& some, std::int32_t) {
+                       for (std::int32_t group = some.first; group < some.end; ++group) {
+                           body(group);
+                       }
+                   });
+    };
+    std::int32_t strange[kGroups];  // those of other groups from here on
+    std::int32_t strange_end[kGroups];
+    each_group([&](std::int32_t group) {
+        const Part own = groups.rows[group];
+        std::int32_t k = groups.places[group].first;
+        std::int32_t last = groups.places[group].end;
+        strange_end[group] = last;
+        while (k < last) {
+            const std::int32_t here = row(k);
+            if (here >= own.first && here < own.end) {
+                ++k;
+            } else {
+                particles.swap(k, --last);
+            }
+        }
+        strange[group] = last;
+    });
+    swap_home({0, kGroups}, strange, strange_end, particles,
+              [&](std::int32_t k) { return groups.of_row(row(k)); });
+    each_group([&](std::int32_t group) {
+        swap_home(groups.rows[group], next, end, particles, row);
+    });
 }
 
 }  // namespace
@@ -82,7 +161,7 @@ void keep_row_order(const Part& rows, ArrayView<std::int32_t> scratch,
     const std::int32_t least = count * kTogether / maximum(particles.count, 1);
     if (2 * count <= scratch.size &&
         spanned(particles, work) > static_cast<std::int64_t>(kMixed + least) * blocks) {
-        sort_by_row(rows, scratch.data, scratch.data + count, particles);
+        sort_by_row(rows, scratch.data, scratch.data + count, particles, work);
     }
 }
 
