@@ -77,10 +77,13 @@ TEST(Threads, OtherScalarsHaveTheSameBits) {
     EXPECT_EQ(hashes<Fixed>(0, backwards), hashes<Fixed>(0, nullptr));
 }
 
-/// Rows cannot be cut then, since particles that follow each other give to all of them.
+/// Rows cannot be cut then, since particles that follow each other give to all of them; or all are
+/// put in order.
 TEST(Threads, ParticlesInNoOrderHaveTheSameBits) {
-    const auto run = [](ParallelFor parallel_for) {
-        TestWorld<float> world(wide_def(8, parallel_for));
+    const auto run = [](bool sorted, ParallelFor parallel_for) {
+        WorldDef def = wide_def(8, parallel_for);
+        def.keep_sorted = sorted;
+        TestWorld<float> world(def);
         Dice dice(1);
         for (std::int32_t k = 0; k < 12345; ++k) {
             EXPECT_EQ(world->add_particle({dice.uniform(0.1F, 1.6F), dice.uniform(0.1F, 1.1F)},
@@ -92,7 +95,13 @@ TEST(Threads, ParticlesInNoOrderHaveTheSameBits) {
         }
         return world->state_hash();
     };
-    EXPECT_EQ(run(backwards), run(nullptr));
+    port::set_threads(3);
+    for (const bool sorted : {false, true}) {
+        const std::uint64_t alone = run(sorted, nullptr);
+        EXPECT_EQ(run(sorted, backwards), alone) << sorted;
+        EXPECT_EQ(run(sorted, port::parallel_for), alone) << sorted;
+    }
+    port::set_threads(1);
 }
 
 /// What is deeper in a solid than 32 cells has no way out.
