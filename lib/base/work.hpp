@@ -74,7 +74,7 @@ private:
 };
 
 /// So many pieces a loop is cut into for threads, at most.
-inline constexpr std::int32_t kMostPieces = WEIR_PARALLEL ? 16 : 1;
+inline constexpr std::int32_t kMostPieces = WEIR_PARALLEL ? 32 : 1;
 
 /// What a stage is handed. The default does everything at once.
 ///

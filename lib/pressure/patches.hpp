@@ -62,8 +62,8 @@ struct Targets {
 
 /// The same where a patch adds to its own coarse cell and those around it: visit(rows of patches,
 /// what they may add to). Pieces go through the rows beside theirs, too, and take from them what is
-/// added to theirs, so that every sum has the order that it has in one piece. `filled`: no other row
-/// adds anything.
+/// added to theirs, so that every sum has the order that it has in one piece. No row adds anything
+/// that is not among those `filled`.
 template <class Visit>
 void share_sums_of_patches(const GridShape& s, const GridShape& big,
                            [[maybe_unused]] const Part& filled, Work work, const Visit& visit) {
