@@ -20,6 +20,10 @@ inline NodeBox common(const NodeBox& a, const NodeBox& b) {
     return {maximum(a.i0, b.i0), maximum(a.j0, b.j0), minimum(a.i1, b.i1), minimum(a.j1, b.j1)};
 }
 
+inline bool overlap(const NodeBox& a, const NodeBox& b) {
+    return a.i0 <= b.i1 && b.i0 <= a.i1 && a.j0 <= b.j1 && b.j0 <= a.j1;
+}
+
 /// A placed polygon, in cells.
 template <class Real>
 struct RasterPolygon {

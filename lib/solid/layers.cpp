@@ -100,10 +100,6 @@ void restore(Layers<Real>& layers, const NodeBox& changed) {
     }
 }
 
-bool overlap(const NodeBox& a, const NodeBox& b) {
-    return a.i0 <= b.i1 && b.i0 <= a.i1 && a.j0 <= b.j1 && b.j0 <= a.j1;
-}
-
 /// Whether a body's rectangle reaches into one that a body with `moved` set has left or entered.
 /// `all` holds all of these: most bodies are answered by it alone.
 template <class Real>

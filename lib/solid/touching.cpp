@@ -16,21 +16,49 @@ constexpr Real kDeeper = Real(1.0 / 64.0);
 template <class Real>
 constexpr Real kDeepest = Real(1);
 
+/// Nodes of which the bodies are listed together, along an axis: slots are gone through once for
+/// all of them, so that a map of thousands of tiles is drawn in a moment.
+constexpr std::int32_t kBlock = 4;
+/// Tiles of one cell each around such a block are fewer.
+constexpr std::int32_t kMostListed = 96;
+
 template <class Real>
 struct Union {
     const BodyTable<Real>& table;
     Bounds<Real> tank;
+    std::int32_t count = 0;  ///< of those listed; negative: too many, all slots are asked
+    std::uint16_t listed[kMostListed];
 
-    static bool is_drawn(const Body<Real>& body, std::int32_t i, std::int32_t j) {
-        return body.kind == BodyKind::fixed && !body.hollow && body.drawn.i0 <= i &&
-               i <= body.drawn.i1 && body.drawn.j0 <= j && j <= body.drawn.j1;
+    Union(const BodyTable<Real>& all, const GridShape& shape)
+        : table(all), tank{{}, {static_cast<Real>(shape.nx), static_cast<Real>(shape.ny)}} {}
+
+    static bool is_drawn(const Body<Real>& body, const NodeBox& nodes) {
+        return body.kind == BodyKind::fixed && !body.hollow && overlap(body.drawn, nodes);
+    }
+
+    /// Whether there are two static bodies, of which any node of a block may have been drawn by
+    /// both.
+    bool list(const NodeBox& block) {
+        count = 0;
+        for (std::int32_t slot = 0; slot < table.capacity && count >= 0; ++slot) {
+            if (is_drawn(table.body[slot], block)) {
+                if (count == kMostListed) {
+                    count = -1;
+                } else {
+                    listed[count++] = static_cast<std::uint16_t>(slot);
+                }
+            }
+        }
+        return count < 0 || count > 1;
     }
 
     template <class Visit>
     void for_each_at(std::int32_t i, std::int32_t j, const Visit& visit) const {
-        for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-            if (is_drawn(table.body[slot], i, j)) {
-                visit(table.body[slot]);
+        const std::int32_t end = count < 0 ? table.capacity : count;
+        for (std::int32_t k = 0; k < end; ++k) {
+            const Body<Real>& body = table.body[count < 0 ? k : listed[k]];
+            if (is_drawn(body, {i, j, i, j})) {
+                visit(body);
             }
         }
     }
@@ -72,15 +100,10 @@ struct Union {
     }
 };
 
-}  // namespace
-
 template <class Real>
-void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& table,
-                               const NodeBox& box, const NodeField<Real>& field) {
-    const Union<Real> bodies{
-        table, {{}, {static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)}}};
-    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+void deepen_block(const Union<Real>& bodies, const NodeBox& block, const NodeField<Real>& field) {
+    for (std::int32_t j = block.j0; j <= block.j1; ++j) {
+        for (std::int32_t i = block.i0; i <= block.i1; ++i) {
             const std::int32_t node = field.origin + j * field.stride + i;
             const Real inside = field.distance[node];
             if (inside > Real(0) || inside <= -kDeepest<Real>) {
@@ -94,6 +117,23 @@ void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& tab
             const Real depth = bodies.depth(i, j);
             if (depth > kDeeper<Real> - inside) {
                 field.distance[node] = Real(0) - depth;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+template <class Real>
+void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& table,
+                               const NodeBox& box, const NodeField<Real>& field) {
+    Union<Real> bodies(table, tank);
+    for (std::int32_t j = box.j0; j <= box.j1; j += kBlock) {
+        for (std::int32_t i = box.i0; i <= box.i1; i += kBlock) {
+            const NodeBox block{i, j, minimum(i + kBlock - 1, box.i1),
+                                minimum(j + kBlock - 1, box.j1)};
+            if (bodies.list(block)) {
+                deepen_block(bodies, block, field);
             }
         }
     }

@@ -72,6 +72,37 @@ TYPED_TEST(Touching, AFloorOfTilesIsFlat) {
     }
 }
 
+/// More of them around a few nodes than are listed together. (SmallFixed has no room for as many.)
+template <class Real>
+void expect_crumbs_are_flat(bool top_first) {
+    constexpr float kSize = 0.4F;
+    WorldDef def = tank();
+    def.capacity.bodies = 480;
+    def.capacity.vertices = 1920;
+    TestWorld<Real> world{def};
+    std::vector<Ring> rings;
+    for (int row = 0; row < 12; ++row) {
+        for (int k = 0; k < 40; ++k) {
+            const auto edge = [](int n) { return kSize * static_cast<float>(n) * kCell; };
+            rings.push_back({{edge(k + 8), edge(row)}, {edge(k + 9), edge(row)},
+                             {edge(k + 9), edge(row + 1)}, {edge(k + 8), edge(row + 1)}});
+        }
+    }
+    if (top_first) {
+        std::reverse(rings.begin(), rings.end());
+    }
+    add_all(world, rings);
+    expect_floor(world, 6.0F, 16.0F, 12.0F * kSize);
+    EXPECT_FALSE(is_solid(world, 3.0F, 1.0F));
+}
+
+TEST(TouchingCrumbs, AreFlat) {
+    for (const bool top_first : {false, true}) {
+        expect_crumbs_are_flat<float>(top_first);
+        expect_crumbs_are_flat<Fixed>(top_first);
+    }
+}
+
 /// A step keeps its height, and its edge up to the cell that the edge is in.
 TYPED_TEST(Touching, ALowerTileCoversNoHigherOne) {
     TestWorld<TypeParam> world{tank()};
