@@ -183,7 +183,7 @@ struct WorldDef {
     TickFunction ticks = nullptr;
 
     /// Who shares out a step's work to several threads; null: all is done by the caller's. The bits
-    /// are the same for any number of threads, and for none. Worth it from some 10,000 particles.
+    /// are the same for any number of threads, and for none. Worth it from some 20,000 particles.
     ParallelFor parallel_for = nullptr;
 };
 
