@@ -91,6 +91,16 @@ inline constexpr bool kHasWindow = !Stored<Real>::shares_momentum;
 template <class Real>
 inline constexpr Real kEmptyLevel = Real(Stored<Real>::coarse ? -1.5 : -1.55);
 
+/// Velocity before the step of a face that no particle reaches: 0, though not the 0 of one where
+/// all is at rest. Fixed point has one 0, and does not know.
+template <class Real>
+inline constexpr Real kNoVelocity = Real(-0.0);
+
+template <class Real>
+inline bool is_no_velocity(Real velocity) {
+    return __builtin_memcmp(&velocity, &kNoVelocity<Real>, sizeof velocity) == 0;
+}
+
 template <class Real>
 struct StaggeredGrid {
     GridShape shape;

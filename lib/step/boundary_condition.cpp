@@ -17,6 +17,20 @@ struct Field {
 };
 
 template <class Real>
+Velocity<Real> velocity_before(const StaggeredGrid<Real>& grid,
+                               const PressureFields<Real>& fields) {
+    return {grid.shape,  grid.mass_u,        grid.mass_v, grid.mass_u,
+            grid.mass_v, goes_along(fields), fields.sound_speed > Real(0)};
+}
+template <class Real>
+Velocity<Real> velocity_now(const StaggeredGrid<Real>& grid, const PressureFields<Real>& fields) {
+    Velocity<Real> velocity = velocity_before(grid, fields);
+    velocity.u = grid.u;
+    velocity.v = grid.v;
+    return velocity;
+}
+
+template <class Real>
 VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
                              std::int32_t j) {
     const std::int32_t face = axis.s.index(i, j);
@@ -216,6 +230,8 @@ struct BothMirrors {
                               was.v,
                               within_tank(s, Vec2<float>{-1.0F, -1.0F}),
                               within_tank(s, Vec2<float>{__builtin_inff(), __builtin_inff()}),
+                              was.goes_along,
+                              was.all_count,
                               mirrors_at_once()};
         MirrorFaces on_u;
         MirrorFaces on_v;
@@ -264,8 +280,8 @@ void mirror_together(const Walls<Real>& walls, PressureFields<Real>& fields,
     BothMirrors<Real> mirrors{
         walls,
         fields,
-        {s, grid.u, grid.v},
-        {s, grid.mass_u, grid.mass_v},
+        velocity_now(grid, fields),
+        velocity_before(grid, fields),
         {{s, walls, true}, grid.u, grid.mass_u, fields.divergence},
         {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal}};
     for (std::int32_t front = 0; front < s.ny + kRowsHeld; ++front) {
@@ -285,8 +301,8 @@ template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const Field<Real> now{{s, grid.u, grid.v}, fields, false};
-    const Field<Real> was{{s, grid.mass_u, grid.mass_v}, fields, true};
+    const Field<Real> now{velocity_now(grid, fields), fields, false};
+    const Field<Real> was{velocity_before(grid, fields), fields, true};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
     if constexpr (!Stored<Real>::coarse) {  // those have little room for code

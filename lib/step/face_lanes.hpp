@@ -16,15 +16,16 @@ template <class L>
 inline std::int32_t velocity_faces(const float* momentum, float* mass, float gained,
                                    std::int32_t face, std::int32_t end, float* velocity) {
     const auto zero = L::all(0.0F);
+    const auto none = L::all(kNoVelocity<float>);
     for (; face + L::kLanes <= end; face += L::kLanes) {
         const auto m = L::load(mass + face);
         const auto wet = m > zero;
         if (!L::any_true(wet)) {
-            L::store(mass + face, zero);
+            L::store(mass + face, none);
             L::store(velocity + face, zero);
             continue;
         }
-        const auto before = wet ? L::load(momentum + face) / m : zero;
+        const auto before = wet ? L::load(momentum + face) / m : none;
         L::store(mass + face, before);
         L::store(velocity + face, wet ? before + L::all(gained) : zero);
     }

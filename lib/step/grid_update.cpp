@@ -39,7 +39,8 @@ void update(const Real* momentum, VelocityOf<Real>* mass, const Part& faces, Rea
     }
     for (; face < faces.end; ++face) {
         const Real m = mass[face];
-        const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
+        const Real before =
+            m > Real(0) ? momentum_at(momentum, face) / m : kNoVelocity<Real>;
         mass[face] = before;
         velocity[face] = m > Real(0) ? before + gained : Real(0);
     }
@@ -72,7 +73,8 @@ void update_mixed(const Real* momentum, VelocityOf<Real>* volume, VelocityOf<Rea
                   const Part& faces, Real gained, VelocityOf<Real>* velocity) {
     for (std::int32_t face = faces.first; face < faces.end; ++face) {
         const Real m = mass[face];
-        const Real before = m > Real(0) ? momentum_at(momentum, face) / m : Real(0);
+        const Real before =
+            m > Real(0) ? momentum_at(momentum, face) / m : kNoVelocity<Real>;
         mass[face] = m > Real(0) ? volume[face] / m : Real(1);
         volume[face] = before;
         velocity[face] = m > Real(0) ? before + gained : Real(0);

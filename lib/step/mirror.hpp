@@ -11,12 +11,26 @@ namespace weir {
 template <class Real>
 inline constexpr Real kLeastReach = Real(1);
 
-/// A velocity that is only read.
+/// What is no faster along a wall than so many times the liquid goes with it, and is not braked:
+/// the two are known at different places. With one and a half, jets gained energy, and with any if
+/// the liquid is compressible.
+template <class Real>
+inline Real goes_along(const PressureFields<Real>& fields) {
+    return Real(fields.sound_speed > Real(0) ? 1.0F : 1.25F);
+}
+
+/// A velocity that is only read, and the one before the step, which tells whose faces are reached.
 template <class Real>
 struct Velocity {
     const GridShape& shape;
     const VelocityOf<Real>* u;
     const VelocityOf<Real>* v;
+    const VelocityOf<Real>* was_u;
+    const VelocityOf<Real>* was_v;
+    Real goes_along;
+    /// Whether faces that no particle reaches count as liquid at rest, too: compressible liquid,
+    /// which stores what pushes it, would gain by what that takes.
+    bool all_count;
 };
 
 template <class Real>
@@ -89,16 +103,32 @@ Vec2<Real> at_mirror(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
             interpolate(grid.v, grid.shape.stride, mirror.at_v)};
 }
 
+/// Mean of four faces side by side, but for those that no particle reaches.
+template <class Real>
+Real mean_of_faces(const VelocityOf<Real>* field, const VelocityOf<Real>* was, bool all_count,
+                   std::int32_t stride, std::int32_t first) {
+    Real count = Real(0);
+    const auto look = [&](std::int32_t face) {
+        const bool reached = all_count || !is_no_velocity(Real(was[face]));
+        count += Real(reached ? 1 : 0);
+        return reached ? Real(field[face]) : Real(0);
+    };
+    const Real low = look(first) + look(first + 1);
+    const Real high = look(first + stride) + look(first + stride + 1);
+    return (low + high) / maximum(count, Real(1));
+}
+
 /// The face's own component, and the mean of the other's four faces around it.
 template <class Real>
 Vec2<Real> at_face(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const std::int32_t stride = grid.shape.stride;
     const std::int32_t face = mirror.face;
-    constexpr Real kHalf = Real(0.5);
-    if (mirror.is_u) {
-        return {grid.u[face], interpolate(grid.v, stride, Stencil<Real>{face - 1, kHalf, kHalf})};
-    }
-    return {interpolate(grid.u, stride, Stencil<Real>{face - stride, kHalf, kHalf}), grid.v[face]};
+    const auto mean = [&](const VelocityOf<Real>* of, const VelocityOf<Real>* was,
+                          std::int32_t first) {
+        return mean_of_faces<Real>(of, was, grid.all_count, stride, first);
+    };
+    return mirror.is_u ? Vec2<Real>{grid.u[face], mean(grid.v, grid.was_v, face - 1)}
+                       : Vec2<Real>{mean(grid.u, grid.was_u, face - stride), grid.v[face]};
 }
 
 /// What is at the face itself, along the wall's normal and in its frame.
@@ -129,22 +159,23 @@ Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     return liquid - (normal_part * (Real(1) + mirror.ratio)) * mirror.normal;
 }
 
-/// Velocity before the step that goes with it. Towards the wall: what was there, so that the change
-/// stops it. Along the wall: the liquid's, so that the change is the liquid's, or what was there if
-/// that was faster, so that the change brakes; mirrored, too, where the liquid sticks.
+/// Velocity before the step that goes with it: along the wall the liquid's, so that the change is
+/// the liquid's, and by how much what was there was faster than goes along with it, so that the
+/// change brakes that. Towards the wall what was there, so that the change stops it. Mirrored, too,
+/// where the liquid sticks.
 template <class Real>
 Vec2<Real> before(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const Vec2<Real> liquid = at_mirror(grid, mirror) - mirror.wall;
     if (mirror.sticks) {
         return stuck(mirror, liquid + mirror.wall, own_towards(grid, mirror));
     }
-    const Vec2<Real> own = at_face(grid, mirror) - mirror.wall;
-    const Real towards = dot(own, mirror.normal);
-    const Real liquid_towards = dot(liquid, mirror.normal);
-    const Vec2<Real> along = own - towards * mirror.normal;
-    const Vec2<Real> liquid_along = liquid - liquid_towards * mirror.normal;
-    const bool brakes = dot(liquid_along, liquid_along) < dot(along, along);
-    return mirror.wall + (brakes ? along : liquid_along) + towards * mirror.normal;
+    const Vec2<Real> own = at_face(grid, mirror);
+    const Vec2<Real> relative = own - mirror.wall;
+    const Vec2<Real> tangent{-mirror.normal.y, mirror.normal.x};
+    const Real along = dot(relative, tangent);
+    const Real liquid_along = dot(liquid, tangent);
+    const Real most = grid.goes_along * absolute(liquid_along);
+    return own - (clamp(along, -most, most) - liquid_along) * tangent;
 }
 
 /// Whether a face takes what is mirrored: it is closed, or bound to the wall. Between two nodes.

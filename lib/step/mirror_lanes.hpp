@@ -21,6 +21,8 @@ struct MirrorTask {
     const float* was_v;
     Vec2<float> low;   ///< what lies within the tank (`within_tank`)
     Vec2<float> high;
+    float goes_along;      ///< as `Velocity` has it
+    bool all_count;        ///< the same
     std::int32_t at_once;  ///< so many faces
 };
 
@@ -73,6 +75,23 @@ inline typename L::Floats interpolate_group(const float* field, std::int32_t str
     const auto low = p.low_left + fx * (p.low_right - p.low_left);
     const auto high = p.high_left + fx * (p.high_right - p.high_left);
     return low + fy * (high - low);
+}
+
+/// As the one for a single face, of the velocity before the step.
+template <class L, class Squares>
+inline typename L::Floats mean_of_faces(const Squares& of, bool all_count) {
+    using Floats = typename L::Floats;
+    using Ints = typename L::Ints;
+    const Floats one = L::all(1.0F);
+    const Floats none = L::all(kNoVelocity<float>);
+    const Floats least = all_count ? one : L::all(0.0F);
+    const auto counts = [&](Floats velocity) {
+        return reinterpret_cast<Ints>(velocity) != reinterpret_cast<Ints>(none) ? one : least;
+    };
+    const Floats count = (counts(of.low_left) + counts(of.low_right)) +
+                         (counts(of.high_left) + counts(of.high_right));
+    const Floats sum = (of.low_left + of.low_right) + (of.high_left + of.high_right);
+    return (sum + L::all(0.0F)) / L::maximum(count, one);  // −0 if all four are
 }
 
 /// As `FaceAxis` has them.
@@ -180,17 +199,14 @@ inline void mirror_faces(const MirrorTask& task, const std::int32_t* face, const
     // As `before`.
     const LaneVectors<L> there = at_mirror(task.was_u, task.was_v) - wall;
     const Floats own = L::numbers_at(OnU ? task.was_u : task.was_v, L::load_whole(face));
-    const Floats half = L::all(0.5F);
-    const Floats other =
-        interpolate_group<L>(OnU ? task.was_v - 1 : task.was_u - t, t, face, half, half);
+    const float* others = OnU ? task.was_v - 1 : task.was_u - t;
+    const Floats other = mean_of_faces<L>(L::squares_at(others, others + t, face), task.all_count);
     const LaneVectors<L> here = LaneVectors<L>{OnU ? own : other, OnU ? other : own} - wall;
-    const Floats towards = here.dot(normal);
-    const LaneVectors<L> along = here - normal.times(towards);
-    const LaneVectors<L> liquid_along = there - normal.times(there.dot(normal));
-    const auto brakes = liquid_along.dot(liquid_along) < along.dot(along);
-    L::store(changes.was,
-             OnU ? (wall.x + (brakes ? along.x : liquid_along.x)) + towards * normal.x
-                 : (wall.y + (brakes ? along.y : liquid_along.y)) + towards * normal.y);
+    const Floats liquid_along = normal.x * there.y - normal.y * there.x;
+    const Floats along = normal.x * here.y - normal.y * here.x;
+    const Floats most = L::all(task.goes_along) * L::absolute(liquid_along);
+    const Floats taken = L::clamp(along, -most, most) - liquid_along;
+    L::store(changes.was, OnU ? own + taken * normal.y : own - taken * normal.x);
 }
 
 /// How many faces are worth their while together.

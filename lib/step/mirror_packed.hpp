@@ -86,23 +86,20 @@ struct MirrorTask {
         return of(liquid) - part(turned, mirror);
     }
 
-    /// `weir::before`, 256ths. What brakes is what was there.
+    /// `weir::before`, 256ths. Faces that no particle reaches count as they are.
     std::int32_t before(const Mirror& mirror, std::int32_t face) const {
-        const Whole liquid = at_mirror(mirror);
-        const Whole relative = relative_to(mirror.wall, liquid);
+        const Whole relative = relative_to(mirror.wall, at_mirror(mirror));
         if (mirror.sticks) {
             return stuck(mirror, relative, own_towards(mirror, face));
         }
         const Whole there = at_face(face);
-        const Whole own = relative_to(mirror.wall, there);
-        const auto aside = [&](Whole v) {
-            return absolute(v.x * mirror.normal.y - v.y * mirror.normal.x);
-        };
-        if (aside(relative) < aside(own)) {
-            return of(there);
-        }
-        const std::int32_t gap = along(own, mirror.normal) - along(relative, mirror.normal);
-        return of(liquid) + part(saturated<17>(gap), mirror);
+        const Whole tangent{-mirror.normal.y, mirror.normal.x};
+        const std::int32_t liquid_along = along(relative, tangent);
+        const std::int32_t own_along = along(relative_to(mirror.wall, there), tangent);
+        const std::int32_t size = absolute(liquid_along);
+        const std::int32_t most = size + size / 4;
+        const std::int32_t taken = clamp(own_along, -most, most) - liquid_along;
+        return of(there) - rounded_shift(taken * of(tangent), 14);
     }
 };
 
