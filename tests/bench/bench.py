@@ -10,7 +10,7 @@ import statistics
 import subprocess
 import sys
 
-TURNS = 7
+TURNS = 5
 COUNTS = (1000, 10000, 75000, 100000, 1000000)
 STAGES = ("contour", "particle_to_grid", "grid_update", "pressure", "volume", "grid_to_particle",
           "collide")
