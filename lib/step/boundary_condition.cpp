@@ -37,7 +37,8 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& fiel
     const VelocityOf<Real> own = (axis.is_u ? field.velocity.u : field.velocity.v)[face];
     if constexpr (Stored<Real>::coarse) {
         packed::Mirror mirror;
-        if (!packed::find_mirror(axis, field.fields.level, i, j, mirror)) {
+        if ((axis.open()[face].raw == 0 && is_unread(axis, field.fields, face)) ||
+            !packed::find_mirror(axis, field.fields.level, i, j, mirror)) {
             return own;
         }
         const packed::MirrorTask task{axis, field.velocity};
@@ -305,7 +306,7 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     const Field<Real> was{velocity_before(grid, fields), fields, true};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
-    if constexpr (!Stored<Real>::coarse) {  // those have little room for code
+    if constexpr (!Stored<Real>::coarse) {  // little room for code, and diagonals are needed
         const bool whole = enough && rows.first == 0 && rows.end == s.ny;
         if (whole && s.ny >= kRowsOfTurns && work.pieces(s.ny, s.nx, 1) <= 1) {
             mirror_together(walls, fields, grid);

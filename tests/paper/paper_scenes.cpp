@@ -8,7 +8,6 @@ namespace {
 
 constexpr float kPi = 3.14159265358979323846F;
 constexpr float kGap = 0.6F;      // particles keep away from solids: none starts in a cut cell
-constexpr float kTurn = 2.0F;     // rad/s of the turning polygons
 constexpr int kAspect = 2;        // tank: width over height
 constexpr float kDamHeight = 0.8F;  // over the tank's height
 constexpr float kFill = 0.4F;     // liquid's share of the tank
@@ -121,49 +120,22 @@ Scene tank(const std::string& name, int particles) {
     return scene;
 }
 
-// Floor and side walls of solid, four cells thick, reaching out of the tank.
-void add_box(Scene& scene) {
-    const auto w = static_cast<float>(scene.cells_x);
-    const auto h = static_cast<float>(scene.cells_y);
-    const float thick = 4.3F;  // not on the grid's lines
-    const auto slab = [&scene](float width, float height, Point centre) {
-        scene.solids.push_back(
-            convex(paper::box_polygon({-0.5F * width, -0.5F * height},
-                                      {0.5F * width, 0.5F * height}), centre, 0.0F, 0.0F));
-    };
-    slab(w, thick, {0.5F * w, 0.5F * thick});
-    slab(thick, h, {0.5F * thick, 0.5F * h});
-    slab(thick, h, {w - 0.5F * thick, 0.5F * h});
-}
-
-// A few solids in the way of the wave, in shares of the tank's height.
-void add_standard(Scene& scene) {
-    const auto h = static_cast<float>(scene.cells_y);
-    scene.solids.push_back(
-        convex({{-0.20F * h, -0.1F * h}, {0.20F * h, -0.1F * h}, {0.20F * h, 0.1F * h}},
-               {1.60F * h, 0.14F * h}, 0.0F, 0.0F));
-    for (const Point at : {Point{0.3F, 0.3F}, Point{0.7F, 0.45F}, Point{1.1F, 0.25F},
-                           Point{1.4F, 0.55F}}) {
-        scene.solids.push_back(shaped(Shape::hexagon, 0.08F * h, {at.x * h, at.y * h}, 0.2F, 0.0F));
-    }
-    scene.solids.push_back(convex(paper::box_polygon({-0.15F * h, -0.03F * h},
-                                                     {0.15F * h, 0.03F * h}),
-                                  {1.1F * h, 0.6F * h}, -0.4F, 0.0F));
-}
-
-// And a crowd of small ones between the wave's feet, every third of them turning.
-void add_crowd(Scene& scene) {
-    const auto h = static_cast<float>(scene.cells_y);
-    const Shape shapes[] = {Shape::triangle, Shape::hexagon, Shape::star};
-    int index = 0;
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 12; ++column, ++index) {
-            const float x = (0.14F + 0.15F * static_cast<float>(column)) * h;
-            const float y = (0.12F + 0.2F * static_cast<float>(row)) * h;
-            const float spin = index % 3 == 0 ? kTurn : 0.0F;
-            scene.solids.push_back(shaped(shapes[(index + row) % 3], 0.03F * h, {x, y},
-                                          static_cast<float>(index), spin));
-        }
+Solid solid_of(const PlacedForm& placed) {
+    const Point at{placed.x, placed.y};
+    const float x = placed.size_x;
+    const float y = placed.size_y;
+    switch (placed.form) {
+        case Form::rectangle:
+            return convex(paper::box_polygon({-x, -y}, {x, y}), at, placed.angle_rad,
+                          placed.spin_radps);
+        case Form::ramp:
+            return convex({{-x, -y}, {x, -y}, {x, y}}, at, placed.angle_rad, placed.spin_radps);
+        case Form::triangle:
+            return shaped(Shape::triangle, x, at, placed.angle_rad, placed.spin_radps);
+        case Form::hexagon:
+            return shaped(Shape::hexagon, x, at, placed.angle_rad, placed.spin_radps);
+        default:
+            return shaped(Shape::star, x, at, placed.angle_rad, placed.spin_radps);
     }
 }
 
@@ -179,13 +151,8 @@ const char* shape_name(Shape shape) {
 
 Scene setting_scene(Setting setting, int particles) {
     Scene scene = tank(setting_name(setting), particles);
-    add_box(scene);
-    if (setting != Setting::box) {
-        add_standard(scene);
-    }
-    if (setting == Setting::complex) {
-        add_crowd(scene);
-    }
+    for_each_solid(setting, static_cast<float>(scene.cells_x), static_cast<float>(scene.cells_y),
+                   [&](const PlacedForm& placed) { scene.solids.push_back(solid_of(placed)); });
     pour(scene, particles);
     return scene;
 }

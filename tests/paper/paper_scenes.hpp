@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "paper_solids.hpp"
+#include "setting_solids.hpp"
 
 namespace paper_bench {
 
@@ -39,7 +40,6 @@ struct Scene {
     std::vector<Point> velocities_mps;  ///< of particles; none: at rest (Weir's runner alone)
 };
 
-enum class Setting { box, standard, complex };
 enum class Shape { triangle, hexagon, star };
 
 const char* setting_name(Setting setting);

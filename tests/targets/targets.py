@@ -23,6 +23,8 @@ SHARED = 64
 
 BOARD = {"cortex-m0": "microbit", "cortex-m3": "mps2-an385", "cortex-m4f": "netduinoplus2"}
 SCENES = {"0": "liquid", "1": "solid"}
+# Boards with the memory for the scenes of the paper's tables, with and without their solids.
+ROOMY = {"cortex-m3": "mps2-an385", "cortex-m4f": "mps2-an386"}
 TRANSFERS = ("stage_particle_to_grid", "stage_grid_to_particle")
 
 # Cycles for an instruction, on average over the liquid scene: the instructions that were executed,
@@ -74,15 +76,34 @@ def left_out(image, objects):
     return 1 if linked or not found else 0
 
 
+def facts(board, image):
+    """What an image prints on a board, by name."""
+    run = subprocess.run([ROOT / "port/cortex_m/run", board, image], text=True, check=True,
+                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    return {words[0]: int(words[1]) for words in map(str.split, run.stdout.splitlines())}
+
+
+def measure_solids(processor, folder):
+    """Yields (name, value) of the paper's scenes."""
+    board = ROOMY.get(processor)
+    for image in sorted(folder.glob(f"solid_scenes_*.{board}.elf")):
+        real = image.name.split(".")[0].split("_")[2]
+        fact = facts(board, image)
+        for scene in ("box", "standard", "complex"):
+            for way in ("with", "without"):
+                cost = (fact[f"{scene}_{way}_instructions"] /
+                        fact[f"{scene}_{way}_particle_substeps"])
+                yield f"{processor} {real} {scene} {way} solids", round(cost, 1)
+
+
 def measure(processor, build):
     """Yields (name, value) of every image of a build."""
     board = BOARD[processor]
     folder = pathlib.Path(build) / "tests/targets"
+    yield from measure_solids(processor, folder)
     for image in sorted(folder.glob(f"target_*.{board}.elf")):
         _, real, scene = image.name.split(".")[0].split("_")
-        run = subprocess.run([ROOT / "port/cortex_m/run", board, image], text=True, check=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-        fact = {words[0]: int(words[1]) for words in map(str.split, run.stdout.splitlines())}
+        fact = facts(board, image)
         name = f"{processor} {real} {SCENES[scene]}"
         steps = fact["substeps"] * fact["particles"]
         yield f"{name} instructions", round(fact["instructions"] / steps, 1)
