@@ -169,7 +169,7 @@ void annulus(Report& report, int gap) {
     const std::string n = std::to_string(gap);
     // Flow along circles is stirred by the straight lines it is known along: bounds, no targets.
     report.at_most("R10.annulus.velocity_error." + n,
-                   difference(tank, flow, [](Vec2d) { return true; }), "%", gap > 16 ? 3.5 : 4.5);
+                   difference(tank, flow, [](Vec2d) { return true; }), "%", gap > 16 ? 2.0 : 3.5);
     // Torque on the disc, 4πνB over the density; means of a second.
     double torque = 0.0;
     double time = 0.0;
