@@ -29,10 +29,15 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
             (sees.upper ? grid.mass_v[c + grid.shape.stride] : Real(0)));
 }
 
-/// Density and level of a cell whose faces hold some mass.
+/// Density and level of a cell whose faces hold so much mass.
 template <class Real>
 inline void show_cell(Real mass, Real per_face, const CutDensity<Real>& cut, std::int32_t c,
                       Part& slivers, const PressureFields<Real>& fields) {
+    if (!(mass > Real(0))) {
+        fields.density[c] = Real(0);
+        fields.level[c] = kEmptyLevel<Real>;
+        return;
+    }
     Real density = mass * per_face;
     if (cut.full != nullptr && bound_key(Real(cut.full[c])) < bound_key(Real(1))) {
         const Real full = cut.full[c];
@@ -58,12 +63,7 @@ template <class Real>
         const Real next = *right++;
         const Real mass = (left + next) + (*lower++ + *upper++);
         left = next;
-        if (mass > Real(0)) {
-            show_cell(mass, per_face, cut, c, slivers, fields);
-        } else {
-            fields.density[c] = Real(0);
-            fields.level[c] = kEmptyLevel<Real>;
-        }
+        show_cell(mass, per_face, cut, c, slivers, fields);
     }
 }
 
@@ -75,12 +75,7 @@ void densities_beside_thin(const StaggeredGrid<Real>& grid, const ThinWalls<Real
     for (; c < end; ++c) {
         const Real mass = (thin.mark[c] & kTouching) != 0 ? seen_mass(grid, thin, c)
                                                           : mass_of_cell(grid, c);
-        if (mass > Real(0)) {
-            show_cell(mass, per_face, cut, c, slivers, fields);
-        } else {
-            fields.density[c] = Real(0);
-            fields.level[c] = kEmptyLevel<Real>;
-        }
+        show_cell(mass, per_face, cut, c, slivers, fields);
     }
 }
 
