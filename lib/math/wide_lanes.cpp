@@ -16,27 +16,38 @@ Registers cpuid(std::uint32_t leaf) {
     return r;
 }
 
-/// Whether processor and operating system have AVX2 registers (Intel's manual, volume 1, 14.3).
-bool ask() {
+constexpr bool has_all(std::uint32_t bits, std::uint32_t wanted) {
+    return (bits & wanted) == wanted;
+}
+
+/// What processor and operating system have registers for (Intel's manual, volume 1, 14.3 and
+/// 15.3).
+std::int32_t ask() {
     constexpr std::uint32_t kAvxAndXgetbv = 3U << 27U;  // leaf 1, c
     constexpr std::uint32_t kAvx2 = 1U << 5U;           // leaf 7, b
-    constexpr std::uint32_t kSaved = 6U;  // SSE and AVX state is kept when threads change
-    if (cpuid(0).a < 7 || (cpuid(1).c & kAvxAndXgetbv) != kAvxAndXgetbv) {
-        return false;
+    constexpr std::uint32_t kAvx512 = 1U << 16U | 1U << 17U | 1U << 30U | 1U << 31U;  // F DQ BW VL
+    constexpr std::uint32_t kSaved = 0x06U;  // SSE and AVX state is kept when threads change,
+    constexpr std::uint32_t kSavedToo = 0xE0U;  // that of masks and of all 32 registers, too
+    if (cpuid(0).a < 7 || !has_all(cpuid(1).c, kAvxAndXgetbv)) {
+        return 4;
     }
     std::uint32_t low = 0;
     std::uint32_t high = 0;
     __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
-    return (low & kSaved) == kSaved && (cpuid(7).b & kAvx2) != 0;
+    const std::uint32_t has = cpuid(7).b;
+    if (!has_all(low, kSaved) || !has_all(has, kAvx2)) {
+        return 4;
+    }
+    return WEIR_HAS_WIDEST_LANES && has_all(low, kSavedToo) && has_all(has, kAvx512) ? 16 : 8;
 }
 
 }  // namespace
 
-std::int32_t wide_lanes_known = 0;
+std::int32_t lanes_known = 0;
 
-bool ask_for_wide_lanes() {
-    const bool found = ask();
-    __atomic_store_n(&wide_lanes_known, found ? 1 : -1, __ATOMIC_RELAXED);
+std::int32_t ask_for_lanes() {
+    const std::int32_t found = ask();
+    __atomic_store_n(&lanes_known, found, __ATOMIC_RELAXED);
     return found;
 }
 

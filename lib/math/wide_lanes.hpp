@@ -1,278 +1,60 @@
-// Eight floats side by side, as two groups of four, for files that are compiled for processors with
-// AVX2 (`..._wide.cpp`). Lane by lane as in math/lanes.hpp, and so with the same bits.
+// With how many floats side by side loops go on a processor of which a build does not know how many
+// it has: files compiled for more of them (`..._wide.cpp`: eight, with AVX2; `..._widest.cpp`:
+// sixteen, with AVX-512) lie beside those for all.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
-/// WEIR_WIDE: the build compiles those files so.
+/// WEIR_WIDE: how many lanes the build has such files for.
 #if defined(WEIR_WIDE) && defined(__x86_64__) && !defined(WEIR_PLAIN_LOOPS) && \
     (defined(__clang__) || __GNUC__ >= 12)
 #define WEIR_HAS_WIDE_LANES 1
 #else
 #define WEIR_HAS_WIDE_LANES 0
 #endif
+#if WEIR_HAS_WIDE_LANES && WEIR_WIDE >= 16
+#define WEIR_HAS_WIDEST_LANES 1
+#else
+#define WEIR_HAS_WIDEST_LANES 0
+#endif
 
 namespace weir {
 
-#if WEIR_HAS_WIDE_LANES
-/// 0: not asked yet; 1: yes; −1: no. Every thread finds the same.
-extern std::int32_t wide_lanes_known;
-bool ask_for_wide_lanes();
+/// Most lanes of which the build has loops.
+inline constexpr std::int32_t kMostLanes =
+    WEIR_HAS_WIDEST_LANES ? 16 : (WEIR_HAS_WIDE_LANES ? 8 : 4);
 
-/// Whether this processor has them.
-inline bool has_wide_lanes() {
-    const std::int32_t known = __atomic_load_n(&wide_lanes_known, __ATOMIC_RELAXED);
-    return known > 0 || (known == 0 && ask_for_wide_lanes());
+/// 0: not asked yet. Every thread finds the same. Tests set less than there are.
+extern std::int32_t lanes_known;
+std::int32_t ask_for_lanes();
+
+/// How many this processor has: 4, 8 or 16.
+inline std::int32_t lanes_of_processor() {
+    if constexpr (kMostLanes > 4) {
+        const std::int32_t known = __atomic_load_n(&lanes_known, __ATOMIC_RELAXED);
+        return known != 0 ? known : ask_for_lanes();
+    }
+    return 4;
 }
-#endif
+inline bool has_wide_lanes() {
+    return lanes_of_processor() >= 8;
+}
 
-#if WEIR_HAS_WIDE_LANES && defined(__AVX2__)
-
-// No other file may be given what is compiled here.
-namespace {
-
-struct EightLanes {
-    using Floats = float __attribute__((vector_size(32)));
-    using Ints = std::int32_t __attribute__((vector_size(32)));
-    using Shorts = std::int16_t __attribute__((vector_size(32)));
-    using Four = float __attribute__((vector_size(16)));
-    using FourInts = std::int32_t __attribute__((vector_size(16)));
-    static constexpr std::int32_t kGroups = 2;
-    static constexpr std::int32_t kLanes = 8;
-    static constexpr std::integral_constant<std::int32_t, 0> kFirstGroup{};
-
-    template <class Body>
-    static void each_group(const Body& body) {
-        body(std::integral_constant<std::int32_t, 0>{});
-        body(std::integral_constant<std::int32_t, 1>{});
+/// What it has of two tables of loops; null: neither.
+template <class Loops, const Loops& ByEight, const Loops& BySixteen>
+inline const Loops* loops_of_processor() {
+    [[maybe_unused]] const std::int32_t lanes = lanes_of_processor();
+    if constexpr (kMostLanes >= 16) {
+        if (lanes >= 16) {
+            return &BySixteen;
+        }
     }
-    template <int G>
-    static Four group(Floats a) {
-        return __builtin_shufflevector(a, a, 4 * G, 4 * G + 1, 4 * G + 2, 4 * G + 3);
+    if constexpr (kMostLanes >= 8) {
+        if (lanes >= 8) {
+            return &ByEight;
+        }
     }
-    static Floats all(float x) { return Floats{x, x, x, x, x, x, x, x}; }
-    static Floats repeat(float a, float b, float c, float d) {
-        return Floats{a, b, c, d, a, b, c, d};
-    }
-    static Floats load(const float* from) {
-        Floats lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return lanes;
-    }
-    static Floats load_some(const float* from, std::int32_t count) {
-        Floats lanes{};
-        __builtin_memcpy(&lanes, from, static_cast<std::size_t>(count) * sizeof *from);
-        return lanes;
-    }
-    static void store(float* to, Floats lanes) { __builtin_memcpy(to, &lanes, sizeof lanes); }
-    static Four load_four(const float* from) {
-        Four lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return lanes;
-    }
-    /// In two loads. Each finds what it reads in one store; a load across the last two waits for
-    /// both. (A compiler would make one load of two.)
-    static Four load_halves(const float* from) {
-        struct Pair {
-            float first, second;
-        };
-        using Halves = double __attribute__((vector_size(16)));
-        double low;
-        __builtin_memcpy(&low, from, sizeof low);
-        Four lanes = reinterpret_cast<Four>(Halves{low, 0.0});
-        __asm__("vmovhps %1, %0, %0"
-                : "+x"(lanes)
-                : "m"(*reinterpret_cast<const Pair*>(from + 2)));
-        return lanes;
-    }
-    static Floats one_a_group(const float* from) {
-        return Floats{from[0], from[0], from[0], from[0], from[1], from[1], from[1], from[1]};
-    }
-    static Floats load_pairs(const float* from, const std::uint32_t* at) {
-        return __builtin_shufflevector(load_four(from + 2 * static_cast<std::size_t>(at[0])),
-                                       load_four(from + 2 * static_cast<std::size_t>(at[1])), 0,
-                                       1, 2, 3, 4, 5, 6, 7);
-    }
-    static Floats spread_pairs(const float* from) {
-        const Four both = load_four(from);
-        return __builtin_shufflevector(both, both, 0, 1, 0, 1, 2, 3, 2, 3);
-    }
-    template <int G>
-    static void add_group(float* to, Floats a) {
-        const Four lanes = load_halves(to) + group<G>(a);
-        __builtin_memcpy(to, &lanes, sizeof lanes);
-    }
-    static void store_halves(std::uint32_t* first, std::uint32_t* second, Ints a) {
-        const Ints halves = __builtin_shufflevector(a, a, 0, 1, 4, 5, 2, 3, 6, 7);
-        const FourInts low = __builtin_shufflevector(halves, halves, 0, 1, 2, 3);
-        const FourInts high = __builtin_shufflevector(halves, halves, 4, 5, 6, 7);
-        __builtin_memcpy(first, &low, sizeof low);
-        __builtin_memcpy(second, &high, sizeof high);
-    }
-    static void store_in_turn(float* to, Floats a, Floats b) {
-        store(to, __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11));
-        store(to + 8, __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15));
-    }
-    /// Bytes at numbers that `sums_of_products` gave: a bit for each that is not 0, in the order of
-    /// `store_halves`. Three bytes more than the last one are read.
-    static std::uint32_t set_bytes(const std::uint8_t* bytes, Ints lanes) {
-        const Ints at = __builtin_shufflevector(lanes, lanes, 0, 1, 4, 5, 2, 3, 6, 7);
-        return bits_of(bytes_at(bytes, at) > 0);
-    }
-    static Ints look_up(const std::int32_t* table, const std::uint8_t* bytes,
-                        const std::uint32_t* at) {
-        return whole_at<4>(table, bytes_at(bytes, load_whole(at)));
-    }
-    struct Places {
-        Floats x;
-        Floats y;
-    };
-    static Places places_at(const float* pairs, const std::int32_t* at) {
-        const Ints n = load_whole(at);
-        return {floats_at<8>(pairs, n), floats_at<8>(pairs + 1, n)};
-    }
-    struct Squares {
-        Floats low_left;
-        Floats low_right;
-        Floats high_left;
-        Floats high_right;
-    };
-    template <class Place>
-    static Squares squares_at(const float* low, const float* high, const Place* at) {
-        const Ints n = load_whole(at);
-        return {floats_at<4>(low, n), floats_at<4>(low + 1, n), floats_at<4>(high, n),
-                floats_at<4>(high + 1, n)};
-    }
-    template <int I, int J, int K, int L>
-    static Floats shuffle(Floats a, Floats b) {
-        return __builtin_shufflevector(a, b, at<I>(0), at<J>(0), at<K>(0), at<L>(0), at<I>(4),
-                                       at<J>(4), at<K>(4), at<L>(4));
-    }
-    static Floats in_order(Floats a) {
-        return __builtin_shufflevector(a, a, 0, 4, 1, 5, 2, 6, 3, 7);
-    }
-    static Floats every_second(Floats a, Floats b) {
-        return __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
-    }
-    static Floats every_other(Floats a, Floats b) {
-        return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
-    }
-    static Floats first_pairs(Floats a, Floats b) {
-        return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
-    }
-    static Floats last_pairs(Floats a, Floats b) {
-        return __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
-    }
-    static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
-    static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
-    static Ints bytes(const std::uint8_t* from) {
-        using Bytes = std::uint8_t __attribute__((vector_size(8)));
-        Bytes lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return __builtin_convertvector(lanes, Ints);
-    }
-    static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {
-        const auto a = static_cast<std::int16_t>(first);
-        const auto b = static_cast<std::int16_t>(second);
-        return Shorts{a, b, a, b, a, b, a, b, a, b, a, b, a, b, a, b};
-    }
-    static Ints sums_of_products(Ints a, Ints b, Shorts f) {
-        return __builtin_ia32_pmaddwd256(__builtin_ia32_packssdw256(a, b), f);
-    }
-    struct Alternate {
-        Floats even;  ///< 0, 2, 8, 10, 4, 6, 12, 14
-        Floats odd;   ///< 1, 3, 9, 11, 5, 7, 13, 15
-    };
-    static Alternate load_alternate(const float* from) {
-        const Floats a = load(from);
-        const Floats b = load(from + 8);
-        return {shuffle<0, 2, 4, 6>(a, b), shuffle<1, 3, 5, 7>(a, b)};
-    }
-    static void store_alternate(float* to, Floats even, Floats odd) {
-        store(to, shuffle<0, 4, 1, 5>(even, odd));
-        store(to + 8, shuffle<2, 6, 3, 7>(even, odd));
-    }
-    static Floats odd_before(Floats before, Floats odd) {
-        return __builtin_shufflevector(before, odd, 7, 8, 13, 10, 9, 12, 11, 14);
-    }
-    static Ints alternate_from(std::int32_t k) { return Ints{0, 1, 4, 5, 2, 3, 6, 7} >= k; }
-    static Floats absolute(Floats a) {
-        return reinterpret_cast<Floats>(reinterpret_cast<Ints>(a) & (Ints{} + 0x7FFFFFFF));
-    }
-    static Floats square_root(Floats a) { return __builtin_ia32_sqrtps256(a); }
-    static Floats minimum(Floats a, Floats b) { return b < a ? b : a; }
-    static Floats maximum(Floats a, Floats b) { return a < b ? b : a; }
-    static Floats clamp(Floats a, Floats low, Floats high) {
-        return a < low ? low : (high < a ? high : a);
-    }
-    static std::uint32_t signs(Floats a) {
-        return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(a));
-    }
-    static std::uint32_t bits_of(Ints mask) { return signs(reinterpret_cast<Floats>(mask)); }
-    static Ints lanes_of(std::uint32_t bits) {
-        return (Ints{1, 2, 4, 8, 16, 32, 64, 128} & static_cast<std::int32_t>(bits)) != 0;
-    }
-    static bool all_true(Ints mask) {
-        return __builtin_ia32_vtestcps256(reinterpret_cast<Floats>(mask), true_lanes()) != 0;
-    }
-    static bool any_true(Ints mask) { return any_negative(reinterpret_cast<Floats>(mask)); }
-    static bool any_negative(Floats a) {
-        return __builtin_ia32_vtestzps256(a, true_lanes()) == 0;
-    }
-
-    struct Threes {
-        Floats left;
-        Floats middle;
-        Floats right;
-    };
-    static Threes threes_at(const float* from, const std::int32_t* at) {
-        const Ints n = load_whole(at);
-        return {floats_at<4>(from - 1, n), floats_at<4>(from, n), floats_at<4>(from + 1, n)};
-    }
-    static Floats numbers_at(const float* from, Ints at) { return floats_at<4>(from, at); }
-    template <class Number>
-    static Ints load_whole(const Number* from) {
-        Ints lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return lanes;
-    }
-    static void store_whole(std::int32_t* to, Ints lanes) {
-        __builtin_memcpy(to, &lanes, sizeof lanes);
-    }
-
-private:
-    /// Numbers so many times `Bytes` bytes from an address.
-    template <int Bytes>
-    static Ints whole_at(const std::int32_t* from, Ints at) {
-#if defined(__clang__)
-        return __builtin_ia32_gatherd_d256(Ints{}, from, at, ~Ints{}, Bytes);
-#else
-        return __builtin_ia32_gathersiv8si(Ints{}, from, at, ~Ints{}, Bytes);
-#endif
-    }
-    template <int Bytes>
-    static Floats floats_at(const float* from, Ints at) {
-#if defined(__clang__)
-        return __builtin_ia32_gatherd_ps256(Floats{}, from, at, true_lanes(), Bytes);
-#else
-        return __builtin_ia32_gathersiv8sf(Floats{}, from, at, true_lanes(), Bytes);
-#endif
-    }
-    static Ints bytes_at(const std::uint8_t* from, Ints at) {
-        return whole_at<1>(reinterpret_cast<const std::int32_t*>(from), at) & 0xFF;
-    }
-    static Floats true_lanes() { return reinterpret_cast<Floats>(~Ints{}); }
-    /// Of four from a and four from b to eight from each.
-    template <int I>
-    static constexpr int at(int group) {
-        return (I & 3) + (I & 4) * 2 + group;
-    }
-};
-
-}  // namespace
-
-#endif
+    return nullptr;
+}
 
 }  // namespace weir

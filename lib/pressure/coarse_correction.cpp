@@ -102,21 +102,14 @@ std::int32_t gather_in_lanes(const PressureFields<float>& fields, const Walls<fl
     Patch patch = patch_of(s, coarse.shape, 0, row);
     const std::int32_t end = patch.q + count;
     float terms[2 * kTerms];
+    const WideCells* wide = wide_cells();
     while (patch.q < end) {
         const std::int32_t c = s.index(patch.i, patch.j);
         const float* diagonal = coarse.inverse_diagonal + patch.q;
-        std::int32_t together = 1;
-#if WEIR_HAS_WIDE_LANES
-        if (patch.q + 2 <= end && has_wide_lanes()) {
-            together = 2;
-            if (diagonal[0] != 0.0F || diagonal[1] != 0.0F) {
-                find_terms_wide(fields, open_u, open_v, s.stride, patch.q, c, patch.height, terms);
-            }
-        }
-#endif
-        if (together == 1 && diagonal[0] != 0.0F) {
-            find_terms<FourLanes>(fields, open_u, open_v, s.stride, patch.q, c, patch.height,
-                                  terms);
+        const std::int32_t together = wide != nullptr && patch.q + 2 <= end ? 2 : 1;
+        if (diagonal[0] != 0.0F || (together == 2 && diagonal[1] != 0.0F)) {
+            const auto find = together == 2 ? wide->find_terms : find_terms<FourLanes>;
+            find(fields, open_u, open_v, s.stride, patch.q, c, patch.height, terms);
         }
         for (std::int32_t n = 0; n < together; ++n) {
             if (diagonal[n] != 0.0F) {

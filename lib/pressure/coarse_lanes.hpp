@@ -3,9 +3,7 @@
 #pragma once
 
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/wide_cells.hpp"
 
 namespace weir {
 
@@ -152,12 +150,6 @@ inline void find_terms(const PressureFields<float>& fields, const float* open_u,
     }
 }
 
-#if WEIR_HAS_WIDE_LANES
-void find_terms_wide(const PressureFields<float>& fields, const float* open_u,
-                     const float* open_v, std::int32_t stride, std::int32_t q, std::int32_t c,
-                     std::int32_t rows, float* terms);
-#endif
-
 /// Adds the corrections of coarse cells to the pressure of their liquid cells: of patches `k`,
 /// k + 1 … of `count` in a row, as long as enough are left. Returns the next one to do. `first_q`,
 /// `first_c`: coarse cell and first cell of patch 0.
@@ -203,22 +195,13 @@ inline std::int32_t correct_patches(const PressureFields<float>& fields, std::in
     return k;
 }
 
-#if WEIR_HAS_WIDE_LANES
-std::int32_t correct_wide(const PressureFields<float>& fields, std::int32_t stride,
-                          std::int32_t q, std::int32_t c, std::int32_t height,
-                          std::int32_t count);
-#endif
-
 /// All of them.
 inline std::int32_t correct_in_lanes(const PressureFields<float>& fields, std::int32_t stride,
                                      std::int32_t q, std::int32_t c, std::int32_t height,
                                      std::int32_t count) {
-    std::int32_t done = 0;
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        done = correct_wide(fields, stride, q, c, height, count);
-    }
-#endif
+    const WideCells* wide = wide_cells();
+    const std::int32_t done =
+        wide != nullptr ? wide->correct_patches(fields, stride, q, c, height, count) : 0;
     return correct_patches<FourLanes>(fields, stride, q, c, height, done, count);
 }
 

@@ -5,9 +5,8 @@
 
 #include "grid/borders.hpp"
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
-#include "pressure/pressure_fields.hpp"
 #include "pressure/some_lanes.hpp"
+#include "pressure/wide_cells.hpp"
 
 namespace weir {
 
@@ -50,20 +49,11 @@ inline void relax_apart(const CoarseGrid<float>& coarse, float omega, std::int32
     }
 }
 
-#if WEIR_HAS_WIDE_LANES
-void relax_apart_wide(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
-                      const Part& rows);
-#endif
-
 inline void relax_apart_lanes(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
                               const Part& rows) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        relax_apart_wide(coarse, omega, i, rows);
-        return;
-    }
-#endif
-    relax_apart<FourLanes>(coarse, omega, i, rows);
+    const WideCells* wide = wide_cells();
+    const auto relax = wide != nullptr ? wide->relax_apart : relax_apart<FourLanes>;
+    relax(coarse, omega, i, rows);
 }
 
 /// So many half sweeps over the rows that hold liquid. The correction is 0 before them.

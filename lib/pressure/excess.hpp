@@ -150,23 +150,22 @@ inline void find_excess_by_words(const GridShape& s, const Walls<float>& walls,
                                  const ExcessLimits& limits, const Part& rows,
                                  PressureFields<float>& fields) {
     const std::int32_t words = near_words(s);
-    for (std::int32_t j = maximum(0, rows.first - 1); j < rows.end; ++j) {
+    // Groups are stored whole: nobody else's rows.
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const std::uint32_t* row = walls.near + (s.j0 + j) * words + s.i0 / 32;
         for (std::int32_t k = 0; 32 * k < s.nx; ++k) {
-            const std::uint32_t here = j < rows.first ? 0U : row[k];
-            const std::uint32_t right = j >= rows.first && 32 * (k + 1) < s.nx ? row[k + 1] : 0U;
-            const std::uint32_t above = j + 1 < rows.end ? row[k + words] : 0U;
+            const std::uint32_t here = row[k];
+            const std::uint32_t right = 32 * (k + 1) < s.nx ? row[k + 1] : 0U;
+            const std::uint32_t above = j + 1 < s.ny ? row[k + words] : 0U;
             std::uint32_t told = here | here >> 1U | right << 31U | above;
             if (told == 0) {
                 continue;
             }
             const std::int32_t c = s.index(32 * k, j);
-#if WEIR_HAS_WIDE_LANES
-            if (has_wide_lanes()) {
-                told = excess_of_word_wide(walls, fields, s.stride, limits, c, told,
-                                           s.index(s.nx, j) - 8);
+            if (const WideCells* wide = wide_cells()) {
+                told = wide->excess_of_word(walls, fields, s.stride, limits, c, told,
+                                            s.index(s.nx, j));
             }
-#endif
             excess_of_word<FourLanes>(walls, fields, s.stride, limits, c, told,
                                       s.index(s.nx, j));
         }

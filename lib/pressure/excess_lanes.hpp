@@ -1,10 +1,8 @@
-// How much too dense cells are, four or eight at a time: the plain loops' sums, and so their bits.
+// How much too dense cells are, some at a time: the plain loops' sums, and so their bits.
 #pragma once
 
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/wide_cells.hpp"
 
 namespace weir {
 
@@ -105,21 +103,11 @@ inline std::uint32_t excess_of_word(const Walls<float>& walls, const PressureFie
     return told;
 }
 
-#if WEIR_HAS_WIDE_LANES
-std::int32_t excess_wide(const PressureFields<float>& f, std::int32_t stride,
-                         const ExcessLimits& limits, std::int32_t c, std::int32_t end);
-std::uint32_t excess_of_word_wide(const Walls<float>& walls, const PressureFields<float>& f,
-                                  std::int32_t stride, const ExcessLimits& limits, std::int32_t c,
-                                  std::uint32_t told, std::int32_t last);
-#endif
-
 inline std::int32_t excess_lanes(const PressureFields<float>& f, std::int32_t stride,
                                  const ExcessLimits& limits, std::int32_t c, std::int32_t end) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = excess_wide(f, stride, limits, c, end);
+    if (const WideCells* wide = wide_cells()) {
+        c = wide->excess_cells(f, stride, limits, c, end);
     }
-#endif
     return excess_cells<FourLanes>(f, stride, limits, c, end);
 }
 

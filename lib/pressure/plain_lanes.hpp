@@ -1,11 +1,9 @@
-// The projection's equations four or eight cells at a time where all are alike, amid liquid: the
+// The projection's equations some cells at a time where all are alike, amid liquid: the
 // plain loops' sums, and so their bits.
 #pragma once
 
-#include "math/wide_lanes.hpp"
 #include "pressure/leap.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/wide_cells.hpp"
 
 namespace weir {
 

@@ -68,14 +68,16 @@ inline void relax_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::in
         above += cells;
         below += cells;
     };
-    for (; c + 8 <= end; advance(8)) {
+    while (c + 8 <= end) {
         one(0);
         one(2);
         one(4);
         one(6);
+        advance(8);
     }
-    for (; c < end; advance(2)) {
+    while (c < end) {
         one(0);
+        advance(2);
     }
 }
 

@@ -2,10 +2,8 @@
 #pragma once
 
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "pressure/slivers.hpp"
 #include "pressure/some_lanes.hpp"
+#include "pressure/wide_cells.hpp"
 
 namespace weir {
 
@@ -67,20 +65,12 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const CutDen
     return c;
 }
 
-#if WEIR_HAS_WIDE_LANES
-std::int32_t density_wide(const StaggeredGrid<float>& grid, const CutDensity<float>& cut,
-                          float per_face, std::int32_t c, std::int32_t end, Part& slivers,
-                          PressureFields<float>& fields);
-#endif
-
 inline std::int32_t density_row(const StaggeredGrid<float>& grid, const CutDensity<float>& cut,
                                 float per_face, std::int32_t c, std::int32_t end, Part& slivers,
                                 PressureFields<float>& fields) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = density_wide(grid, cut, per_face, c, end, slivers, fields);
+    if (const WideCells* wide = wide_cells()) {
+        c = wide->density_cells(grid, cut, per_face, c, end, slivers, fields);
     }
-#endif
     return density_cells<FourLanes>(grid, cut, per_face, c, end, slivers, fields);
 }
 
@@ -160,16 +150,10 @@ inline std::int32_t fill_cells(const DimpleTask& task, std::int32_t c, std::int3
     return c;
 }
 
-#if WEIR_HAS_WIDE_LANES
-std::int32_t fill_wide(const DimpleTask& task, std::int32_t c, std::int32_t end);
-#endif
-
 inline std::int32_t fill_lanes(const DimpleTask& task, std::int32_t c, std::int32_t end) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = fill_wide(task, c, end);
+    if (const WideCells* wide = wide_cells()) {
+        c = wide->fill_cells(task, c, end);
     }
-#endif
     return fill_cells<FourLanes>(task, c, end);
 }
 

@@ -189,19 +189,18 @@ inline void add_wall_flow(const RowTask& task, std::int32_t c, std::uint32_t ask
     }
 }
 
-/// Cells of a row, four or eight at a time; returns the next one to do. one_by_one(i, end) does
+/// Cells of a row, some at a time; returns the next one to do. one_by_one(i, end) does
 /// others.
 template <class OneByOne>
 std::int32_t build_in_lanes(RowTask& task, const OneByOne& one_by_one) {
     const GridShape& s = task.grid.shape;
     const std::int32_t row = s.index(0, task.j);
+    const WideCells* wide = wide_cells();
     std::int32_t i = 0;
     while (i + 4 <= s.nx) {
-#if WEIR_HAS_WIDE_LANES
-        if (has_wide_lanes()) {
-            i = build_wide(task, row + i, row + s.nx) - row;
+        if (wide != nullptr) {
+            i = wide->build_groups(task, row + i, row + s.nx) - row;
         }
-#endif
         for (const std::int32_t end = i + 8; i < end && i + 4 <= s.nx; i += 4) {
             if (!build_group<FourLanes>(task, row + i)) {
                 one_by_one(i, i + 4);

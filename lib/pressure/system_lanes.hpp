@@ -1,4 +1,4 @@
-// The projection's equations four or eight cells at a time: the plain loops' sums, and so their
+// The projection's equations some cells at a time: the plain loops' sums, and so their
 // bits.
 #pragma once
 
@@ -129,6 +129,16 @@ inline bool build_group(RowTask& task, std::int32_t c) {
                                                            : build_pushed<L>(task, c));
 }
 
+/// The same of cells c … as long as they are done, and enough are left before `end`. Returns the
+/// next one to do.
+template <class L>
+inline std::int32_t build_groups(RowTask& task, std::int32_t c, std::int32_t end) {
+    while (c + L::kLanes <= end && build_group<L>(task, c)) {
+        c += L::kLanes;
+    }
+    return c;
+}
+
 /// Takes pᵀ(neighbours of p) from `there`, cells c … as long as enough are left before `end`.
 /// `open_u` null: no solids. Returns the next cell to do.
 template <class L>
@@ -229,37 +239,21 @@ inline std::int32_t accelerate_cells(const PressureFields<float>& fields, const 
     return c;
 }
 
-#if WEIR_HAS_WIDE_LANES
-/// `build_group` of cells c … with eight lanes as long as they are done, and enough are left
-/// before `end`. Returns the next one to do.
-std::int32_t build_wide(RowTask& task, std::int32_t c, std::int32_t end);
-std::int32_t weigh_wide(const PressureFields<float>& fields, const float* open_u,
-                        const float* open_v, std::int32_t stride, std::int32_t c,
-                        std::int32_t end, float& there);
-std::int32_t accelerate_wide(const PressureFields<float>& fields, const float* open_u,
-                             const float* open_v, bool has_lower, std::int32_t c,
-                             std::int32_t end, StaggeredGrid<float>& grid);
-#endif
-
 inline std::int32_t weigh_lanes(const PressureFields<float>& fields, const float* open_u,
                                 const float* open_v, std::int32_t stride, std::int32_t c,
                                 std::int32_t end, float& there) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = weigh_wide(fields, open_u, open_v, stride, c, end, there);
+    if (const WideCells* wide = wide_cells()) {
+        c = wide->weigh_cells(fields, open_u, open_v, stride, c, end, there);
     }
-#endif
     return weigh_cells<FourLanes>(fields, open_u, open_v, stride, c, end, there);
 }
 
 inline std::int32_t accelerate_lanes(const PressureFields<float>& fields, const float* open_u,
                                      const float* open_v, bool has_lower, std::int32_t c,
                                      std::int32_t end, StaggeredGrid<float>& grid) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        c = accelerate_wide(fields, open_u, open_v, has_lower, c, end, grid);
+    if (const WideCells* wide = wide_cells()) {
+        c = wide->accelerate_cells(fields, open_u, open_v, has_lower, c, end, grid);
     }
-#endif
     return accelerate_cells<FourLanes>(fields, open_u, open_v, has_lower, c, end, grid);
 }
 

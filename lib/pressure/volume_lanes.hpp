@@ -2,9 +2,7 @@
 #pragma once
 
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/wide_cells.hpp"
 
 namespace weir {
 
@@ -77,12 +75,6 @@ inline std::uint32_t means_of_patches(const PressureFields<float>& f, const Patc
     return L::bits_of(L::in_order(count) == zero);
 }
 
-#if WEIR_HAS_WIDE_LANES
-std::uint32_t means_wide(const PressureFields<float>& f, const PatchLimits& limits,
-                         std::int32_t stride, std::int32_t c, std::int32_t rows, float* means,
-                         float* most, std::int32_t& overfull);
-#endif
-
 /// The same for the patches of a row, four cells wide, as long as there are so many; `empty`(k) is
 /// called for each without liquid. Returns how many.
 template <class Empty>
@@ -96,11 +88,12 @@ inline std::int32_t means_of_row(const PressureFields<float>& f, const PatchLimi
             empty(k + __builtin_ctz(bits));
         }
     };
-#if WEIR_HAS_WIDE_LANES
-    for (; has_wide_lanes() && k + 8 <= patches; k += 8) {
-        tell(means_wide(f, limits, stride, c + 4 * k, rows, means + k, most + k, overfull));
+    if (const WideCells* wide = wide_cells()) {
+        for (; k + 8 <= patches; k += 8) {
+            tell(wide->means_of_patches(f, limits, stride, c + 4 * k, rows, means + k, most + k,
+                                        overfull));
+        }
     }
-#endif
     for (; k + 4 <= patches; k += 4) {
         tell(means_of_patches<FourLanes>(f, limits, stride, c + 4 * k, rows, means + k, most + k,
                                          overfull));

@@ -1,4 +1,5 @@
 // Which particles are in cells with solid, and which of them clearly outside it, eight at a time.
+#include "math/eight_lanes.hpp"
 #include "solid/near_wall_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES

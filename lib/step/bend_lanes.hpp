@@ -1,8 +1,8 @@
-// Paths bent four or eight faces at a time: the plain loop's sums, and so its bits.
+// Paths bent some faces at a time: the plain loop's sums, and so its bits.
 #pragma once
 
-#include "math/wide_lanes.hpp"
 #include "pressure/leap.hpp"
+#include "step/wide_faces.hpp"
 
 namespace weir {
 
@@ -26,11 +26,13 @@ struct BendTask {
     std::int32_t before;  ///< from their row down to that of the cells before its faces
 };
 
-/// No level is above it, but for the eight in the middle.
+/// No level is above it, but for the sixteen in the middle.
 constexpr float kNone = __builtin_inff();
-constexpr float kOnlyMiddle[] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone,
-                                 0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,
-                                 kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+constexpr float kOnlyMiddle[] = {
+    kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone,
+    kNone, kNone, kNone, kNone, 0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,
+    0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  0.0F,  kNone, kNone, kNone, kNone,
+    kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
 
 /// What the levels about some cells have to exceed, if paths may go straight at all there.
 template <class L>
@@ -38,10 +40,10 @@ inline auto least_inside(std::int32_t cell, std::int32_t first, std::int32_t las
     if (!leaps || (cell >= first && cell + L::kLanes - 1 <= last)) {
         return L::all(leaps ? 0.0F : kNone);
     }
-    const std::int32_t low = clamp(first - cell, 0, 8);
-    const std::int32_t high = clamp(cell + L::kLanes - 1 - last, 0, 8);
-    return L::maximum(L::load(kOnlyMiddle + 8 - low),
-                      L::load(kOnlyMiddle + 16 - L::kLanes + high));
+    const std::int32_t low = clamp(first - cell, 0, 16);
+    const std::int32_t high = clamp(cell + L::kLanes - 1 - last, 0, 16);
+    return L::maximum(L::load(kOnlyMiddle + 16 - low),
+                      L::load(kOnlyMiddle + 32 - L::kLanes + high));
 }
 
 /// Of some cells, those of which all faces are wide open.
@@ -75,7 +77,7 @@ inline void bend_group(const BendTask& task, std::int32_t face, std::int32_t don
     auto kept = L::minimum(L::load(task.level + face), L::load(task.level + face - task.back)) >
                 L::all(kEmptyLevel<float>);
     if (done > 0) {
-        kept &= L::load(kOnlyMiddle + 8 - done) == L::all(0.0F);
+        kept &= L::load(kOnlyMiddle + 16 - done) == L::all(0.0F);
     }
     if (!L::any_true(kept)) {
         return;
@@ -120,18 +122,11 @@ inline std::int32_t bend_faces(const BendTask& task, std::int32_t row, std::int3
     return end;
 }
 
-#if WEIR_HAS_WIDE_LANES
-std::int32_t bend_wide(const BendTask& task, std::int32_t row, std::int32_t face,
-                       std::int32_t end);
-#endif
-
 inline std::int32_t bend_lanes(const BendTask& task, std::int32_t row, std::int32_t face,
                                std::int32_t end) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        face = bend_wide(task, row, face, end);
+    if (const WideFaces* wide = wide_faces()) {
+        face = wide->bend_faces(task, row, face, end);
     }
-#endif
     return bend_faces<FourLanes>(task, row, face, end);
 }
 

@@ -134,12 +134,9 @@ struct BothMirrors {
     template <bool OnU>
     void find(const MirrorTask& task, const MirrorFaces& faces, std::int32_t j,
               Mirrors& found) const {
-#if WEIR_HAS_WIDE_LANES
         if (faces.count > 4) {
-            find_mirrors_wide(task, OnU, faces, j, found);
-        } else
-#endif
-        {
+            wide_faces()->find_mirrors(task, OnU, faces, j, found);
+        } else {
             find_mirrors<FourLanes, OnU>(task, faces, j, found);
         }
         const FaceAxis<float>& axis = OnU ? u.axis : v.axis;
@@ -173,12 +170,9 @@ struct BothMirrors {
             return;
         }
         MirrorChanges changes;
-#if WEIR_HAS_WIDE_LANES
         if (faces.count > 4) {
-            mirror_faces_wide(task, OnU, faces.face, mirrors, changes);
-        } else
-#endif
-        {
+            wide_faces()->mirror_faces(task, OnU, faces.face, mirrors, changes);
+        } else {
             mirror_faces<FourLanes, OnU>(task, faces.face, mirrors, changes);
         }
         for (; found != 0; found &= found - 1U) {

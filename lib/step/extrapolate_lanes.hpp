@@ -1,10 +1,10 @@
-// Velocity carried on into the air, four or eight faces at a time: the plain loop's sums, and so
+// Velocity carried on into the air, some faces at a time: the plain loop's sums, and so
 // its bits. One liquid, no thin walls.
 #pragma once
 
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
 #include "pressure/system_lanes.hpp"
+#include "step/wide_faces.hpp"
 
 namespace weir {
 
@@ -137,17 +137,9 @@ inline bool extrapolate_faces(const ExtrapolateTask& task) {
     return true;
 }
 
-#if WEIR_HAS_WIDE_LANES
-bool extrapolate_wide(const ExtrapolateTask& task);
-#endif
-
 inline bool extrapolate_lanes(const ExtrapolateTask& task) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes() && extrapolate_wide(task)) {
-        return true;
-    }
-#endif
-    return extrapolate_faces<FourLanes>(task);
+    const WideFaces* wide = wide_faces();
+    return (wide != nullptr && wide->extrapolate_faces(task)) || extrapolate_faces<FourLanes>(task);
 }
 
 #endif

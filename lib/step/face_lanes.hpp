@@ -1,11 +1,11 @@
-// Faces four or eight at a time, for the stages between the transfers: the plain loops' sums, and
+// Faces some at a time, for the stages between the transfers: the plain loops' sums, and
 // so their bits. Each function does faces `face`, `face` + 1 … as long as enough are left before
 // `end` and returns the next one to do.
 #pragma once
 
 #include "grid/staggered_grid.hpp"
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
+#include "step/wide_faces.hpp"
 
 namespace weir {
 
@@ -91,44 +91,28 @@ inline std::int32_t blend_faces(const float* now, const float* sharp, float shar
     return face;
 }
 
-#if WEIR_HAS_WIDE_LANES
-std::int32_t velocity_wide(const float* momentum, float* mass, float gained, std::int32_t face,
-                           std::int32_t end, float* velocity);
-std::int32_t sharpen_wide(const float* level, std::int32_t back, std::int32_t stride,
-                          float smoothing, const float* field, std::int32_t face,
-                          std::int32_t end, float* out);
-std::int32_t blend_wide(const float* now, const float* sharp, float share, std::int32_t face,
-                        std::int32_t end, float* before);
-#endif
-
 inline std::int32_t velocity_lanes(const float* momentum, float* mass, float gained,
                                    std::int32_t face, std::int32_t end, float* velocity) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        face = velocity_wide(momentum, mass, gained, face, end, velocity);
+    if (const WideFaces* wide = wide_faces()) {
+        face = wide->velocity_faces(momentum, mass, gained, face, end, velocity);
     }
-#endif
     return velocity_faces<FourLanes>(momentum, mass, gained, face, end, velocity);
 }
 
 inline std::int32_t sharpen_lanes(const float* level, std::int32_t back, std::int32_t stride,
                                   float smoothing, const float* field, std::int32_t face,
                                   std::int32_t end, float* out) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        face = sharpen_wide(level, back, stride, smoothing, field, face, end, out);
+    if (const WideFaces* wide = wide_faces()) {
+        face = wide->sharpen_faces(level, back, stride, smoothing, field, face, end, out);
     }
-#endif
     return sharpen_faces<FourLanes>(level, back, stride, smoothing, field, face, end, out);
 }
 
 inline std::int32_t blend_lanes(const float* now, const float* sharp, float share,
                                 std::int32_t face, std::int32_t end, float* before) {
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        face = blend_wide(now, sharp, share, face, end, before);
+    if (const WideFaces* wide = wide_faces()) {
+        face = wide->blend_faces(now, sharp, share, face, end, before);
     }
-#endif
     return blend_faces<FourLanes>(now, sharp, share, face, end, before);
 }
 

@@ -3,8 +3,8 @@
 
 #include "grid/staggered_grid.hpp"
 #include "math/four_lanes.hpp"
-#include "math/wide_lanes.hpp"
 #include "solid/walls.hpp"
+#include "step/wide_faces.hpp"
 
 namespace weir {
 
@@ -211,19 +211,8 @@ inline void mirror_faces(const MirrorTask& task, const std::int32_t* face, const
 
 /// How many faces are worth their while together.
 inline std::int32_t mirrors_at_once() {
-#if WEIR_HAS_WIDE_LANES
     return has_wide_lanes() ? 8 : 4;
-#else
-    return 4;
-#endif
 }
-
-#if WEIR_HAS_WIDE_LANES
-void find_mirrors_wide(const MirrorTask& task, bool on_u, const MirrorFaces& faces,
-                       std::int32_t j, Mirrors& found);
-void mirror_faces_wide(const MirrorTask& task, bool on_u, const std::int32_t* face,
-                       const Mirrors& mirrors, MirrorChanges& changes);
-#endif
 
 #endif
 

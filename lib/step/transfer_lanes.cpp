@@ -8,6 +8,7 @@
 #include "math/four_lanes.hpp"
 #include "step/extent_lanes.hpp"
 #include "step/transfer_wide.hpp"
+#include "step/wide_faces.hpp"
 
 namespace weir {
 
@@ -26,11 +27,9 @@ void each_row(Work work, const GridShape& s, const Visit& visit) {
 
 void unpack(const float* pairs, const Part& part, float* first, float* second) {
     std::int32_t k = part.first;
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        k = unpack_wide(pairs, k, part.end, first, second);
+    if (const WideFaces* wide = wide_faces()) {
+        k = wide->unpack_pairs(pairs, k, part.end, first, second);
     }
-#endif
     k = unpack_pairs<FourLanes>(pairs, k, part.end, first, second);
     for (; k < part.end; ++k) {
         first[k] = pairs[2 * k];
@@ -40,11 +39,9 @@ void unpack(const float* pairs, const Part& part, float* first, float* second) {
 
 void pack(const float* first, const float* second, const Part& part, float* pairs) {
     std::int32_t k = part.first;
-#if WEIR_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        k = pack_wide(first, second, k, part.end, pairs);
+    if (const WideFaces* wide = wide_faces()) {
+        k = wide->pack_pairs(first, second, k, part.end, pairs);
     }
-#endif
     k = pack_pairs<FourLanes>(first, second, k, part.end, pairs);
     for (; k < part.end; ++k) {
         pairs[2 * k] = first[k];

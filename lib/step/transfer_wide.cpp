@@ -1,5 +1,6 @@
 #include "step/transfer_wide.hpp"
 
+#include "math/eight_lanes.hpp"
 #include "step/extent_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
@@ -25,16 +26,6 @@ void scatter_component_wide(const float* position, const float* velocity, std::i
     const auto some = on_u ? scatter_component<EightLanes, true>
                            : scatter_component<EightLanes, false>;
     some(position, velocity, count, pairs);
-}
-
-std::int32_t unpack_wide(const float* pairs, std::int32_t k, std::int32_t end, float* first,
-                         float* second) {
-    return unpack_pairs<EightLanes>(pairs, k, end, first, second);
-}
-
-std::int32_t pack_wide(const float* first, const float* second, std::int32_t k,
-                       std::int32_t end, float* pairs) {
-    return pack_pairs<EightLanes>(first, second, k, end, pairs);
 }
 
 void find_extremes_wide(const float* position, std::int32_t particles, float* low, float* high) {

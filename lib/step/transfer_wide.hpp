@@ -15,10 +15,6 @@ void scatter_between_wide(const float* position, const float* velocity, std::int
                           const Pairs<float>& pairs, std::int32_t first, std::int32_t end);
 void scatter_component_wide(const float* position, const float* velocity, std::int32_t count,
                             const Pairs<float>& pairs, bool on_u);
-std::int32_t unpack_wide(const float* pairs, std::int32_t k, std::int32_t end, float* first,
-                         float* second);
-std::int32_t pack_wide(const float* first, const float* second, std::int32_t k,
-                       std::int32_t end, float* pairs);
 #endif
 
 }  // namespace weir

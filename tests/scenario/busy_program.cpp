@@ -12,7 +12,7 @@ int main() {
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
             weir::WorldDef def = weir::busy_def(kind);
             // Rows of all lengths, against those of lanes.
-            def.capacity.cells_x += static_cast<std::int32_t>(seed) * 6;
+            def.capacity.cells_x += static_cast<std::int32_t>(seed) * (def.periodic_x ? 12 : 11);
             def.capacity.cells_y += static_cast<std::int32_t>(seed) * 4;
             def.capacity.particles *= 1 + static_cast<std::int32_t>(seed);
             weir::TestWorld<float> world(def);

@@ -1,0 +1,45 @@
+// Loops over faces with more lanes than every processor has.
+#pragma once
+
+#include "math/wide_lanes.hpp"
+
+namespace weir {
+
+struct BendTask;
+struct ExtrapolateTask;
+struct MirrorChanges;
+struct MirrorFaces;
+struct MirrorTask;
+struct Mirrors;
+
+/// As the loops in `..._lanes.hpp` that have their names, with as many lanes as possible: where a
+/// group does not fit in, with fewer, but for four.
+struct WideFaces {
+    std::int32_t (*velocity_faces)(const float* momentum, float* mass, float gained,
+                                   std::int32_t face, std::int32_t end, float* velocity);
+    std::int32_t (*sharpen_faces)(const float* level, std::int32_t back, std::int32_t stride,
+                                  float smoothing, const float* field, std::int32_t face,
+                                  std::int32_t end, float* out);
+    std::int32_t (*blend_faces)(const float* now, const float* sharp, float share,
+                                std::int32_t face, std::int32_t end, float* before);
+    std::int32_t (*bend_faces)(const BendTask& task, std::int32_t row, std::int32_t face,
+                               std::int32_t end);
+    bool (*extrapolate_faces)(const ExtrapolateTask& task);
+    void (*find_mirrors)(const MirrorTask& task, bool on_u, const MirrorFaces& faces,
+                         std::int32_t j, Mirrors& found);
+    void (*mirror_faces)(const MirrorTask& task, bool on_u, const std::int32_t* face,
+                         const Mirrors& mirrors, MirrorChanges& changes);
+    std::int32_t (*unpack_pairs)(const float* pairs, std::int32_t k, std::int32_t end,
+                                 float* first, float* second);
+    std::int32_t (*pack_pairs)(const float* first, const float* second, std::int32_t k,
+                               std::int32_t end, float* pairs);
+};
+extern const WideFaces faces_by_eight;
+extern const WideFaces faces_by_sixteen;
+
+/// Those of this processor; null: it has no more than four lanes.
+inline const WideFaces* wide_faces() {
+    return loops_of_processor<WideFaces, faces_by_eight, faces_by_sixteen>();
+}
+
+}  // namespace weir
