@@ -211,7 +211,7 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
         }
     }
     [[maybe_unused]] const Real omega =
-        Stored<Real>::shares_momentum ? best_relaxation<Real>(depth) : kRelaxation<Real>;
+        Stored<Real>::shares_momentum ? best_relaxation<Real>(depth, sweeps) : kRelaxation<Real>;
     for (std::int32_t at = part.first; at < part.end;) {
         const std::int32_t half_sweep = at / depth;
         const std::int32_t begin = half_sweep * depth;

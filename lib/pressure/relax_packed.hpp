@@ -293,10 +293,14 @@ void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, 
 inline constexpr std::int32_t kSweepsForCoarse = 2;
 
 /// Best for liquid n rows deep, closed below and with its surface on top: 2 / (1 + sin(π / 2n))
-/// (Young 1954), and sin x ≈ x. Beyond 32 rows the best factor is too much for a few sweeps.
+/// (Young 1954), and sin x ≈ x. Beyond 32 rows the best factor is too much for a few sweeps, and
+/// for fewer than 12 for less. What a step leaves stays in the pressure that the next one starts
+/// from, and the flow asks for it once more: e becomes R (2e − the one before), which grows where k
+/// sweeps turn e round by more than a third. They do where (ω − 1)^k = e^(−πk/n) is more.
 template <class Real>
-Real best_relaxation(std::int32_t rows) {
-    const Real n = static_cast<Real>(clamp(rows, 8, 32));
+Real best_relaxation(std::int32_t rows, std::int32_t sweeps) {
+    const std::int32_t most = minimum(32, 11 * sweeps / 4);
+    const Real n = static_cast<Real>(maximum(minimum(rows, most), 8));
     return Real(2) / (Real(1) + Real(1.5707963) / n);
 }
 
