@@ -15,10 +15,11 @@ struct SurfaceLaw {
     bool no_slip = false;
 };
 
+/// `pace`: of 1 m/s.
 template <class Real>
-SurfaceLaw<Real> surface_law(const Surface& surface, Face<Real> cells_per_m) {
+SurfaceLaw<Real> surface_law(const Surface& surface, Face<Real> pace) {
     return {static_cast<Real>(surface.restitution), static_cast<Real>(surface.friction),
-            static_cast<Real>(cells_per_m * static_cast<Face<Real>>(surface.conveyor_mps)),
+            static_cast<Real>(pace * static_cast<Face<Real>>(surface.conveyor_mps)),
             surface.no_slip};
 }
 

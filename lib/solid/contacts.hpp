@@ -16,7 +16,7 @@ struct Contacts {
     std::uint16_t world = 0;       ///< tag in the bodies' names
     std::int32_t missed = 0;       ///< blows on bodies for which there was no entry left
     float cell_m = 1.0F;
-    float particle_m2 = 0.0F;      ///< area that a particle stands for
+    float particle_m2 = 0.0F;      ///< area that a particle stands for, over the unit of time, s
     float second_density = 1.0F;
 };
 
@@ -28,7 +28,8 @@ void clear(Contacts<Real>& contacts) {
     contacts.last = 0;
 }
 
-/// Enters a blow: the velocity that a particle of a liquid lost at a place. Cells and seconds.
+/// Enters a blow: the velocity that a particle of a liquid lost at a place, in cells and units of
+/// time.
 /// Cost: a search among the step's entries, from the last one that was hit.
 template <class Real>
 void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,

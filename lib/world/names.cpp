@@ -24,7 +24,8 @@ const char* init_text(Status status) {
         case Status::cell_size_out_of_range: return "cell_m: choose 1e-6 … 1e3 m";
         case Status::gravity_not_finite: return "gravity is NaN or infinite: give a finite vector";
         case Status::gravity_out_of_range:
-            return "gravity: choose at most kMaxGravity along each axis";
+            return "gravity: choose at most kMaxGravity along each axis, less with a top_speed_mps";
+        case Status::top_speed_out_of_range: return "top_speed_mps: choose 0 … 2040 cells a second";
         case Status::particles_per_cell_out_of_range:
             return "particles_per_cell: choose 1, 4, 9 or 16";
         case Status::sweeps_out_of_range: return "pressure_sweeps: choose 1 … 1000";

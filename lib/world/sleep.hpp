@@ -37,14 +37,13 @@ void wake_by_gravity(detail::WorldState<Real>& state, Vec2f gravity_mps2) {
     }
 }
 
-/// What is not faster rests, cells/s.
+/// What is not faster rests, cells per unit of time.
 template <class Real>
 Real resting_speed(const detail::WorldState<Real>& state) {
-    return static_cast<Real>(state.cells_per_m *
-                             static_cast<Face<Real>>(state.def.sleep.speed_mps));
+    return static_cast<Real>(pace_of(state) * static_cast<Face<Real>>(state.def.sleep.speed_mps));
 }
 
-/// Whether no point of any body is faster than that, cells/s. What moves as told is never at rest.
+/// Whether no point of any body is faster than that. What moves as told is never at rest.
 template <class Real>
 bool bodies_rest(const BodyTable<Real>& table, Real speed) {
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {

@@ -31,16 +31,16 @@ inline void add_surface(Hash& hash, const Surface& surface) {
 
 /// All of the definition but capacity, which has a status of its own, and the counter.
 inline std::uint64_t fingerprint(const WorldDef& def) {
-    const auto& [capacity, cell_m, gravity, particles_per_cell, pressure, contour, sweeps, cfl,
-                 max_substeps, flip_ratio, volume_gain, sound_speed, viscosity, surface_tension,
-                 second_density, walls, sleep, periodic_x, periodic_y,
+    const auto& [capacity, cell_m, gravity, top_speed, particles_per_cell, pressure, contour,
+                 sweeps, cfl, max_substeps, flip_ratio, volume_gain, sound_speed, viscosity,
+                 surface_tension, second_density, walls, sleep, periodic_x, periodic_y,
                  keep_sorted, ticks, parallel_for] = def;
     const auto& [bottom, right, top, left] = walls;
     const auto& [still_speed, still_after, still_gravity] = sleep;
     Hash hash;
     const float numbers[] = {cell_m,      gravity.x,   gravity.y, cfl,             flip_ratio,
                              volume_gain, sound_speed, viscosity, surface_tension, second_density,
-                             still_speed, still_after, still_gravity};
+                             still_speed, still_after, still_gravity, top_speed};
     for (const float number : numbers) {
         hash.add(number);
     }

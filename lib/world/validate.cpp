@@ -134,6 +134,9 @@ Status check_reach(const WorldDef& def, const Reach& reach) {
     if (!reach.everything && def.capacity.bodies > kMaxBodiesSmallFixed) {
         return Status::body_capacity_out_of_range;
     }
+    if (!within(def.top_speed_mps, 0.0F, reach.top_speed * def.cell_m)) {
+        return Status::top_speed_out_of_range;
+    }
     const float strongest = reach.gravity * def.cell_m;
     if (!within(def.gravity_mps2.x, -strongest, strongest) ||
         !within(def.gravity_mps2.y, -strongest, strongest)) {
@@ -264,7 +267,7 @@ Status check_motion(const Motion& motion, float cell_m, const Reach& reach) {
     const bool in_range = within(motion.velocity_mps.x, -fastest, fastest) &&
                           within(motion.velocity_mps.y, -fastest, fastest) &&
                           within(motion.angle_rad, -kMaxAngle, kMaxAngle) &&
-                          within(motion.spin_radps, -kMaxAngle, kMaxAngle);
+                          within(motion.spin_radps, -reach.spin, reach.spin);
     return in_range ? Status::ok : Status::motion_out_of_range;
 }
 

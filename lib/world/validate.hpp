@@ -16,6 +16,8 @@ struct Reach {
     float furthest = 1.0e5F;
     float surface_tension = 1.0e12F;
     bool everything = true;  ///< two liquids and surface tension
+    float spin = kMaxAngle;
+    float top_speed = kMaxSpeed;
 };
 template <class Real>
 inline constexpr Reach kReach{};
@@ -25,7 +27,8 @@ inline constexpr Reach kReach<Fixed>{kMaxCellsFixed,   kMaxSpeedFixed, kMaxGravi
 template <>
 inline constexpr Reach kReach<SmallFixed>{kMaxCellsSmallFixed, kMaxSpeedSmallFixed,
                                           kMaxGravityFixed,    kFurthestFixed,
-                                          0.0F,                false};
+                                          0.0F,                false,
+                                          kMaxAngle,           kMaxTopSpeedSmallFixed};
 
 Status check_capacity(const Capacity& capacity);
 Status check_world(const WorldDef& def, const Reach& reach);

@@ -72,7 +72,8 @@ Status World<Real>::work_bound(float dt_s, WorkBound* bound, std::int32_t rung) 
     Simulation<Real> simulation = state_->simulation;
     simulation.ticks = nullptr;
     StepReport report;
-    const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s, report);
+    const Seconds<Real> dt =
+        sane_time_step(simulation.settings, dt_s * units_per_s(*state_), report);
     SubstepPlan<Real> plan;
     if (dt > Seconds<Real>{}) {
         plan = plan_substeps(simulation, dt);

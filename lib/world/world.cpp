@@ -9,7 +9,6 @@
 #include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "step/window.hpp"
-#include "world/validate.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
@@ -168,12 +167,12 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
 }
 
 template <class Real>
-Borders<Real> borders_of(const WorldDef& def, Face<Real> cells_per_m) {
+Borders<Real> borders_of(const WorldDef& def, Face<Real> pace) {
     Borders<Real> borders;
     borders.wrap_x = def.periodic_x;
     borders.wrap_y = def.periodic_y;
     const auto law = [&](const Surface& wall) {
-        SurfaceLaw<Real> result = surface_law<Real>(wall, cells_per_m);
+        SurfaceLaw<Real> result = surface_law<Real>(wall, pace);
         result.no_slip = result.no_slip && def.viscosity_m2ps > 0.0F;  // otherwise nothing sticks
         return result;
     };
@@ -193,26 +192,28 @@ template <class Real>
 constexpr Real kElasticFlip = Real(0.97);
 
 template <class Real>
-Settings<Real> settings_of(const WorldDef& def, Face<Real> cells_per_m) {
+Settings<Real> settings_of(const WorldState<Real>& state) {
     Settings<Real> settings;
-    const Vec2<Face<Real>> gravity = cells_per_m * convert<Face<Real>>(def.gravity_mps2);
+    const WorldDef& def = state.def;
+    const Face<Real> cells_per_m = state.cells_per_m;
+    const Face<Real> pace = pace_of(state);
+    const Vec2<Face<Real>> gravity = pull_of(state) * convert<Face<Real>>(def.gravity_mps2);
     settings.gravity = convert<Real>(gravity);
     settings.rest_count = static_cast<Real>(def.particles_per_cell);
     const bool elastic = def.pressure == Pressure::equation_of_state;
     settings.flip_ratio =
         minimum(static_cast<Real>(def.flip_ratio), elastic ? kElasticFlip<Real> : Real(1));
     settings.volume_gain = static_cast<Real>(def.volume_gain);
-    settings.viscosity = static_cast<Real>(cells_per_m * cells_per_m *
-                                           static_cast<Face<Real>>(def.viscosity_m2ps));
-    settings.surface_tension =
-        static_cast<Real>(cells_per_m * cells_per_m * cells_per_m *
-                          static_cast<Face<Real>>(def.surface_tension_m3ps2));
+    settings.viscosity =
+        static_cast<Real>(cells_per_m * pace * static_cast<Face<Real>>(def.viscosity_m2ps));
+    settings.surface_tension = static_cast<Real>(
+        cells_per_m * pace * pace * static_cast<Face<Real>>(def.surface_tension_m3ps2));
     settings.second_density = static_cast<Real>(def.second_density_ratio);
-    settings.borders = borders_of<Real>(def, cells_per_m);
+    settings.borders = borders_of<Real>(def, pace);
     settings.cfl = static_cast<Real>(def.cfl);
     settings.sweeps = static_cast<std::int16_t>(maximum(def.pressure_sweeps, kLeastSweeps));
     settings.max_substeps = static_cast<std::int16_t>(def.max_substeps);
-    Face<Real> sound_speed = cells_per_m * static_cast<Face<Real>>(def.sound_speed_mps);
+    Face<Real> sound_speed = pace * static_cast<Face<Real>>(def.sound_speed_mps);
     if (def.sound_speed_mps == 0.0F) {
         const Face<Real> drop =
             static_cast<Face<Real>>(def.capacity.cells_x) * absolute(gravity.x) +
@@ -230,7 +231,7 @@ void name_units(WorldState<Real>& state) {
     const WorldDef& def = state.def;
     contacts.cell_m = def.cell_m;
     contacts.particle_m2 =
-        def.cell_m * def.cell_m / static_cast<float>(def.particles_per_cell);
+        def.cell_m * def.cell_m / static_cast<float>(def.particles_per_cell) * units_per_s(state);
     contacts.second_density = def.second_density_ratio;
     contacts.world = state.tag;
 }
@@ -260,7 +261,8 @@ std::uint16_t tag_of(const void* memory) {
 template <class Real>
 Status World<Real>::init_with(const detail::Features<Real>& features, const WorldDef& def,
                               void* memory, std::size_t bytes) {
-    const Status valid = check_world(def, kReach<Real>);
+    const std::int32_t unit = unit_exponent_of<Real>(def);
+    const Status valid = check_world(def, reach_of<Real>(unit));
     if (valid != Status::ok) {
         return valid;
     }
@@ -275,8 +277,9 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     state_->tag = tag_of(memory);
     state_->still_gravity_mps2 = def.gravity_mps2;
     state_->cells_per_m = Face<Real>(1) / static_cast<Face<Real>>(def.cell_m);
+    state_->unit_exponent = static_cast<std::int8_t>(unit);
     Simulation<Real>& simulation = state_->simulation;
-    simulation.settings = settings_of<Real>(def, state_->cells_per_m);
+    simulation.settings = settings_of(*state_);
     carve(Carver(memory, plan), def.capacity, simulation.settings.borders, simulation);
     simulation.pressure.leaps =
         simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F;
@@ -336,8 +339,13 @@ float World<Real>::pressure_scale() const {
     if (state_ == nullptr || !(state_->simulation.pressure.last_dt > Seconds<Real>{})) {
         return 0.0F;
     }
-    return state_->def.cell_m * state_->def.cell_m /
-           static_cast<float>(state_->simulation.pressure.last_dt);
+    const float scale = velocity_scale();
+    return scale * scale / static_cast<float>(state_->simulation.pressure.last_dt);
+}
+
+template <class Real>
+float World<Real>::velocity_scale() const {
+    return state_ == nullptr ? 0.0F : state_->def.cell_m * units_per_s(*state_);
 }
 
 template <class Real>
@@ -379,6 +387,7 @@ std::int32_t World<Real>::cells_y() const {
     template FieldView<Real> World<Real>::pressure() const;                    \
     template FieldView<DensityOf<Real>> World<Real>::density() const;          \
     template float World<Real>::pressure_scale() const;                        \
+    template float World<Real>::velocity_scale() const;                        \
     template FieldView<DistanceOf<Real>> World<Real>::signed_distance() const; \
     template View<Contact> World<Real>::contacts() const;                      \
     template float World<Real>::cell_m() const;                                \

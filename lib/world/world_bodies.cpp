@@ -6,7 +6,6 @@
 #include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "world/sleep.hpp"
-#include "world/validate.hpp"
 
 namespace weir {
 
@@ -31,7 +30,8 @@ Status check_room(const WorldState<Real>& state, const BodyDef& def, BodyKind ki
     if (kind == BodyKind::moving && !state.def.capacity.moving_bodies) {
         return Status::no_moving_bodies;
     }
-    const Status valid = check_body(def, state.def.cell_m, kReach<Real>);
+    const Status valid =
+        check_body(def, state.def.cell_m, reach_of<Real>(state.unit_exponent));
     if (valid != Status::ok) {
         return valid;
     }
@@ -52,8 +52,8 @@ void set_pose(const WorldState<Real>& state, const Motion& motion, Body<Real>& b
 
 template <class Real>
 void set_velocity(const WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
-    body.velocity = convert<Real>(state.cells_per_m * convert<Face<Real>>(motion.velocity_mps));
-    body.spin = static_cast<Real>(motion.spin_radps);
+    body.velocity = convert<Real>(pace_of(state) * convert<Face<Real>>(motion.velocity_mps));
+    body.spin = static_cast<Real>(motion.spin_radps * unit_of(state));
 }
 
 template <class Real>
@@ -101,7 +101,7 @@ template <class Real>
     Body<Real> body;
     body.generation = table.body[slot].generation;
     body.kind = kind;
-    body.surface = surface_law<Real>(def.surface, state.cells_per_m);
+    body.surface = surface_law<Real>(def.surface, pace_of(state));
     set_pose(state, def.motion, body);
     if (def.open) {
         add_polyline(table, def, state.cells_per_m, body);
@@ -182,7 +182,8 @@ Status World<Real>::set_motion(BodyId id, const Motion& motion) {
     if (body.kind == BodyKind::fixed) {
         return Status::body_is_static;
     }
-    const Status valid = check_motion(motion, state_->def.cell_m, kReach<Real>);
+    const Status valid =
+        check_motion(motion, state_->def.cell_m, reach_of<Real>(state_->unit_exponent));
     if (valid != Status::ok) {
         return valid;
     }
@@ -221,9 +222,10 @@ Status World<Real>::motion(BodyId id, Motion* motion) const {
     const Body<Real>& body = state_->simulation.bodies.body[id.slot];
     const auto cell_m = static_cast<Face<Real>>(state_->def.cell_m);
     motion->position_m = convert<float>(cell_m * convert<Face<Real>>(body.position));
-    motion->velocity_mps = convert<float>(cell_m * convert<Face<Real>>(body.velocity));
+    const auto per_s = static_cast<Face<Real>>(units_per_s(*state_));
+    motion->velocity_mps = convert<float>((cell_m * per_s) * convert<Face<Real>>(body.velocity));
     motion->angle_rad = static_cast<float>(body.angle);
-    motion->spin_radps = static_cast<float>(body.spin);
+    motion->spin_radps = static_cast<float>(per_s * static_cast<Face<Real>>(body.spin));
     return Status::ok;
 }
 

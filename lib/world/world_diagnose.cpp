@@ -13,11 +13,12 @@ namespace weir {
 namespace {
 
 template <class Real>
-void sum_particles(const Simulation<Real>& simulation, double cell_m, Diagnostics& out) {
+void sum_particles(const Simulation<Real>& simulation, double cell_m, double per_s,
+                   Diagnostics& out) {
     const Particles<Real>& particles = simulation.particles;
     const double share = cell_m * cell_m / static_cast<double>(simulation.settings.rest_count);
-    const Vec2<double> gravity = convert<double>(simulation.settings.gravity);
-    const double half_dt = 0.5 * static_cast<double>(simulation.pressure.last_dt);
+    const Vec2<double> gravity = (per_s * per_s) * convert<double>(simulation.settings.gravity);
+    const double half_dt = 0.5 / per_s * static_cast<double>(simulation.pressure.last_dt);
     double square = 0.0;
     double fall = 0.0;
     double turn = 0.0;
@@ -26,7 +27,7 @@ void sum_particles(const Simulation<Real>& simulation, double cell_m, Diagnostic
     const double second = static_cast<double>(simulation.settings.second_density);
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<double> x = convert<double>(particles.position[k]);
-        const Vec2<double> v = convert<double>(particles.velocity[k]);
+        const Vec2<double> v = per_s * convert<double>(particles.velocity[k]);
         const bool heavy = particles.kind != nullptr && particles.kind[k] == Liquid::second;
         const double weight = heavy ? second : 1.0;
         count += weight;
@@ -82,7 +83,8 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     const Borders<Real>& borders = simulation.settings.borders;
     const double cell_m = static_cast<double>(state_->def.cell_m);
     *diagnostics = {};
-    sum_particles(simulation, cell_m, *diagnostics);
+    const auto per_s = static_cast<double>(units_per_s(*state_));
+    sum_particles(simulation, cell_m, per_s, *diagnostics);
     simulation.stages->draw_moved(simulation.layers, simulation.bodies);
     if constexpr (kHasWindow<Real>) {
         if (simulation.window.cells > 0 && !look_around(simulation)) {
@@ -96,6 +98,7 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
                   simulation.stages->empty_slivers);
     grid_update(borders, Vec2<Real>{}, Seconds<Real>{}, simulation.pressure.level, simulation.grid);
     sum_cells(simulation, cell_m, *diagnostics);
+    diagnostics->divergence_per_s *= per_s;
     simulation.grid.shape = simulation.layers.shape;
     if (simulation.regions != nullptr) {  // what sleeps was written, too: no substep may see it
         simulation.occupied = simulation.layers.shape;

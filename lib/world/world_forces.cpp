@@ -6,12 +6,13 @@ namespace weir {
 namespace {
 
 template <class Real>
-BodyForce in_metres(const Impulse<Real>& impulse, float cell_m, float dt_s) {
-    const auto m = static_cast<Face<Real>>(cell_m);
+BodyForce in_metres(const Impulse<Real>& impulse, const detail::WorldState<Real>& state) {
+    const auto m = static_cast<Face<Real>>(state.def.cell_m);
+    const auto per_s = static_cast<Face<Real>>(units_per_s(state));
     BodyForce force;
-    force.impulse_m3ps = convert<float>((m * m * m) * impulse.linear);
-    force.angular_impulse_m4ps = static_cast<float>((m * m) * (m * m) * impulse.angular);
-    force.dt_s = dt_s;
+    force.impulse_m3ps = convert<float>((m * m * m * per_s) * impulse.linear);
+    force.angular_impulse_m4ps = static_cast<float>((m * m) * (m * m) * per_s * impulse.angular);
+    force.dt_s = state.stepped_s;
     return force;
 }
 
@@ -33,8 +34,7 @@ Status World<Real>::force(BodyId id, BodyForce* force) const {
     const Status asked = check(state_, force);
     const Status known = asked == Status::ok ? check_id(*state_, id) : asked;
     if (known == Status::ok) {
-        *force = in_metres(state_->simulation.bodies.load[id.slot].received, state_->def.cell_m,
-                           state_->stepped_s);
+        *force = in_metres(state_->simulation.bodies.load[id.slot].received, *state_);
     }
     return known;
 }
@@ -43,8 +43,7 @@ template <class Real>
 Status World<Real>::tank_force(BodyForce* force) const {
     const Status asked = check(state_, force);
     if (asked == Status::ok) {
-        *force = in_metres(tank_received(state_->simulation.bodies), state_->def.cell_m,
-                           state_->stepped_s);
+        *force = in_metres(tank_received(state_->simulation.bodies), *state_);
     }
     return asked;
 }

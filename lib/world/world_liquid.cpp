@@ -4,7 +4,6 @@
 #include "step/substep.hpp"
 #include "weir/world.hpp"
 #include "world/sleep.hpp"
-#include "world/validate.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
@@ -37,7 +36,7 @@ Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f vel
         !within(position_m.y, 0.0F, side_m(capacity.cells_y, cell_m))) {
         return Status::particle_outside_domain;
     }
-    const float fastest = kReach<Real>.speed * cell_m;
+    const float fastest = reach_of<Real>(state.unit_exponent).speed * cell_m;
     if (!within(velocity_mps.x, -fastest, fastest) || !within(velocity_mps.y, -fastest, fastest)) {
         return Status::velocity_out_of_range;
     }
@@ -140,7 +139,7 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         return Status::particle_inside_solid;
     }
     const Vec2<Real> velocity =
-        convert<Real>(state_->cells_per_m * convert<Face<Real>>(velocity_mps));
+        convert<Real>(pace_of(*state_) * convert<Face<Real>>(velocity_mps));
     add(simulation, inside, velocity, kind);
     wake(*state_);
     simulation.max_speed = maximum(simulation.max_speed,

@@ -33,7 +33,7 @@ Status World<Real>::let_regions_sleep() {
     regions->pressure = reinterpret_cast<Real*>(at(Block::kept_pressure));
     regions->density = reinterpret_cast<DensityOf<Real>*>(at(Block::kept_density));
     regions->speed = resting_speed(*state_);
-    regions->after_s = def.sleep.after_s;
+    regions->after_s = def.sleep.after_s * units_per_s(*state_);
     simulation.regions = regions;
     return Status::ok;
 }

@@ -3,6 +3,7 @@
 
 #include "step/time_step_limit.hpp"
 #include "weir/world.hpp"
+#include "world/unit_of_time.hpp"
 
 namespace weir::detail {
 
@@ -14,6 +15,7 @@ struct WorldState {
     float stepped_s = 0.0F;        ///< in the last step
     std::uint16_t tag = 0;         ///< this world's own, in the names of its bodies
     bool stepping = false;         ///< a step was begun and is not yet done
+    std::int8_t unit_exponent = 0;  ///< of the unit of time, a power of 2 s; ask `unit_of`
     float still_s = 0.0F;          ///< for so long nothing has moved, at most Sleep::after_s
     Vec2f still_gravity_mps2;      ///< in that time
     std::uint32_t pending = 0;     ///< Clamped bits that the next report shall carry
@@ -22,6 +24,26 @@ struct WorldState {
     Progress progress;             ///< in its present substep
     StepReport* report = nullptr;  ///< of that step, with the caller
 };
+
+/// The unit of time inside, s, and how many are a second: known to be 1 but in packed worlds.
+template <class Real>
+float unit_of(const WorldState<Real>& state) {
+    return Stored<Real>::coarse ? power_of_two(state.unit_exponent) : 1.0F;
+}
+template <class Real>
+float units_per_s(const WorldState<Real>& state) {
+    return Stored<Real>::coarse ? power_of_two(-state.unit_exponent) : 1.0F;
+}
+/// What 1 m/s is in cells per unit of time.
+template <class Real>
+Face<Real> pace_of(const WorldState<Real>& state) {
+    return state.cells_per_m * static_cast<Face<Real>>(unit_of(state));
+}
+/// What 1 m/s² is in cells per unit of time and unit of time.
+template <class Real>
+Face<Real> pull_of(const WorldState<Real>& state) {
+    return pace_of(state) * static_cast<Face<Real>>(unit_of(state));
+}
 
 /// Whether calls that change the world may do so now.
 template <class Real>

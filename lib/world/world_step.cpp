@@ -17,15 +17,15 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
         return Status::gravity_not_finite;
     }
-    const float most = minimum(kMaxGravity, kReach<Real>.gravity * state_->def.cell_m);
+    const float strongest = reach_of<Real>(state_->unit_exponent).gravity;
+    const float most = minimum(kMaxGravity, strongest * state_->def.cell_m);
     const Vec2f limited{clamp(gravity_mps2.x, -most, most), clamp(gravity_mps2.y, -most, most)};
     if (limited.x != gravity_mps2.x || limited.y != gravity_mps2.y) {
         state_->pending |= static_cast<std::uint32_t>(Clamped::gravity);
     }
     wake_by_gravity(*state_, limited);
     Simulation<Real>& simulation = state_->simulation;
-    const Vec2<Real> gravity =
-        convert<Real>(state_->cells_per_m * convert<Face<Real>>(limited));
+    const Vec2<Real> gravity = convert<Real>(pull_of(*state_) * convert<Face<Real>>(limited));
     // The pressure that a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
     const bool elastic = simulation.pressure.elasticity != nullptr;
@@ -53,9 +53,10 @@ void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepR
     state.substeps_left = 0;
     state.progress.begin();
     clear(simulation.contacts);
-    const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s, report);
+    const float unit = unit_of(state);
+    const Seconds<Real> dt = sane_time_step(simulation.settings, dt_s * units_per_s(state), report);
     if (is_asleep(state)) {  // forces stay those of the last step that was made
-        report.dt_s = static_cast<float>(dt);
+        report.dt_s = unit * static_cast<float>(dt);
         return;
     }
     if (simulation.bodies.load != nullptr) {
@@ -72,13 +73,14 @@ void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepR
         if (plan.surface_tension < simulation.settings.surface_tension) {
             mark(report, Clamped::surface_tension);
         }
-        report.dt_s = static_cast<float>(dt);
+        report.dt_s = unit * static_cast<float>(dt);
         const std::int32_t planned = plan.substeps;
         climb(report.rung, simulation, plan);
         report.walls_held = plan.walls_held;
         if (plan.substeps < planned) {
             mark(report, Clamped::time_step);
-            report.dt_s = static_cast<float>(plan.substeps) * static_cast<float>(plan.dt_s);
+            report.dt_s =
+                unit * (static_cast<float>(plan.substeps) * static_cast<float>(plan.dt_s));
         }
         report.substeps = plan.substeps;
         state.plan = plan;
@@ -93,7 +95,7 @@ void end(detail::WorldState<Real>& state) {
     StepReport& report = *state.report;
     simulation.layers.walls.active = simulation.bodies.used > 0;
     if (report.walls_held) {
-        simulation.walls_behind_s = static_cast<Seconds<Real>>(report.dt_s);
+        simulation.walls_behind_s = static_cast<Seconds<Real>>(report.dt_s * units_per_s(state));
     }
     finish(simulation.contacts);
     report.contacts_missed = simulation.contacts.missed;
@@ -107,7 +109,8 @@ void end(detail::WorldState<Real>& state) {
         mark(report, Clamped::not_finite);
     }
     report.particles = simulation.particles.count;
-    report.max_speed_mps = state.def.cell_m * static_cast<float>(simulation.max_speed);
+    report.max_speed_mps =
+        state.def.cell_m * static_cast<float>(simulation.max_speed) * units_per_s(state);
     if (may_sleep(state)) {
         watch_rest(state, report);
         report.asleep = is_asleep(state);

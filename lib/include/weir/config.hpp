@@ -30,7 +30,9 @@ inline constexpr std::int32_t kMaxCellsFixed = 256;
 inline constexpr std::int32_t kMaxCellsSmallFixed = 255;
 inline constexpr std::int32_t kMaxBodiesSmallFixed = 255;
 inline constexpr float kMaxSpeedFixed = 16000.0F;
-inline constexpr float kMaxSpeedSmallFixed = 255.0F;
+inline constexpr float kMaxSpeedSmallFixed = 255.0F;  ///< unless `top_speed_mps` says otherwise
+/// Highest top speed that a definition may promise in SmallFixed, cells/s.
+inline constexpr float kMaxTopSpeedSmallFixed = 2040.0F;
 inline constexpr float kMaxGravityFixed = 30000.0F;
 inline constexpr float kFurthestFixed = 16000.0F;
 
@@ -127,6 +129,15 @@ struct WorldDef {
 
     float cell_m = 0.02F;               ///< edge of a cell, m; 1e-6 … 1e3
     Vec2f gravity_mps2{0.0F, -9.81F};   ///< each part at most kMaxGravity
+
+    /// What nothing is meant to be faster than along an axis, m/s; 0: 255 cells/s, or as many as
+    /// kMaxTopSpeedSmallFixed. SmallFixed keeps velocities in 16 bits, up to 255, 127.5, 63.75 …
+    /// cells/s, whichever is enough, down to 1: the slower, the finer. What liquid moves at is to
+    /// be some hundreds of 32,768ths of it. Liquid that gets faster is limited, and the report says
+    /// so; bodies are refused. Gravity may be as strong as 0.46 top² / cell_m at least: less than a
+    /// fall of a cell needs no top speed. Other arithmetic has no need of it.
+    float top_speed_mps = 0.0F;
+
     std::int32_t particles_per_cell = 4;  ///< at rest: 1, 4, 9 or 16. 4 is a 2×2 lattice
 
     Pressure pressure = Pressure::projection;

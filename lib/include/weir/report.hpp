@@ -26,7 +26,7 @@ enum class Clamped : std::uint32_t {
     nothing = 0,
     time_step = 1U << 0U,      ///< dt was not finite, negative or too long for max_substeps
     gravity = 1U << 1U,        ///< gravity was not finite (kept the last) or too strong (limited)
-    speed = 1U << 2U,          ///< particles were limited to 2 cells a substep
+    speed = 1U << 2U,          ///< particles were limited to 2 cells a substep, or SmallFixed's
     sound_speed = 1U << 3U,    ///< the equation of state was softened to fit max_substeps
     not_finite = 1U << 4U,     ///< particles with a non-finite state were put to rest
     not_initialised = 1U << 5U,  ///< there is no world: nothing was done

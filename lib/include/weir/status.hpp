@@ -18,6 +18,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     cell_size_out_of_range,
     gravity_not_finite,
     gravity_out_of_range,
+    top_speed_out_of_range,
     particles_per_cell_out_of_range,
     sweeps_out_of_range,
     substeps_out_of_range,

@@ -114,8 +114,10 @@ public:
     /// Where the particles are, in cells: multiply by `cell_m`. Valid until the next call that
     /// adds, removes or steps. Empty before init.
     View<Vec2<PositionOf<Real>>> particle_positions() const;
-    /// Their velocities, cells per second.
+    /// Their velocities, cells per second, or with `top_speed_mps` in a unit of SmallFixed's own:
+    /// multiply by `velocity_scale()` for m/s.
     View<Vec2<VelocityOf<Real>>> particle_velocities() const;
+    float velocity_scale() const;
     /// Which liquid they belong to. Empty if the world has no room for a second one.
     View<Liquid> particle_kinds() const;
     /// What particles did to the bodies in the last step, one entry for each body that was hit, in
