@@ -46,6 +46,7 @@ Outcome run_oscillating_drop(Scheme& scheme, const Case& c, int periods);
 void report_hydrostatic(Report& report, const Effort& effort);
 void report_dam_break(Report& report, const Effort& effort);
 void report_standing_wave(Report& report, const Effort& effort);
+void report_format_wave(Report& report, const Effort& effort);
 void report_free_drop(Report& report, const Effort& effort);
 void report_oscillating_drop(Report& report, const Effort& effort);
 void report_rotation(Report& report, const Effort& effort);

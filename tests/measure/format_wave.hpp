@@ -162,15 +162,18 @@ Wave run_wave(const WaveCase& of) {
     for (std::int32_t step = 1; step <= steps; ++step) {
         tank.advance();
         const double now = tank.amplitude();
-        if ((before < 0.0) != (now < 0.0)) {
-            crossing.push_back((step - now / (now - before)) * detail::kStep);
+        const double at = (step - now / (now - before)) * detail::kStep;
+        // Slow flow in few bits trembles.
+        if ((before < 0.0) != (now < 0.0) &&
+            (crossing.empty() || at > crossing.back() + 0.25 * period)) {
+            crossing.push_back(at);
         }
         if (step * detail::kStep > (of.periods - 0.2) * period) {
             top = std::max(top, now);
         }
         before = now;
     }
-    // A wave that is gone, or that crosses 0 all the time, has no period.
+    // A wave that is gone has no period.
     if (crossing.size() != static_cast<std::size_t>(2.0 * of.periods)) {
         return {};
     }

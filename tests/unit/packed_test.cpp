@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "measure/format_wave.hpp"
 #include "measure/world_memory.hpp"
 #include "pressure/level_packed.hpp"
 #include "pressure/surface_level.hpp"
@@ -208,6 +209,30 @@ TEST(Packed, OneBodyAloneHasTheBitsOfOneWithRoomForMore) {
         }
     }
     EXPECT_EQ(places[0], places[1]);
+}
+
+void expect_as_in_double(measure::WaveCase wave) {
+    const measure::Wave exact = measure::run_wave<double>(wave);
+    const measure::Wave packed = measure::run_wave<SmallFixed>(wave);
+    EXPECT_NEAR(packed.period / exact.period, 1.0, 0.005);
+    EXPECT_NEAR(packed.height, exact.height, 0.01 * wave.periods);
+}
+
+// A fifth of a cell a step, and a top speed that is told: five times slower without.
+TEST(Packed, SlowWavesAreThoseOfDouble) {
+    measure::WaveCase wave;
+    wave.cells_per_step = 0.2;
+    wave.periods = 3.0;
+    expect_as_in_double(wave);
+}
+
+// 32 rows, six sweeps: with the factor that is best for many the pressure swings, and waves die.
+TEST(Packed, DeepWavesAreThoseOfDoubleWithFewSweeps) {
+    measure::WaveCase wave;
+    wave.cells = 64;
+    wave.sweeps = 6;
+    wave.periods = 3.0;
+    expect_as_in_double(wave);
 }
 
 TEST(Packed, LevelsAreThoseOfTheFormula) {

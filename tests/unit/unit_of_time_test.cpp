@@ -149,26 +149,36 @@ TEST(UnitOfTime, WhatIsSlowerGoesTheSameWay) {
     }
 }
 
+// A pool on each side of a block; in one a bar goes on turning.
 TEST(UnitOfTime, RegionsFallAsleepAtTheSameStep) {
-    const float slower = 16.0F;
     std::vector<std::int32_t> asleep[2];
     for (const bool slow : {false, true}) {
-        const float by = slow ? slower : 1.0F;
+        const float by = slow ? 16.0F : 1.0F;
         WorldDef def = small_def();
+        def.capacity.cells_x = 40;
+        def.capacity.particles = 600;
         def.capacity.sleeping_regions = true;
         def.top_speed_mps = slow ? kMaxSpeedSmallFixed * kCell / by : 0.0F;
         def.gravity_mps2.y = -9.81F / (by * by);
         def.sleep = {0.1F / by, 0.5F * by, 0.0F};
         TestWorld<SmallFixed> world(def);
+        const Ring block = rectangle(0.2F, 0.4F);
+        BodyId id;
+        expect_ok(world->add_static_body(body_of(block, {0.34F, 0.0F}), &id));
+        BodyDef bar = body_of(kSquare4cm, {0.62F, 0.06F});
+        bar.motion.spin_radps = 6.0F / by;
+        expect_ok(world->add_moving_body(bar, &id));
         expect_ok(world->let_regions_sleep());
-        expect_ok(world->fill({{0.0F, 0.0F}, {0.06F, 0.04F}}));
-        expect_ok(world->fill({{0.24F, 0.20F}, {0.30F, 0.26F}}));
-        for (int step = 0; step < 200; ++step) {
-            asleep[slow].push_back(world->step(by / 60.0F).particles_asleep);
+        expect_ok(world->fill({{0.0F, 0.0F}, {0.24F, 0.06F}}));
+        expect_ok(world->fill({{0.44F, 0.0F}, {0.8F, 0.1F}}));
+        for (int step = 0; step < 300; ++step) {
+            const StepReport report = world->step(by / 60.0F);
+            ASSERT_FALSE(report.asleep);
+            asleep[slow].push_back(report.particles_asleep);
         }
     }
     EXPECT_EQ(asleep[0], asleep[1]);
-    EXPECT_GT(asleep[0].back(), 0);
+    EXPECT_EQ(asleep[0].back(), 4 * 36);
 }
 
 // Floats and Q15.16 know what is slow: not a bit changes.
