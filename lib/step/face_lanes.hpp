@@ -46,8 +46,8 @@ inline auto least_around(const float* level, std::int32_t back, std::int32_t str
 }
 
 /// field − smoothing ∇²field within what the faces around have, where the six cells' levels say
-/// that liquid is all around. All of them, the last few with some that are done, if there are
-/// enough for a group.
+/// that liquid is all around, and the field elsewhere. All of them, the last few with some that are
+/// done, if there are enough for a group.
 template <class L>
 inline std::int32_t sharpen_faces(const float* level, std::int32_t back, std::int32_t stride,
                                   float smoothing, const float* field, std::int32_t face,
@@ -57,14 +57,16 @@ inline std::int32_t sharpen_faces(const float* level, std::int32_t back, std::in
     }
     for (; face < end; face += L::kLanes) {
         const std::int32_t at = face + L::kLanes <= end ? face : end - L::kLanes;
+        const auto here = L::load(field + at);
         if (!L::any_true(L::load(level + at) > L::all(0.0F))) {  // soon told
+            L::store(out + at, here);
             continue;
         }
         const auto deep = least_around<L>(level, back, stride, at) > L::all(0.0F);
         if (!L::any_true(deep)) {
+            L::store(out + at, here);
             continue;
         }
-        const auto here = L::load(field + at);
         const auto left = L::load(field + at - 1);
         const auto right = L::load(field + at + 1);
         const auto lower = L::load(field + at - stride);

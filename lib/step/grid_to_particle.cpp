@@ -89,24 +89,40 @@ struct Sharpening {
         }
     }
 
-    void rows_in_lanes([[maybe_unused]] std::int32_t first_i,
-                       [[maybe_unused]] std::int32_t first_j,
-                       [[maybe_unused]] const Part& rows) const {
-        if constexpr (kHasLanes<Real>) {
-            for (std::int32_t j = maximum(first_j, rows.first); j < rows.end; ++j) {
-                std::int32_t i = first_i;
-                for (; back == 1 && i < 1; ++i) {
+    /// All of some rows of the arrays, counted from the lowest ghost row; what nothing is done to
+    /// is copied on the way.
+    void rows_in_lanes(std::int32_t first_i, std::int32_t first_j, const Part& rows) const {
+        for (std::int32_t j = rows.first - 1; j < rows.end - 1; ++j) {
+            if (j < first_j || j >= s.ny || thin != nullptr || (back != 1 && j == 0)) {
+                copy_rows(s, {j + 1, j + 2}, field, out);
+                for (std::int32_t i = first_i; j >= first_j && j < s.ny && i < s.nx; ++i) {
                     one(i, j);
                 }
-                if (thin == nullptr && (back == 1 || j > 0)) {
-                    const std::int32_t face = s.index(i, j);
-                    i += sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, face,
-                                       s.index(s.nx, j), out) - face;
-                }
-                for (; i < s.nx; ++i) {
-                    one(i, j);
-                }
+            } else {
+                row_in_lanes(first_i, j);
             }
+        }
+    }
+
+private:
+    void copy(std::int32_t face, std::int32_t end) const {
+        for (; face < end; ++face) {
+            out[face] = field[face];
+        }
+    }
+
+    void row_in_lanes(std::int32_t first_i, std::int32_t j) const {
+        const std::int32_t row = s.index(0, j);
+        std::int32_t i = first_i;
+        copy(row - 1, row + (back == 1 ? 1 : 0));
+        for (; back == 1 && i < 1; ++i) {
+            one(i, j);
+        }
+        i = sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, row + i, row + s.nx,
+                          out) - row;
+        copy(row + i, row + s.nx + 1);
+        for (; i < s.nx; ++i) {
+            one(i, j);
         }
     }
 };
@@ -115,11 +131,6 @@ template <class Real>
 void sharpen_rows(const Borders<Real>& borders, const Part& rows, const Sharpening<Real>& of_u,
                   const Sharpening<Real>& of_v) {
     const GridShape& s = of_u.s;
-    if constexpr (kHasLanes<Real>) {
-        of_u.rows_in_lanes(borders.wrap_x ? 0 : 1, 0, rows);
-        of_v.rows_in_lanes(0, borders.wrap_y ? 0 : 1, rows);
-        return;
-    }
     for (std::int32_t j = rows.first; borders.wrap_x && j < rows.end; ++j) {
         of_u.one(0, j);
     }
@@ -168,14 +179,24 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
-    work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1, [&](const Part& rows, std::int32_t) {
-        copy_rows(s, rows, grid.mass_u, sharp_u);
-        copy_rows(s, rows, grid.mass_v, sharp_v);
-    });
-    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
-        sharpen_rows<Real>(borders, rows, {s, thin, fields.level, 1, grid.mass_u, sharp_u},
-                           {s, thin, fields.level, s.stride, grid.mass_v, sharp_v});
-    });
+    const Sharpening<Real> of_u{s, thin, fields.level, 1, grid.mass_u, sharp_u};
+    const Sharpening<Real> of_v{s, thin, fields.level, s.stride, grid.mass_v, sharp_v};
+    if constexpr (kHasLanes<Real>) {
+        const std::int32_t cost = 2 * (s.nx + 2);
+        work.share(work.take(s.ny + 2, cost), cost, 1, [&](const Part& rows, std::int32_t) {
+            of_u.rows_in_lanes(borders.wrap_x ? 0 : 1, 0, rows);
+            of_v.rows_in_lanes(0, borders.wrap_y ? 0 : 1, rows);
+        });
+    } else {
+        work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1,
+                   [&](const Part& rows, std::int32_t) {
+                       copy_rows(s, rows, grid.mass_u, sharp_u);
+                       copy_rows(s, rows, grid.mass_v, sharp_v);
+                   });
+        work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+            sharpen_rows<Real>(borders, rows, of_u, of_v);
+        });
+    }
     if (work.once(s.border())) {
         extend_velocity(borders, s, sharp_u, sharp_v);
     }
