@@ -177,14 +177,15 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
     }
 }
 
-/// A quarter towards rest, a unit at least, but for what has just been let go. The share of PIC of
-/// a small velocity rounds to 0: below 16 units particles kept for ever what they have beyond the
-/// flow.
+/// A sixteenth towards rest, a unit at least, but for what has just been let go. The share of PIC
+/// of a small velocity rounds to 0: below 16 units particles kept for ever what they have beyond
+/// the flow. What gravity makes of a slope in a step has to be more, or waves stand at their
+/// highest.
 [[gnu::noinline]] void settle(const Particles<Real>& particles) {
     const auto slower = [](std::int16_t v) {
         constexpr std::int32_t kSlow = 32;
         const bool slow = absolute(std::int32_t{v}) <= kSlow;
-        return static_cast<std::int16_t>(slow ? v - (v + (v > 0 ? 3 : -3)) / 4 : v);
+        return static_cast<std::int16_t>(slow ? v - (v + (v > 0 ? 15 : -15)) / 16 : v);
     };
     for (std::int32_t k = 0; k < particles.count; ++k) {
         Vec2<Speed>& v = particles.velocity[k];
