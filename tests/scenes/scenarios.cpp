@@ -128,6 +128,12 @@ constexpr WorldDef elastic(WorldDef def) {
     return def;
 }
 
+/// Of packed worlds the unit of time is 2 s then.
+constexpr WorldDef up_to(float cells_per_s, WorldDef def) {
+    def.top_speed_mps = cells_per_s * kCell;
+    return def;
+}
+
 constexpr float kFrame = 1.0F / 60.0F;
 constexpr float kShortFrame = 1.0F / 240.0F;
 
@@ -153,8 +159,8 @@ constexpr ScenarioIn<Real> kTable[kScenarioCount] = {
      nullptr},
     {"dam_break", tank(32, 20, 560, 0, 0), 300, kFrame, false, fill_dam<Real>, nullptr},
     {"splash", tank(24, 24, 624, 0, 0), 300, kFrame, false, fill_splash<Real>, nullptr},
-    {"moving_piston", tank(28, 18, 672, 1, 4), 300, kFrame, true, fill_piston<Real>,
-     move_piston<Real>},
+    {"moving_piston", up_to(120.0F, tank(28, 18, 672, 1, 4)), 300, kFrame, true,
+     fill_piston<Real>, move_piston<Real>},
     {"dam_break_solids", tank(32, 20, 560, 3, 11), 300, kFrame, true, fill_dam_with_solids<Real>,
      nullptr},
 };
@@ -213,11 +219,12 @@ float energy(const ScenarioIn<Real>& scenario, const weir::World<Real>& world) {
     const float corner_y = gy > 0.0F ? static_cast<float>(world.cells_y()) : 0.0F;
     const auto positions = world.particle_positions();
     const auto velocities = world.particle_velocities();
+    const float per_s = world.velocity_scale() / world.cell_m();
     float sum = 0.0F;
     for (std::int32_t k = 0; k < positions.size; ++k) {
         const Vec2f x = in_float(positions[k]);
         const Vec2f v = in_float(velocities[k]);
-        const float kinetic = 0.5F * (v.x * v.x + v.y * v.y);
+        const float kinetic = 0.5F * per_s * per_s * (v.x * v.x + v.y * v.y);
         sum += kinetic - (gx * (x.x - corner_x) + gy * (x.y - corner_y));
     }
     return sum;
