@@ -85,6 +85,13 @@ inline std::int32_t low_byte(std::uint32_t word) {
 #endif
 }
 
+/// Two numbers of 16 bits side by side, as a word: of a place, x below.
+inline std::uint32_t word_at(const void* place) {
+    std::uint32_t word = 0;
+    __builtin_memcpy(&word, __builtin_assume_aligned(place, 4), sizeof word);
+    return word;
+}
+
 /// So many bits that are as good as random, out of a number whose last places change all the time:
 /// added before digits are cut off, they make what is rounded right on average. Rounded to the
 /// nearest, everything below half a unit a step would stand still. What stands still stays so.

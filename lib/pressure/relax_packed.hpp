@@ -32,18 +32,52 @@ inline std::int32_t times_diagonal(std::int32_t diagonal, std::int32_t pressure)
     return diagonal == 384 ? 3 * pressure : scaled(diagonal, pressure);
 }
 
-/// Sum over a cell's neighbours, each with its face. `kept`: its diagonal, negative at walls.
-template <bool Solids, class Real>
-inline std::int32_t neighbours(const Real* p, const Walls<Real>& walls, std::int32_t c,
-                               std::int32_t stride, std::int32_t kept) {
-    const std::int32_t up = c + stride;
-    const std::int32_t down = c - stride;
-    if (!Solids || kept > 0) {
-        return (p[c - 1].raw + p[c + 1].raw) + (p[down].raw + p[up].raw);
+/// So much of a face, in 128ths, times what is behind it: most faces are open or closed.
+inline std::int32_t through(std::int32_t open, std::int32_t pressure) {
+    return open == 128 ? pressure
+                       : (pressure >> 14) * open * 128 + (((pressure & 0x3FFF) * open) >> 7);
+}
+
+/// Sum over the neighbours of the cell `at`, each with its face.
+template <class Real>
+[[gnu::noinline]] std::int32_t neighbours_at_wall(const Real* at, const Walls<Real>& walls,
+                                                  std::int32_t c, std::int32_t stride) {
+    const ShareOf<Real>* u = walls.open_u + c;
+    const ShareOf<Real>* v = walls.open_v + c;
+    return (through(u[0].raw, at[-1].raw) + through(u[1].raw, at[1].raw)) +
+           (through(v[0].raw, at[-stride].raw) + through(v[stride].raw, at[stride].raw));
+}
+template <class Real>
+inline std::int32_t neighbours_in_open(const Real* at, std::int32_t stride) {
+    return (at[-1].raw + at[1].raw) + (at[-stride].raw + at[stride].raw);
+}
+
+/// `from` less diagonal × pressure, where that is large.
+[[gnu::noinline, gnu::cold]] inline std::int32_t less_much(std::int32_t from,
+                                                           std::int32_t diagonal,
+                                                           std::int32_t pressure) {
+    return fixed::subtract(from, times_diagonal(diagonal, pressure));
+}
+inline std::int32_t less_diagonal(std::int32_t from, std::int32_t diagonal,
+                                  std::int32_t pressure) {
+    const std::int32_t high = (pressure >> 14) * diagonal;
+    constexpr std::int32_t kMuch = 1 << 22;
+    if (static_cast<std::uint32_t>(high + kMuch) >= 2U * kMuch) {
+        return less_much(from, diagonal, pressure);
     }
-    return (scaled(walls.open_u[c].raw, p[c - 1].raw) +
-            scaled(walls.open_u[c + 1].raw, p[c + 1].raw)) +
-           (scaled(walls.open_v[c].raw, p[down].raw) + scaled(walls.open_v[up].raw, p[up].raw));
+    return from - (high * 128 + (((pressure & 0x3FFF) * diagonal) >> 7));
+}
+
+/// Of a cell's neighbours, each with its face, so much more than its diagonal × pressure. `flow`:
+/// less so much. `kept`: its diagonal, negative at walls.
+template <bool Solids, class Real>
+inline std::int32_t short_of_neighbours(const Real* at, const Walls<Real>& walls, std::int32_t c,
+                                        std::int32_t stride, std::int32_t kept,
+                                        std::int32_t flow) {
+    if (!Solids || kept > 0) {
+        return less_diagonal(neighbours_in_open(at, stride) - flow, kept, at->raw);
+    }
+    return less_diagonal(neighbours_at_wall(at, walls, c, stride) - flow, -kept, at->raw);
 }
 
 /// What a cell's pressure becomes: p += ω (Σ p − divergence − n p) / n. The factor ω / n, in
@@ -86,40 +120,44 @@ inline std::int32_t coarse_factor(std::int32_t step, std::int32_t diagonal) {
     return minimum((step * kInverses.of[minimum(n, 64)]) >> (16 + less), 511);
 }
 
-/// A cell at the surface or at a wall; `step`: ω in 1/2^15ths.
-template <bool Solids, class Real>
-[[gnu::noinline]] void relax_rare(const PressureFields<Real>& fields, const Walls<Real>& walls,
-                                  std::int32_t step, std::int32_t stride, std::int32_t c) {
-    const std::int32_t kept = fields.inverse_diagonal[c].raw;
-    const std::int32_t diagonal = kept < 0 ? -kept : kept;
-    const std::int32_t here = fields.pressure[c].raw;
-    const std::int32_t sum = neighbours<Solids>(fields.pressure, walls, c, stride, kept);
-    const std::int32_t flow = std::int32_t{fields.divergence[c].raw} * 512;
-    const std::int32_t factor = coarse_factor(step, diagonal);
-    fields.pressure[c].raw =
-        relaxed(here, fixed::subtract(sum - flow, times_diagonal(diagonal, here)), factor);
-}
-
-/// ω in 1/2^15ths, so that ω / n has 8 bits, and that of cells with four and with three sides.
-struct Relaxation {
-    std::int32_t step;
-    std::int32_t of_4;
+/// What a row's cells are relaxed with. (One place for all of it: five arguments are a call's price
+/// on a small chip.)
+template <class Real>
+struct RelaxTask {
+    const PressureFields<Real>& fields;
+    const Walls<Real>& walls;
+    std::int32_t stride;
+    std::int32_t step;  ///< ω in 1/2^15ths, so that ω / n has 8 bits
+    std::int32_t of_4;  ///< that of cells with four and with three sides
     std::int32_t of_3;
 
-    template <class Real>
-    explicit Relaxation(Real omega)
-        : step(omega.raw >> 1), of_4(step / 512), of_3(step / 384) {}
+    RelaxTask(const PressureFields<Real>& f, const Walls<Real>& w, std::int32_t row, Real omega)
+        : fields(f), walls(w), stride(row), step(omega.raw >> 1), of_4(step / 512),
+          of_3(step / 384) {}
 };
+
+/// A cell at the surface or at a wall.
+template <bool Solids, class Real>
+[[gnu::noinline]] void relax_rare(const RelaxTask<Real>& task, Real* at) {
+    const PressureFields<Real>& fields = task.fields;
+    const auto c = static_cast<std::int32_t>(at - fields.pressure);
+    const std::int32_t kept = fields.inverse_diagonal[c].raw;
+    const std::int32_t residual =
+        short_of_neighbours<Solids>(at, task.walls, c, task.stride, kept,
+                                    std::int32_t{fields.divergence[c].raw} * 512);
+    at->raw = relaxed(at->raw, residual, coarse_factor(task.step, kept < 0 ? -kept : kept));
+}
 
 /// Relaxes cells c, c + 2 … of a row.
 template <bool Solids, class Real>
-void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& walls,
-                      const Relaxation& factor, std::int32_t stride, std::int32_t c) {
+[[gnu::noinline]] void relax_packed_row(const RelaxTask<Real>& task, std::int32_t c) {
+    const PressureFields<Real>& fields = task.fields;
     Real* here = fields.pressure + c;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;
     // Both lie in the caller's memory.
     const std::ptrdiff_t to_divergence = fields.divergence - fields.inverse_diagonal;
-    const std::int32_t of_4 = factor.of_4;
+    const std::int32_t stride = task.stride;
+    const std::int32_t of_4 = task.of_4;
     const std::int32_t amid = kept(512);
     const std::int32_t half = beside_product(128);
     const auto raw = [](Real pressure) { return static_cast<std::uint32_t>(pressure.raw); };
@@ -139,12 +177,11 @@ void relax_packed_row(const PressureFields<Real>& fields, const Walls<Real>& wal
             next();
         }
         if (own == 384) {
-            relax_plain<3>(here, around(), diagonal[to_divergence].raw, factor.of_3, half);
+            relax_plain<3>(here, around(), diagonal[to_divergence].raw, task.of_3, half);
         } else if (own == kRowEnd) {
             return;
         } else if (own != 0) {
-            relax_rare<Solids>(fields, walls, factor.step, stride,
-                               static_cast<std::int32_t>(here - fields.pressure));
+            relax_rare<Solids>(task, here);
         }
     }
 }
@@ -248,9 +285,8 @@ template <bool Solids, class Real>
 [[gnu::noinline]] std::int32_t pull_rare(const PressureFields<Real>& fields,
                                          const Walls<Real>& walls, std::int32_t stride,
                                          std::int32_t c) {
-    const std::int32_t kept = fields.inverse_diagonal[c].raw;
-    return fixed::subtract(times_diagonal(kept < 0 ? -kept : kept, fields.pressure[c].raw),
-                           neighbours<Solids>(fields.pressure, walls, c, stride, kept));
+    return fixed::subtract(0, short_of_neighbours<Solids>(fields.pressure + c, walls, c, stride,
+                                                          fields.inverse_diagonal[c].raw, 0));
 }
 
 /// A residual of so little, raw, moves no velocity by a unit, nor does a column of 32 of them.
@@ -310,10 +346,9 @@ template <bool Solids, bool Mixed, class Real>
                                     std::int32_t low, std::int32_t high, Real omega,
                                     std::int32_t colour, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    const Relaxation factor(omega);
+    const RelaxTask<Real> task(fields, weights.walls, s.stride, omega);
     for (std::int32_t j = low; j <= high; ++j) {
-        relax_packed_row<Solids>(fields, weights.walls, factor, s.stride,
-                                 s.index((j + colour) & 1, j));
+        relax_packed_row<Solids>(task, s.index((j + colour) & 1, j));
     }
 }
 

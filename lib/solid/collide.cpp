@@ -1,5 +1,6 @@
 #include "solid/collide.hpp"
 
+#include "math/packed_arithmetic.hpp"
 #include "solid/body_force.hpp"
 #include "solid/first_entry.hpp"
 #include "solid/near_wall_lanes.hpp"
@@ -348,6 +349,82 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
 
 #endif
 
+/// Whether all cells that a path can touch are without solid.
+bool is_path_open(std::int32_t stride, const std::uint8_t* origin, std::uint32_t from,
+                  std::uint32_t to) {
+    const auto column = [](std::uint32_t place) { return low_byte(place >> 8U); };
+    const auto row = [](std::uint32_t place) { return static_cast<std::int32_t>(place >> 24U); };
+    const std::int32_t first = minimum(column(from), column(to));
+    const std::int32_t last = maximum(column(from), column(to));
+    for (std::int32_t j = minimum(row(from), row(to)); j <= maximum(row(from), row(to)); ++j) {
+        for (std::int32_t i = first; i <= last; ++i) {
+            if (origin[j * stride + i] != kCellOutside) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// `last_near_wall` of packed places, as words. By itself, so that its loop has all registers.
+[[gnu::noinline]] std::int32_t last_near_wall(const std::uint8_t* origin, std::int32_t stride,
+                                              const Vec2<PositionOf<SmallFixed>>* places,
+                                              std::int32_t count) {
+    const Vec2<PositionOf<SmallFixed>>* at = places + count;
+    while (at != places) {
+        at = whole(at - 1);
+        const std::uint32_t place = word_at(at);
+        if (origin[static_cast<std::int32_t>(place >> 24U) * stride + low_byte(place >> 8U)] !=
+            kCellOutside) {
+            return static_cast<std::int32_t>(at - places);
+        }
+    }
+    return -1;
+}
+
+/// What a packed particle's place says by itself.
+enum class Place : std::uint8_t { open, at_wall, far };
+
+[[gnu::noinline]] Place look_at(Scene<SmallFixed>& scene, const Flight<SmallFixed>& flight,
+                                const std::uint8_t* origin, std::int32_t first, std::int32_t n) {
+    const std::int32_t stride = scene.shape.stride;
+    const Walls<SmallFixed>& walls = scene.walls;
+    const auto& place = scene.particles.position[first + n];
+    const std::uint32_t to = word_at(&place);
+    const std::int32_t cell = static_cast<std::int32_t>(to >> 24U) * stride + low_byte(to >> 8U);
+    const std::uint8_t which = origin[cell];
+    if (flight.far && is_far(Vec2<SmallFixed>(flight.before[n]), Vec2<SmallFixed>(place)) &&
+        !is_path_open(stride, origin, word_at(flight.before + n), to)) {
+        return Place::far;
+    }
+    if (which == kCellOutside) {
+        return Place::open;
+    }
+    const auto* low = walls.distance + (origin - walls.cell_case) + cell;
+    const auto* high = low + stride;
+    if (packed::side_of_line(which, {{low[0].raw, low[1].raw, high[1].raw, high[0].raw},
+                                     4 * low_byte(to), 4 * low_byte(to >> 16U)}) > 0) {
+        ++scene.result.tested;
+        return Place::open;
+    }
+    return Place::at_wall;
+}
+
+void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& flight, std::int32_t first,
+                    std::int32_t count) {
+    const std::uint8_t* origin = scene.walls.cell_case + scene.shape.index(0, 0);
+    for (std::int32_t n = count; n > 0;) {
+        n = flight.far ? n - 1
+                       : last_near_wall(origin, scene.shape.stride,
+                                        scene.particles.position + first, n);
+        const Place at = n < 0 ? Place::open : look_at(scene, flight, origin, first, n);
+        if (at != Place::open && !meet_contour(scene, first + n, Vec2<SmallFixed>(flight.before[n]),
+                                               at == Place::far)) {
+            remove(scene, first + n, flight.mark_removed);
+        }
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -355,6 +432,10 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
              std::int32_t first, std::int32_t count, Particles<Real>& particles,
              Contacts<Real>& contacts, CollideResult<Real>& result) {
     Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s, flight.beyond};
+    if constexpr (Stored<Real>::coarse) {  // those have no thin walls, and no windows
+        collide_packed(scene, flight, first, count);
+        return;
+    }
     const bool all = flight.far || walls.thin != nullptr || flight.beyond;
 #if WEIR_HAS_LANES
     if constexpr (kHasLanes<Real>) {

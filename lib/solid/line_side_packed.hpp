@@ -2,7 +2,7 @@
 // cell, distances in 256ths, no division.
 #pragma once
 
-#include "math/packed.hpp"
+#include "math/packed_arithmetic.hpp"
 #include "math/vec2.hpp"
 
 namespace weir::packed {
@@ -46,11 +46,8 @@ private:
 };
 
 /// 1: clearly in the open, −1: clearly in the solid, 0: near the line, or there is not just one.
-inline std::int32_t side_of_line(std::uint8_t which, const SmallFixed (&d)[4],
-                                 Vec2<SmallFixed> f) {
+[[gnu::noinline]] inline std::int32_t side_of_line(std::uint8_t which, const LinePoint& p) {
     constexpr std::int32_t kOne = 1024;
-    const LinePoint p{{d[0].raw >> 8, d[1].raw >> 8, d[2].raw >> 8, d[3].raw >> 8},
-                      f.x.raw >> 6, f.y.raw >> 6};
     switch (which) {
         case 1:
         case 14: return p.off_corner(0, 1, 3, p.x, p.y);
@@ -66,6 +63,11 @@ inline std::int32_t side_of_line(std::uint8_t which, const SmallFixed (&d)[4],
         case 6: return -p.over(0, 1, 3, 2, p.y, p.x);
         default: return 0;
     }
+}
+inline std::int32_t side_of_line(std::uint8_t which, const SmallFixed (&d)[4],
+                                 Vec2<SmallFixed> f) {
+    return side_of_line(which, {{d[0].raw >> 8, d[1].raw >> 8, d[2].raw >> 8, d[3].raw >> 8},
+                                f.x.raw >> 6, f.y.raw >> 6});
 }
 
 }  // namespace weir::packed

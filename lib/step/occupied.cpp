@@ -30,7 +30,7 @@ Extent<SmallFixed> extent_of_words(const Particles<SmallFixed>& particles, std::
     std::uint32_t bits = 0;
     std::int32_t k = 0;
     const auto look = [&](std::int32_t n) {
-        const std::uint32_t word = packed::word_at(position + n);
+        const std::uint32_t word = word_at(position + n);
         bits |= word;
         if (word > highest) {
             highest = whole(word);  // seldom: a branch costs less than a choice

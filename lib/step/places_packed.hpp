@@ -17,12 +17,6 @@ static_assert(Real(Place::of_raw(1)).raw == 256, "places are 256ths");
 static_assert(Real(Speed::of_raw(1)).raw == 512, "velocities are 128ths");
 static_assert(Stored<Real>::particle_mass == 2, "256 units of mass a particle");
 
-/// Both places of a particle in a word, x below.
-inline std::uint32_t word_at(const void* place) {
-    std::uint32_t word = 0;
-    __builtin_memcpy(&word, __builtin_assume_aligned(place, 4), sizeof word);
-    return word;
-}
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "x stands first");
 
 /// From the faces of a kind to the corners of the cells that they are in the middle of.
