@@ -91,6 +91,9 @@ inline std::uint32_t word_at(const void* place) {
     __builtin_memcpy(&word, __builtin_assume_aligned(place, 4), sizeof word);
     return word;
 }
+inline void put_word(void* place, std::uint32_t word) {
+    __builtin_memcpy(__builtin_assume_aligned(place, 4), &word, sizeof word);
+}
 
 /// So many bits that are as good as random, out of a number whose last places change all the time:
 /// added before digits are cut off, they make what is rounded right on average. Rounded to the

@@ -80,9 +80,11 @@ void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer,
 template <class Value, std::int32_t Most>
 class Copies {
 public:
+    const Value* room() const { return reinterpret_cast<const Value*>(bytes_); }
+    void* bytes() { return bytes_; }
     const Value* of(const Value* from, std::int32_t count) {
         std::memcpy(bytes_, from, static_cast<std::size_t>(count) * sizeof(Value));
-        return reinterpret_cast<const Value*>(bytes_);
+        return room();
     }
 
 private:
@@ -111,15 +113,20 @@ TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
 
 /// Moves a block of particles and lets them meet the solids.
 template <class Real>
-void gather_block(Simulation<Real>& simulation, const Transfer<Real>& transfer,
-                  const Part& places, bool mark_removed, StageClock* clock,
-                  TransferResult<Real>& moved, CollideResult<Real>& collisions) {
+void gather_block(Simulation<Real>& simulation, Transfer<Real>& transfer, const Part& places,
+                  bool mark_removed, StageClock* clock, TransferResult<Real>& moved,
+                  CollideResult<Real>& collisions) {
     const Walls<Real>& walls = simulation.layers.walls;
     Particles<Real>& particles = simulation.particles;
     const std::int32_t first = places.first;
     const std::int32_t count = places.end - first;
     Copies<Vec2<PositionOf<Real>>, kBlock<Real>> copies;
-    const Vec2<PositionOf<Real>>* before = copies.of(particles.position + first, count);
+    const Vec2<PositionOf<Real>>* before = copies.room();
+    if constexpr (Stored<Real>::coarse) {  // the gather leaves them there, on one thread
+        transfer.before = copies.bytes();
+    } else {
+        copies.of(particles.position + first, count);
+    }
     Particles<Real> block = particles.part(first, count);
     moved = walls.thin != nullptr
                 ? move_past_walls(simulation, transfer, *walls.thin, before, block)
@@ -138,7 +145,7 @@ void gather_block(Simulation<Real>& simulation, const Transfer<Real>& transfer,
 /// Moves the particles and lets them meet the solids: a block at a time, because a particle's path
 /// is known only while the place that it comes from is.
 template <class Real>
-void gather_among_solids(Simulation<Real>& simulation, const Transfer<Real>& transfer, Work work,
+void gather_among_solids(Simulation<Real>& simulation, Transfer<Real>& transfer, Work work,
                          StageClock& clock, StepReport& report) {
     // From the pool's end, which may come nearer on the way.
     const Part part = work.take((simulation.gathered + kBlock<Real> - 1) / kBlock<Real>,
@@ -160,6 +167,9 @@ void gather_among_solids(Simulation<Real>& simulation, const Transfer<Real>& tra
             gather_block(simulation, transfer, places(at), mark, charged, block,
                          collisions.of[n]);
             moved.of[n].add(block);
+            if constexpr (Stored<Real>::coarse) {
+                transfer.max_speed = moved.of[n].max_speed;
+            }
         }
     };
     if (alone || work.pieces(part.end - part.first, cost, 1) <= 1) {

@@ -34,6 +34,9 @@ struct Transfer {
     Impulse<Real>* tank = nullptr;  ///< takes what hits the tank's walls; null: nobody asks
     const Face<Real>* particle_mass = nullptr;  ///< then: of either liquid, cells²
     bool settling = false;     ///< packed velocities lose a unit
+    // In packed worlds:
+    Real max_speed = Real(0);  ///< of particles before these: a root only for who is faster
+    void* before = nullptr;    ///< takes the places where a block comes from; null: nobody asks
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a

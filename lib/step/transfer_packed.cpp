@@ -212,13 +212,10 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
     speed = {Speed(v.x), Speed(v.y)};
 }
 
-/// As many particles as are kept between the two passes.
-constexpr std::int32_t kStrip = 32;
-
-/// Along x: velocities, and how far each particle goes, 256ths. A pass for each component: both
+/// Along x: velocities, and how far each particle goes, 256ths, a word. A pass for each component: both
 /// want more registers than there are. @return the square of the fastest, or `fastest`.
 [[gnu::noinline]] std::int32_t gather_u(const Gather& gather, const Particles<Real>& particles,
-                                        std::int32_t* way_x, std::int32_t fastest) {
+                                        void* ways, std::int32_t fastest) {
     const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
     const Speed* first = whole(gather.grid.u + 1);
     const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.u, gather.grid.mass_u));
@@ -226,22 +223,22 @@ constexpr std::int32_t kStrip = 32;
     const std::int32_t flip = gather.flip;
     const std::uint32_t half = kept(kHalf<true>);
     const Strip strip(particles);
-    std::int32_t* way = whole(way_x + particles.count);
+    char* way = whole(static_cast<char*>(ways) + particles.count * Strip::kStep);
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
         const std::uint32_t at = strip.word(k) + half;
         const Weights w = weights_of(at);
         const Speed* along = further(first, base_of(at, row));
-        *further(way, k) = moves(pace, weighed(along, row, w));
+        put_word(way + k, static_cast<std::uint32_t>(moves(pace, weighed(along, row, w))));
         fastest = maximum(fastest, change(strip.velocity(k).x.raw, flip,
                                           weighed(further(along, to_gained), row, w)));
     }
     return fastest;
 }
 
-/// Along y, and there they go.
+/// Along y, and there they go. Where they come from takes the place of the ways along x.
 [[gnu::noinline]] std::int32_t gather_v(const Gather& gather, const Particles<Real>& particles,
-                                        const std::int32_t* way_x, std::int32_t fastest,
+                                        void* ways, std::int32_t fastest,
                                         TransferResult<Real>& result) {
     const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
     const Speed* first = whole(further(gather.grid.v, row));
@@ -249,7 +246,7 @@ constexpr std::int32_t kStrip = 32;
     const Pace pace = gather.pace;
     const std::int32_t flip = gather.flip;
     const Strip strip(particles);
-    const std::int32_t* ways = whole(way_x + particles.count);
+    char* way = whole(static_cast<char*>(ways) + particles.count * Strip::kStep);
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
         const std::uint32_t from = strip.word(k);
@@ -260,15 +257,16 @@ constexpr std::int32_t kStrip = 32;
         fastest = maximum(fastest, change(strip.velocity(k).y.raw, flip,
                                           weighed(further(along, to_gained), row, w)));
         // Both axes in a word. Halves leave a bit that tells which of them is out of its bounds.
-        const std::uint32_t way = static_cast<std::uint32_t>(*further(ways, k)) +
-                                  static_cast<std::uint32_t>(way_y) * 0x10000U;
-        const std::uint32_t to = from + way;
+        const std::uint32_t way_x = word_at(way + k);
+        put_word(way + k, from);
+        const std::uint32_t both = way_x + static_cast<std::uint32_t>(way_y) * 0x10000U;
+        const std::uint32_t to = from + both;
         const std::uint32_t half = (to >> 1U) & 0x7FFF7FFFU;
         const std::uint32_t out = (half - kLowest) | (gather.high - half);
-        if (((way + 0x1000100U) & 0xFE00FE00U) == 0 && (out & 0x80008000U) == 0) {
-            __builtin_memcpy(__builtin_assume_aligned(strip.places + k, 4), &to, sizeof to);
+        if (((both + 0x1000100U) & 0xFE00FE00U) == 0 && (out & 0x80008000U) == 0) {
+            put_word(strip.places + k, to);
         } else {
-            advect_rare(gather, {*further(ways, k), way_y}, strip, k, result);
+            advect_rare(gather, {static_cast<std::int32_t>(way_x), way_y}, strip, k, result);
         }
     }
     return fastest;
@@ -293,16 +291,23 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
                         pace_of(clock_of(transfer.dt_s)),
                         transfer.flip_ratio.raw >> 2,
                         highest(s.nx) + highest(s.ny) * 0x10000U};
+    alignas(std::uint32_t) unsigned char own[kStripPacked * Strip::kStep];
+    void* const ways = transfer.before != nullptr ? transfer.before : static_cast<void*>(own);
     TransferResult<Real> result;
-    std::int32_t fastest = 0;
-    std::int32_t way_x[kStrip];
-    for (std::int32_t k = 0; k < particles.count; k += kStrip) {
-        const Particles<Real> strip = particles.part(k, minimum(kStrip, particles.count - k));
-        fastest = gather_u(gather, strip, way_x, fastest);
-        fastest = gather_v(gather, strip, way_x, fastest, result);
+    const std::int32_t known = transfer.max_speed.raw / 512;
+    std::int32_t fastest = known * known;
+    for (std::int32_t k = 0; k < particles.count; k += kStripPacked) {
+        const Particles<Real> strip =
+            particles.part(k, minimum(kStripPacked, particles.count - k));
+        fastest = gather_u(gather, strip, ways, fastest);
+        fastest = gather_v(gather, strip, ways, fastest, result);
     }
-    const std::uint32_t speed = fixed::root_below(static_cast<std::uint32_t>(fastest)).root;
-    result.max_speed = Real::of_raw(512 * static_cast<std::int32_t>(speed));
+    result.max_speed = transfer.max_speed;
+    if (fastest > known * known) {
+        const std::uint32_t speed =
+            fixed::root_below(static_cast<std::uint32_t>(fastest)).root;
+        result.max_speed = Real::of_raw(512 * static_cast<std::int32_t>(speed));
+    }
     if (result.max_speed > transfer.limit) {
         limit_all(particles, transfer.limit, result);
         result.max_speed = transfer.limit;

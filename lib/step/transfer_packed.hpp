@@ -12,6 +12,9 @@ namespace weir {
 std::int32_t scatter_packed(const Particles<SmallFixed>& particles,
                             StaggeredGrid<SmallFixed>& grid);
 
+/// Between its two passes a gather keeps a word of so many particles.
+inline constexpr std::int32_t kStripPacked = 32;
+
 /// As `grid_to_particle`.
 TransferResult<SmallFixed> gather_packed(const StaggeredGrid<SmallFixed>& grid,
                                          const Transfer<SmallFixed>& transfer,
