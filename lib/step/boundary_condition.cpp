@@ -30,6 +30,14 @@ Velocity<Real> velocity_now(const StaggeredGrid<Real>& grid, const PressureField
     return velocity;
 }
 
+/// Whether a face is an image that somebody reads.
+bool packed_image(const FaceAxis<SmallFixed>& axis, const PressureFields<SmallFixed>& fields,
+                  std::int32_t i, std::int32_t j, packed::Mirror& mirror) {
+    const std::int32_t face = axis.s.index(i, j);
+    return (axis.open()[face].raw != 0 || !is_unread(axis, fields, face)) &&
+           packed::find_mirror(axis, fields.level, i, j, mirror);
+}
+
 template <class Real>
 VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
                              std::int32_t j) {
@@ -37,14 +45,11 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& fiel
     const VelocityOf<Real> own = (axis.is_u ? field.velocity.u : field.velocity.v)[face];
     if constexpr (Stored<Real>::coarse) {
         packed::Mirror mirror;
-        if ((axis.open()[face].raw == 0 && is_unread(axis, field.fields, face)) ||
-            !packed::find_mirror(axis, field.fields.level, i, j, mirror)) {
+        if (!packed_image(axis, field.fields, i, j, mirror)) {
             return own;
         }
-        const packed::MirrorTask task{axis, field.velocity};
-        const std::int32_t image = field.was ? task.before(mirror, face)
-                                             : task.mirrored(mirror, face);
-        return VelocityOf<Real>::of_raw(short_of(rounded_shift(image, 1)));
+        return field.was ? packed::MirrorTask{axis, field.velocity}.speed_before(mirror, face)
+                         : packed::MirrorTask{axis, field.velocity}.speed_now(mirror, face);
     } else {
         Mirror<Real> mirror;
         return is_image(axis, field.fields, i, j, mirror)
@@ -73,6 +78,7 @@ void mirror_field(const Walls<Real>& walls, const Field<Real>& field, const Part
         const std::int32_t c = s.index(i, j);
         u[c] = fields.divergence[c];
         v[c] = fields.inverse_diagonal[c];
+        fields.inverse_diagonal[c] = Real(0);  // no liquid all around: packed worlds ask
     });
 }
 
@@ -290,6 +296,74 @@ void mirror_together(const Walls<Real>& walls, PressureFields<Real>& fields,
     }
 }
 
+/// Both fields of a packed world in one look at each face. What is computed is held one behind the
+/// other in scratch, and which faces of a cell it is for in place of the cell's diagonal.
+class PackedMirrors {
+public:
+    using Real = SmallFixed;
+    using Speed = VelocityOf<Real>;
+
+    PackedMirrors(const Walls<Real>& walls, PressureFields<Real>& fields, StaggeredGrid<Real>& grid)
+        : walls_(walls), fields_(fields), grid_(grid), was_(velocity_before(grid, fields)),
+          now_(velocity_now(grid, fields)), held_(fields.divergence),
+          end_(held_ + grid.shape.index(grid.shape.nx, grid.shape.ny - 1)) {}
+
+    /// False: there are too many, and nothing has happened.
+    bool mirror() {
+        const GridShape& s = grid_.shape;
+        const FaceAxis<Real> on_u{s, walls_, true};
+        const FaceAxis<Real> on_v{s, walls_, false};
+        const Part rows{0, s.ny};
+        for_each_near(s, walls_, rows, [&](std::int32_t i, std::int32_t j) {
+            fields_.inverse_diagonal[s.index(i, j)].raw = static_cast<std::int16_t>(
+                (i > 0 && hold(on_u, i, j) ? 1 : 0) + (j > 0 && hold(on_v, i, j) ? 2 : 0));
+        });
+        if (held_ > end_) {
+            return false;
+        }
+        held_ = fields_.divergence;
+        for_each_near(s, walls_, rows, [&](std::int32_t i, std::int32_t j) {
+            const std::int32_t c = s.index(i, j);
+            const std::int32_t which = fields_.inverse_diagonal[c].raw;
+            if ((which & 1) != 0) {
+                write(grid_.u, grid_.mass_u, c);
+            }
+            if ((which & 2) != 0) {
+                write(grid_.v, grid_.mass_v, c);
+            }
+        });
+        return true;
+    }
+
+private:
+    bool hold(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j) {
+        packed::Mirror mirror;
+        if (!packed_image(axis, fields_, i, j, mirror)) {
+            return false;
+        }
+        held_ += 2;
+        if (held_ <= end_) {
+            const std::int32_t face = axis.s.index(i, j);
+            held_[-2] = packed::MirrorTask{axis, now_}.speed_now(mirror, face);
+            held_[-1] = packed::MirrorTask{axis, was_}.speed_before(mirror, face);
+        }
+        return true;
+    }
+    void write(Speed* now, Speed* was, std::int32_t face) {
+        now[face] = held_[0];
+        was[face] = held_[1];
+        held_ += 2;
+    }
+
+    const Walls<Real>& walls_;
+    PressureFields<Real>& fields_;
+    StaggeredGrid<Real>& grid_;
+    Velocity<Real> was_;
+    Velocity<Real> now_;
+    Speed* held_;
+    Speed* end_;
+};
+
 }  // namespace
 
 template <class Real>
@@ -300,15 +374,20 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     const Field<Real> was{velocity_before(grid, fields), fields, true};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
-    if constexpr (!Stored<Real>::coarse) {  // little room for code, and diagonals are needed
-        const bool whole = enough && rows.first == 0 && rows.end == s.ny;
-        if (whole && s.ny >= kRowsOfTurns && work.pieces(s.ny, s.nx, 1) <= 1) {
+    bool done = false;
+    if (enough && rows.first == 0 && rows.end == s.ny && work.pieces(s.ny, s.nx, 1) <= 1) {
+        if constexpr (Stored<Real>::coarse) {
+            done = PackedMirrors(walls, fields, grid).mirror();
+        } else if (s.ny >= kRowsOfTurns) {
             mirror_together(walls, fields, grid);
-            for (std::int32_t loop = 1; loop < 4; ++loop) {
-                work.take(s.ny, s.nx);
-            }
-            return;
+            done = true;
         }
+    }
+    if (done) {
+        for (std::int32_t loop = 1; loop < 4; ++loop) {
+            work.take(s.ny, s.nx);
+        }
+        return;
     }
     mirror_field(walls, now, rows, work, fields, grid.u, grid.v);
     rows = work.take(s.ny, s.nx);

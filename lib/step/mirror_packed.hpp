@@ -86,6 +86,16 @@ struct MirrorTask {
         return of(liquid) - part(turned, mirror);
     }
 
+    static Speed speed_of(std::int32_t image) {
+        return Speed::of_raw(short_of(rounded_shift(image, 1)));
+    }
+    Speed speed_now(const Mirror& mirror, std::int32_t face) const {
+        return speed_of(mirrored(mirror, face));
+    }
+    Speed speed_before(const Mirror& mirror, std::int32_t face) const {
+        return speed_of(before(mirror, face));
+    }
+
     /// `weir::before`, 256ths. Faces that no particle reaches count as they are.
     std::int32_t before(const Mirror& mirror, std::int32_t face) const {
         const Whole relative = relative_to(mirror.wall, at_mirror(mirror));
