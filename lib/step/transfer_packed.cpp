@@ -3,6 +3,7 @@
 #include "math/packed_arithmetic.hpp"
 #include "step/places_packed.hpp"
 #include "step/tank_walls.hpp"
+#include "step/transfer_m0.hpp"
 
 namespace weir {
 
@@ -10,6 +11,7 @@ namespace {
 
 using namespace packed;
 
+#if !defined(__ARM_ARCH_6M__)
 /// Mass of 32 particles: 8 times what a full cell's faces hold.
 constexpr std::uint32_t kFull = 0x2000;
 
@@ -51,19 +53,31 @@ inline bool add_masses(Speed* low, Speed* high, const Weights& w) {
 #endif
     return true;
 }
+#endif
 
 /// One component of all particles to its faces, `mass` and `momentum` from the first of which.
 /// Both in one loop want more registers than there are. @return how often faces were full.
 template <bool OnU>
 [[gnu::noinline]] std::int32_t scatter(const Particles<Real>& particles, Speed* mass,
                                        Real* momentum, std::int32_t stride) {
-    const Strip strip(particles);
     const std::int32_t row = stride * kSpeedBytes;
     // Momenta lie twice as far apart as masses.
     const std::uintptr_t to_momentum = whole(reinterpret_cast<std::uintptr_t>(momentum) -
                                              2 * reinterpret_cast<std::uintptr_t>(mass));
-    const std::uint32_t half = kept(kHalf<OnU>);
     std::int32_t refused = 0;
+#if defined(__ARM_ARCH_6M__)
+    const auto* place = reinterpret_cast<const char*>(particles.position);
+    const std::ptrdiff_t to_velocity = reinterpret_cast<const char*>(particles.velocity) - place +
+                                       (OnU ? 0 : kSpeedBytes);
+    const char* const end = place + particles.count * Strip::kStep;
+    while (place != end) {
+        const bool full = add_particles<OnU>(
+            place, end, mass, row, to_velocity, to_momentum);
+        refused += full ? 1 : 0;
+    }
+#else
+    const Strip strip(particles);
+    const std::uint32_t half = kept(kHalf<OnU>);
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
         const std::uint32_t at = strip.word(k) + half;
@@ -79,6 +93,7 @@ template <bool OnU>
         add_two(p, w.lower_left * v, w.lower_right * v);
         add_two(further(p, 2 * row), w.upper_left * v, w.upper_right * v);
     }
+#endif
     return refused;
 }
 
