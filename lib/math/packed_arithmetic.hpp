@@ -95,11 +95,14 @@ inline void put_word(void* place, std::uint32_t word) {
     __builtin_memcpy(__builtin_assume_aligned(place, 4), &word, sizeof word);
 }
 
+/// Of the golden ratio: a product with it shows in all places.
+inline constexpr std::uint32_t kChance = 0x9E3779B1U;
+
 /// So many bits that are as good as random, out of a number whose last places change all the time:
 /// added before digits are cut off, they make what is rounded right on average. Rounded to the
 /// nearest, everything below half a unit a step would stand still. What stands still stays so.
 inline std::int32_t chance(std::int32_t number, int bits) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(number) * kept(0x9E3779B1U) >>
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(number) * kept(kChance) >>
                                      (32 - bits));
 }
 

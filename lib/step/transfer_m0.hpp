@@ -35,70 +35,73 @@ namespace weir::packed {
     "subs %[ll], %[ll], %[ul]\n\t"  \
     "subs %[at], %[at], %[ur]\n\t"
 
-#define WEIR_ADD_MASS(offset, weight)           \
-    "ldrh %[t], [%[low], #" offset "]\n\t"      \
-    "orrs %[seen], %[t]\n\t"                    \
-    "adds %[t], %[t], %[" weight "]\n\t"        \
+#define WEIR_ADD_MASS(offset, weight)      \
+    "ldrh %[t], [%[low], #" offset "]\n\t" \
+    "orrs %[seen], %[t]\n\t"               \
+    "adds %[t], %[t], %[" weight "]\n\t"   \
     "strh %[t], [%[low], #" offset "]\n\t"
-#define WEIR_TAKE_MASS(offset, weight)          \
-    "ldrh %[t], [%[low], #" offset "]\n\t"      \
-    "subs %[t], %[t], %[" weight "]\n\t"        \
+#define WEIR_TAKE_MASS(offset, weight)     \
+    "ldrh %[t], [%[low], #" offset "]\n\t" \
+    "subs %[t], %[t], %[" weight "]\n\t"   \
     "strh %[t], [%[low], #" offset "]\n\t"
-#define WEIR_ADD_MOMENTUM(offset, weight)       \
-    "ldr %[t], [%[low], #" offset "]\n\t"       \
-    "muls %[" weight "], %[v]\n\t"              \
-    "adds %[t], %[t], %[" weight "]\n\t"        \
+#define WEIR_ADD_MOMENTUM(offset, weight) \
+    "ldr %[t], [%[low], #" offset "]\n\t" \
+    "muls %[" weight "], %[v]\n\t"        \
+    "adds %[t], %[t], %[" weight "]\n\t"  \
     "str %[t], [%[low], #" offset "]\n\t"
 
-/// Along x and along y: `at` becomes the corner of the cell that the first face is in the middle of.
-#define WEIR_HALF_U "movs %[t], #128\n\t" "lsls %[t], %[t], #16\n\t" "adds %[at], %[at], %[t]\n\t"
+/// `kHalf`.
+#define WEIR_HALF_U            \
+    "movs %[t], #128\n\t"      \
+    "lsls %[t], %[t], #16\n\t" \
+    "adds %[at], %[at], %[t]\n\t"
 #define WEIR_HALF_V "adds %[at], #128\n\t"
 
-#define WEIR_SCATTER(half) \
-    __asm__(".syntax unified\n" \
-            "0:\n\t" \
-            "mov %[t], %[place]\n\t" \
-            "ldr %[at], [%[t]]\n\t" \
-            "add %[t], %[tv]\n\t" \
-            "movs %[seen], #0\n\t" \
-            "ldrsh %[v], [%[t], %[seen]]\n\t" \
-            "lsls %[v], %[v], #2\n\t" \
-            "movs %[t], #4\n\t" \
-            "add %[place], %[t]\n\t" \
-            half \
-            WEIR_FOUR_FACES \
-            WEIR_ADD_MASS("0", "ll") \
-            WEIR_ADD_MASS("2", "at") \
-            "add %[low], %[row]\n\t" \
-            WEIR_ADD_MASS("0", "ul") \
-            WEIR_ADD_MASS("2", "ur") \
-            "lsrs %[seen], %[seen], #13\n\t" \
-            "bne 1f\n\t" \
-            "lsls %[low], %[low], #1\n\t" \
-            "add %[low], %[to]\n\t" \
-            WEIR_ADD_MOMENTUM("0", "ul") \
-            WEIR_ADD_MOMENTUM("4", "ur") \
-            "mov %[t], %[row]\n\t" \
-            "lsls %[t], %[t], #1\n\t" \
-            "subs %[low], %[low], %[t]\n\t" \
-            WEIR_ADD_MOMENTUM("0", "ll") \
-            WEIR_ADD_MOMENTUM("4", "at") \
-            "ldr %[t], %[end]\n\t" \
-            "cmp %[place], %[t]\n\t" \
-            "bne 0b\n\t" \
-            "b 2f\n" \
-            "1:\n\t" \
-            WEIR_TAKE_MASS("0", "ul") \
-            WEIR_TAKE_MASS("2", "ur") \
-            "mov %[t], %[row]\n\t" \
-            "subs %[low], %[low], %[t]\n\t" \
-            WEIR_TAKE_MASS("0", "ll") \
-            WEIR_TAKE_MASS("2", "at") \
-            "2:\n\t" \
-            : [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll), \
+#define WEIR_SCATTER(half)                                                                   \
+    __asm__(".syntax unified\n"                                                              \
+            "0:\n\t"                                                                         \
+            "mov %[t], %[place]\n\t"                                                         \
+            "ldr %[at], [%[t]]\n\t"                                                          \
+            "add %[t], %[tv]\n\t"                                                            \
+            "movs %[seen], #0\n\t"                                                           \
+            "ldrsh %[v], [%[t], %[seen]]\n\t"                                                \
+            "lsls %[v], %[v], #2\n\t"                                                        \
+            "movs %[t], #4\n\t"                                                              \
+            "add %[place], %[t]\n\t"                                                         \
+            half                                                                             \
+            WEIR_FOUR_FACES                                                                  \
+            WEIR_ADD_MASS("0", "ll")                                                         \
+            WEIR_ADD_MASS("2", "at")                                                         \
+            "add %[low], %[row]\n\t"                                                         \
+            WEIR_ADD_MASS("0", "ul")                                                         \
+            WEIR_ADD_MASS("2", "ur")                                                         \
+            "lsrs %[seen], %[seen], #13\n\t"                                                 \
+            "bne 1f\n\t"                                                                     \
+            "lsls %[low], %[low], #1\n\t"                                                    \
+            "add %[low], %[to]\n\t"                                                          \
+            WEIR_ADD_MOMENTUM("0", "ul")                                                     \
+            WEIR_ADD_MOMENTUM("4", "ur")                                                     \
+            "mov %[t], %[row]\n\t"                                                           \
+            "lsls %[t], %[t], #1\n\t"                                                        \
+            "subs %[low], %[low], %[t]\n\t"                                                  \
+            WEIR_ADD_MOMENTUM("0", "ll")                                                     \
+            WEIR_ADD_MOMENTUM("4", "at")                                                     \
+            "ldr %[t], %[end]\n\t"                                                           \
+            "cmp %[place], %[t]\n\t"                                                         \
+            "bne 0b\n\t"                                                                     \
+            "b 2f\n"                                                                         \
+            "1:\n\t"                                                                         \
+            WEIR_TAKE_MASS("0", "ul")                                                        \
+            WEIR_TAKE_MASS("2", "ur")                                                        \
+            "mov %[t], %[row]\n\t"                                                           \
+            "subs %[low], %[low], %[t]\n\t"                                                  \
+            WEIR_TAKE_MASS("0", "ll")                                                        \
+            WEIR_TAKE_MASS("2", "at")                                                        \
+            "2:\n\t"                                                                         \
+            : [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll),        \
               [ul] "=&l"(ul), [ur] "=&l"(ur), [t] "=&l"(t), [v] "=&l"(v), [seen] "=&l"(seen) \
-            : [end] "m"(end), [first] "h"(first), [row] "h"(row), \
-              [tv] "h"(to_velocity), [to] "h"(to_momentum) \
+            : [end] "m"(end), [first] "h"(first), [row] "h"(row),                            \
+              [tv] "h"(to_velocity), [to] "h"(to_momentum)                                   \
             : "cc", "memory");
 
 /// Mass and momentum of one component of the particles from `place` to `end` to their faces, until
@@ -121,6 +124,200 @@ bool add_particles(const char*& place, const char* end, Speed* first, std::int32
 #undef WEIR_ADD_MASS
 #undef WEIR_TAKE_MASS
 #undef WEIR_ADD_MOMENTUM
+
+/// Of a field, `g`: what is weighed of four faces, 2^−15. `low` becomes the first of the upper ones.
+#define WEIR_WEIGH                   \
+    "ldrsh %[g], [%[low], %[z]]\n\t" \
+    "muls %[g], %[ll]\n\t"           \
+    "movs %[z], #2\n\t"              \
+    "ldrsh %[t], [%[low], %[z]]\n\t" \
+    "muls %[t], %[at]\n\t"           \
+    "adds %[g], %[g], %[t]\n\t"      \
+    "add %[low], %[row]\n\t"         \
+    "ldrsh %[t], [%[low], %[z]]\n\t" \
+    "muls %[t], %[ur]\n\t"           \
+    "adds %[g], %[g], %[t]\n\t"      \
+    "movs %[z], #0\n\t"              \
+    "ldrsh %[t], [%[low], %[z]]\n\t" \
+    "muls %[t], %[ul]\n\t"           \
+    "adds %[g], %[g], %[t]\n\t"
+
+/// Of a particle's `place` two fields: `at`, which carries it, and `g`, which it gains.
+#define WEIR_TWO_FIELDS(half) \
+    ".syntax unified\n"       \
+    "0:\n\t"                  \
+    "mov %[t], %[place]\n\t"  \
+    "ldr %[at], [%[t]]\n\t"   \
+    half                      \
+    WEIR_FOUR_FACES           \
+    "movs %[z], #0\n\t"       \
+    WEIR_WEIGH                \
+    "mov %[a], %[g]\n\t"      \
+    "add %[low], %[on]\n\t"   \
+    WEIR_WEIGH                \
+    "mov %[at], %[a]\n\t"
+
+/// `ll`: how far it goes (`moves`); its velocity (`change`), and whether it is the fastest. `t` and
+/// `ul` are then the place and from there to the way.
+#define WEIR_CHANGE                  \
+    "movs %[low], %[at]\n\t"         \
+    "adds %[low], #128\n\t"          \
+    "asrs %[low], %[low], #8\n\t"    \
+    "ldr %[t], %[scale]\n\t"         \
+    "muls %[low], %[t]\n\t"          \
+    "ldr %[t], %[shift]\n\t"         \
+    "asrs %[low], %[t]\n\t"          \
+    "ldr %[t], %[chance]\n\t"        \
+    "muls %[at], %[t]\n\t"           \
+    "lsrs %[at], %[at], #26\n\t"     \
+    "adds %[low], %[low], %[at]\n\t" \
+    "asrs %[ll], %[low], #6\n\t"     \
+    "mov %[t], %[place]\n\t"         \
+    "ldr %[ul], %[tv]\n\t"           \
+    "adds %[t], %[t], %[ul]\n\t"     \
+    "ldrsh %[at], [%[t], %[z]]\n\t"  \
+    "ldr %[ul], %[flip]\n\t"         \
+    "muls %[at], %[ul]\n\t"          \
+    "lsls %[g], %[g], #6\n\t"        \
+    "adds %[at], %[at], %[g]\n\t"    \
+    "movs %[ul], #128\n\t"           \
+    "lsls %[ul], %[ul], #6\n\t"      \
+    "adds %[at], %[at], %[ul]\n\t"   \
+    "asrs %[at], %[at], #14\n\t"     \
+    "sxth %[low], %[at]\n\t"         \
+    "cmp %[low], %[at]\n\t"          \
+    "beq 3f\n\t"                     \
+    "asrs %[at], %[at], #31\n\t"     \
+    "movs %[low], #128\n\t"          \
+    "lsls %[low], %[low], #8\n\t"    \
+    "subs %[low], #1\n\t"            \
+    "eors %[low], %[at]\n"           \
+    "3:\n\t"                         \
+    "strh %[low], [%[t]]\n\t"        \
+    "muls %[low], %[low]\n\t"        \
+    "ldr %[t], %[fastest]\n\t"       \
+    "cmp %[low], %[t]\n\t"           \
+    "ble 4f\n\t"                     \
+    "str %[low], %[fastest]\n"       \
+    "4:\n\t"                         \
+    "mov %[t], %[place]\n\t"         \
+    "ldr %[ul], %[tw]\n\t"
+
+/// What gathers one component of some particles.
+struct GatherTask {
+    const char* end;             ///< of the places
+    const Speed* first;          ///< of the faces
+    std::int32_t row;            ///< bytes
+    std::ptrdiff_t on;           ///< from the upper faces of a field to the lower ones of the other
+    std::int32_t scale;          ///< of the clock
+    std::int32_t shift;
+    std::int32_t flip;
+    std::ptrdiff_t to_velocity;  ///< from a place
+    std::ptrdiff_t to_way;
+    std::uint32_t chance;        ///< what makes bits as good as random
+};
+
+/// Along x: velocities and ways of all. @return the square of the fastest, or `fastest`.
+inline std::int32_t gather_along_u(const GatherTask& given, const char* place,
+                                   std::int32_t fastest) {
+    const GatherTask task = given;
+    std::uint32_t at, low, ll, ul, ur, t, z, g, along;
+    __asm__(WEIR_TWO_FIELDS(WEIR_HALF_U)
+            WEIR_CHANGE
+            "str %[ll], [%[t], %[ul]]\n\t"
+            "adds %[t], #4\n\t"
+            "mov %[place], %[t]\n\t"
+            "ldr %[ul], %[end]\n\t"
+            "cmp %[t], %[ul]\n\t"
+            "beq 5f\n\t"
+            "b 0b\n"
+            "5:\n\t"
+            : [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll),
+              [ul] "=&l"(ul), [ur] "=&l"(ur), [t] "=&l"(t), [z] "=&l"(z), [g] "=&l"(g),
+              [a] "=&h"(along), [fastest] "+m"(fastest)
+            : [end] "m"(task.end), [first] "h"(task.first), [row] "h"(task.row),
+              [on] "h"(task.on), [scale] "m"(task.scale), [shift] "m"(task.shift),
+              [chance] "m"(task.chance), [flip] "m"(task.flip),
+              [tv] "m"(task.to_velocity), [tw] "m"(task.to_way)
+            : "cc", "memory");
+    return fastest;
+}
+
+/// What `gather_v` compares words with.
+struct WayBounds {
+    std::uint32_t low;
+    std::uint32_t high;
+    std::uint32_t half;
+    std::uint32_t one;
+    std::uint32_t far;
+};
+
+/// A particle that does not simply go its way, if `stops` is not 0.
+struct Stop {
+    std::uint32_t stops;
+    Vec2<std::int32_t> way;
+};
+
+/// Along y, from `place` on: velocities, and there they go, up to one that does not simply go.
+/// Where they come from takes the place of the ways along x.
+inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_given, const char*& place,
+                           std::int32_t& fastest_yet) {
+    const GatherTask task = given;
+    const WayBounds bounds = bounds_given;
+    std::int32_t fastest = fastest_yet;
+    std::uint32_t at, low, ll, ul, ur, t, z, g, along;
+    __asm__(WEIR_TWO_FIELDS(WEIR_HALF_V)
+            WEIR_CHANGE
+            "ldr %[at], [%[t]]\n\t"
+            "ldr %[ur], [%[t], %[ul]]\n\t"
+            "str %[at], [%[t], %[ul]]\n\t"
+            "mov %[a], %[ll]\n\t"
+            "lsls %[ll], %[ll], #16\n\t"
+            "adds %[ll], %[ll], %[ur]\n\t"
+            "adds %[z], %[at], %[ll]\n\t"
+            "lsrs %[low], %[z], #1\n\t"
+            "ldr %[at], %[half]\n\t"
+            "ands %[low], %[at]\n\t"
+            "ldr %[ul], %[lowest]\n\t"
+            "subs %[g], %[low], %[ul]\n\t"
+            "ldr %[ul], %[highest]\n\t"
+            "subs %[ul], %[ul], %[low]\n\t"
+            "orrs %[g], %[ul]\n\t"
+            "bics %[g], %[at]\n\t"
+            "ldr %[ul], %[one]\n\t"
+            "adds %[ll], %[ll], %[ul]\n\t"
+            "ldr %[ul], %[far]\n\t"
+            "ands %[ll], %[ul]\n\t"
+            "orrs %[g], %[ll]\n\t"
+            "bne 5f\n\t"
+            "str %[z], [%[t]]\n\t"
+            "adds %[t], #4\n\t"
+            "mov %[place], %[t]\n\t"
+            "ldr %[ul], %[end]\n\t"
+            "cmp %[t], %[ul]\n\t"
+            "beq 5f\n\t"
+            "b 0b\n"
+            "5:\n\t"
+            : [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll),
+              [ul] "=&l"(ul), [ur] "=&l"(ur), [t] "=&l"(t), [z] "=&l"(z), [g] "=&l"(g),
+              [a] "=&h"(along), [fastest] "+m"(fastest)
+            : [end] "m"(task.end), [first] "h"(task.first), [row] "h"(task.row),
+              [on] "h"(task.on), [scale] "m"(task.scale), [shift] "m"(task.shift),
+              [chance] "m"(task.chance), [flip] "m"(task.flip),
+              [tv] "m"(task.to_velocity), [tw] "m"(task.to_way),
+              [lowest] "m"(bounds.low), [highest] "m"(bounds.high), [half] "m"(bounds.half),
+              [one] "m"(bounds.one), [far] "m"(bounds.far)
+            : "cc", "memory");
+    fastest_yet = fastest;
+    return {g, {static_cast<std::int32_t>(ur), static_cast<std::int32_t>(along)}};
+}
+
+#undef WEIR_FOUR_FACES
+#undef WEIR_HALF_U
+#undef WEIR_HALF_V
+#undef WEIR_WEIGH
+#undef WEIR_TWO_FIELDS
+#undef WEIR_CHANGE
 
 }  // namespace weir::packed
 

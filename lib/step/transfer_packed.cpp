@@ -227,10 +227,40 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
     speed = {Speed(v.x), Speed(v.y)};
 }
 
+// Of ways and places in a word: halves of both, and what goes no further than a cell.
+constexpr std::uint32_t kHalves = 0x7FFF7FFFU;
+constexpr std::uint32_t kOneCell = 0x1000100U;
+constexpr std::uint32_t kFarBits = 0xFE00FE00U;
+
+#if defined(__ARM_ARCH_6M__)
+/// `first`: the first face. `between`: to the same one of the other field.
+GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const void* ways,
+                   const Speed* first, std::ptrdiff_t between, std::ptrdiff_t component) {
+    const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
+    const auto* place = reinterpret_cast<const char*>(particles.position);
+    return {place + particles.count * Strip::kStep,
+            first,
+            row,
+            between - row,
+            gather.pace.scale,
+            gather.pace.shift,
+            gather.flip,
+            reinterpret_cast<const char*>(particles.velocity) - place + component,
+            static_cast<const char*>(ways) - place,
+            kChance};
+}
+#endif
+
 /// Along x: velocities, and how far each particle goes, 256ths, a word. A pass for each component: both
 /// want more registers than there are. @return the square of the fastest, or `fastest`.
 [[gnu::noinline]] std::int32_t gather_u(const Gather& gather, const Particles<Real>& particles,
                                         void* ways, std::int32_t fastest) {
+#if defined(__ARM_ARCH_6M__)
+    const auto* place = reinterpret_cast<const char*>(particles.position);
+    return gather_along_u(task_of(gather, particles, ways, gather.grid.u + 1,
+                                  bytes_between(gather.grid.u, gather.grid.mass_u), 0),
+                          place, fastest);
+#else
     const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
     const Speed* first = whole(gather.grid.u + 1);
     const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.u, gather.grid.mass_u));
@@ -249,6 +279,7 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
                                           weighed(further(along, to_gained), row, w)));
     }
     return fastest;
+#endif
 }
 
 /// Along y, and there they go. Where they come from takes the place of the ways along x.
@@ -256,6 +287,20 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
                                         void* ways, std::int32_t fastest,
                                         TransferResult<Real>& result) {
     const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
+#if defined(__ARM_ARCH_6M__)
+    const GatherTask task = task_of(gather, particles, ways, further(gather.grid.v, row),
+                                    bytes_between(gather.grid.v, gather.grid.mass_v), kSpeedBytes);
+    const WayBounds bounds{kLowest, gather.high, kHalves, kOneCell, kFarBits};
+    const Strip strip(particles);
+    for (const auto* place = reinterpret_cast<const char*>(particles.position);
+         place != task.end;) {
+        const Stop stop = gather_along_v(task, bounds, place, fastest);
+        if (stop.stops != 0) {
+            advect_rare(gather, stop.way, strip, place - task.end, result);
+            place += Strip::kStep;
+        }
+    }
+#else
     const Speed* first = whole(further(gather.grid.v, row));
     const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.v, gather.grid.mass_v));
     const Pace pace = gather.pace;
@@ -276,14 +321,15 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along) {
         put_word(way + k, from);
         const std::uint32_t both = way_x + static_cast<std::uint32_t>(way_y) * 0x10000U;
         const std::uint32_t to = from + both;
-        const std::uint32_t half = (to >> 1U) & 0x7FFF7FFFU;
+        const std::uint32_t half = (to >> 1U) & kHalves;
         const std::uint32_t out = (half - kLowest) | (gather.high - half);
-        if (((both + 0x1000100U) & 0xFE00FE00U) == 0 && (out & 0x80008000U) == 0) {
+        if (((both + kOneCell) & kFarBits) == 0 && (out & ~kHalves) == 0) {
             put_word(strip.places + k, to);
         } else {
             advect_rare(gather, {static_cast<std::int32_t>(way_x), way_y}, strip, k, result);
         }
     }
+#endif
     return fastest;
 }
 
