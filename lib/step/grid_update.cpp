@@ -1,6 +1,7 @@
 #include "step/grid_update.hpp"
 
 #include "math/packed_arithmetic.hpp"
+#include "math/quotient_packed.hpp"
 #include "pressure/projection.hpp"
 #include "step/extrapolate_lanes.hpp"
 #include "step/extrapolate_packed.hpp"
@@ -59,7 +60,7 @@ void update_packed(const SmallFixed* momentum, VelocityOf<SmallFixed>* mass, con
         const std::int32_t sum = reinterpret_cast<const AliasedRaw*>(momentum)[face];
         const std::uint32_t divisor = static_cast<std::uint32_t>(m) * 4U;
         const auto size =
-            static_cast<std::int32_t>((fixed::magnitude(sum) + divisor / 2U) / divisor);
+            static_cast<std::int32_t>(quotient_of(fixed::magnitude(sum) + divisor / 2U, divisor));
         const std::int32_t before = sum < 0 ? -size : size;
         mass[face].raw = short_of(before);
         velocity[face].raw = short_of(before + faster);
