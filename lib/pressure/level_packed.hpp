@@ -33,15 +33,24 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
                            EmptySlivers<SmallFixed> empty_slivers, const Part& rows,
                            PressureFields<SmallFixed>& fields) {
     const GridShape& s = grid.shape;
-    const ShareOf<SmallFixed>* full = cut.full;
+    const ShareOf<SmallFixed>* const full = cut.full;
+    const VelocityOf<SmallFixed>* const mass_u = grid.mass_u;
+    const VelocityOf<SmallFixed>* const mass_v = grid.mass_v;
+    DensityOf<SmallFixed>* const densities = fields.density;
+    LevelOf<SmallFixed>* const levels = fields.level;
     // Mass of a face is in 256ths of a particle, four faces a cell.
     const std::uint32_t per_face = 0x4000U / static_cast<std::uint32_t>(rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         Part slivers;
-        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
-            const auto mass = static_cast<std::uint32_t>(
-                (grid.mass_u[c].raw + grid.mass_u[c + 1].raw) +
-                (grid.mass_v[c].raw + grid.mass_v[c + s.stride].raw));
+        const std::int32_t end = s.index(s.nx, j);
+        for (std::int32_t c = s.index(0, j); c < end; ++c) {
+            const auto mass = static_cast<std::uint32_t>((mass_u[c].raw + mass_u[c + 1].raw) +
+                                                         (mass_v[c].raw + mass_v[c + s.stride].raw));
+            if (mass == 0) {
+                densities[c].raw = 0;
+                levels[c].raw = -kDepth[0];
+                continue;
+            }
             auto density = static_cast<std::int32_t>((mass * per_face + 0x8000U) >> 16U);
             if (full != nullptr && full[c].raw < 128 && density > 0) {
                 if (full[c].raw * rest_count < 128) {
@@ -49,8 +58,8 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
                 }
                 density = full[c].raw < 3 ? 0 : density * 128 / full[c].raw;
             }
-            fields.density[c].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
-            fields.level[c].raw = packed_level(density);
+            densities[c].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
+            levels[c].raw = packed_level(density);
         }
         if (!slivers.empty() && empty_slivers != nullptr) {
             empty_slivers(grid, borders, cut, j, slivers, fields.level);

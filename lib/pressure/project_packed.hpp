@@ -22,29 +22,34 @@ template <bool Solids, bool Mixed>
 void project_packed(const FaceWeights<Solids, Mixed, SmallFixed>& weights, const Part& rows,
                     const PressureFields<SmallFixed>& fields, StaggeredGrid<SmallFixed>& grid) {
     const GridShape& s = grid.shape;
-    const SmallFixed* p = fields.pressure;
-    const LevelOf<SmallFixed>* level = fields.level;
-    const auto accelerate = [&](VelocityOf<SmallFixed>* velocity, std::int32_t face,
-                                std::int32_t before, bool wet, const ShareOf<SmallFixed>* open) {
-        const bool wet_before = level[before].raw > 0;
+    const SmallFixed* const p = fields.pressure;
+    const LevelOf<SmallFixed>* const level = fields.level;
+    const auto accelerate = [&](VelocityOf<SmallFixed>& velocity, std::int32_t face,
+                                std::int32_t before, bool both, const ShareOf<SmallFixed>* open) {
         const std::int32_t share = Solids ? open[face].raw : 128;
-        if ((wet || wet_before) && share > 0) {
-            const std::int32_t rise = wet && wet_before
-                                          ? p[face].raw - p[before].raw
-                                          : packed::rise_at_surface(fields, before, face, share);
-            velocity[face].raw = short_of(velocity[face].raw - rounded_shift(rise, 9));
+        if (share > 0) {
+            const std::int32_t rise = both ? p[face].raw - p[before].raw
+                                           : packed::rise_at_surface(fields, before, face, share);
+            velocity.raw = short_of(velocity.raw - rounded_shift(rise, 9));
         }
     };
+    const std::int32_t stride = s.stride;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const bool has_lower = weights.has_lower(j);
         const std::int32_t row = s.index(0, j);
-        for (std::int32_t c = row; c < row + s.nx; ++c) {
+        const std::int32_t behind = row + s.nx;
+        bool wet_before = weights.has_left(0) && level[row - 1].raw > 0;
+        for (std::int32_t c = row; c < behind; ++c) {
             const bool wet = level[c].raw > 0;
-            if (weights.has_left(c - row)) {
-                accelerate(grid.u, c, c - 1, wet, weights.walls.open_u);
+            if ((wet || wet_before) && (c > row || weights.has_left(0))) {
+                accelerate(grid.u[c], c, c - 1, wet && wet_before, weights.walls.open_u);
             }
+            wet_before = wet;
             if (has_lower) {
-                accelerate(grid.v, c, c - s.stride, wet, weights.walls.open_v);
+                const bool wet_below = level[c - stride].raw > 0;
+                if (wet || wet_below) {
+                    accelerate(grid.v[c], c, c - stride, wet && wet_below, weights.walls.open_v);
+                }
             }
         }
     }

@@ -188,7 +188,17 @@ template <bool Solids, class Real>
 
 /// A pressure to start from.
 inline SmallFixed rescaled(SmallFixed last, SmallFixed rescale) {
-    return rescale.raw == 1 << 16 ? last : bounded(last * rescale);
+    const auto share = static_cast<std::uint32_t>(rescale.raw);
+    if (share == 1U << 16U) {
+        return last;
+    }
+    if (share > 1U << 16U) {
+        return bounded(last * rescale);
+    }
+    const std::uint32_t size = fixed::magnitude(last.raw);
+    const auto less = static_cast<std::int32_t>((size >> 16U) * share +
+                                                (((size & 0xFFFFU) * share + 0x8000U) >> 16U));
+    return bounded(SmallFixed::of_raw(last.raw < 0 ? -less : less));
 }
 
 /// The equation of a liquid cell that has air, a wall or the tank's end beside it.

@@ -32,6 +32,12 @@ struct AirFaces {
 
 /// Rounded to the nearest, ties away from zero.
 inline std::int32_t mean_of(std::int32_t sum, std::int32_t count) {
+    if (count == 1) {
+        return sum;
+    }
+    if (count != 3) {  // two, or four
+        return fixed::add(sum, (count >> 1) + (sum >> 31)) >> (count >> 1);
+    }
     const std::int32_t whole = sum / count;
     const std::int32_t rest = sum - whole * count;
     return whole + (2 * rest >= count ? 1 : (2 * rest <= -count ? -1 : 0));
