@@ -123,7 +123,7 @@ inline std::int32_t coarse_factor(std::int32_t step, std::int32_t diagonal) {
 /// What a row's cells are relaxed with. (One place for all of it: five arguments are a call's price
 /// on a small chip.)
 template <class Real>
-struct RelaxTask {
+struct PackedRelaxTask {
     const PressureFields<Real>& fields;
     const Walls<Real>& walls;
     std::int32_t stride;
@@ -131,14 +131,14 @@ struct RelaxTask {
     std::int32_t of_4;  ///< that of cells with four and with three sides
     std::int32_t of_3;
 
-    RelaxTask(const PressureFields<Real>& f, const Walls<Real>& w, std::int32_t row, Real omega)
+    PackedRelaxTask(const PressureFields<Real>& f, const Walls<Real>& w, std::int32_t row, Real omega)
         : fields(f), walls(w), stride(row), step(omega.raw >> 1), of_4(step / 512),
           of_3(step / 384) {}
 };
 
 /// A cell at the surface or at a wall.
 template <bool Solids, class Real>
-[[gnu::noinline]] void relax_rare(const RelaxTask<Real>& task, Real* at) {
+[[gnu::noinline]] void relax_rare(const PackedRelaxTask<Real>& task, Real* at) {
     const PressureFields<Real>& fields = task.fields;
     const auto c = static_cast<std::int32_t>(at - fields.pressure);
     const std::int32_t kept = fields.inverse_diagonal[c].raw;
@@ -150,7 +150,7 @@ template <bool Solids, class Real>
 
 /// Relaxes cells c, c + 2 … of a row.
 template <bool Solids, class Real>
-[[gnu::noinline]] void relax_packed_row(const RelaxTask<Real>& task, std::int32_t c) {
+[[gnu::noinline]] void relax_packed_row(const PackedRelaxTask<Real>& task, std::int32_t c) {
     const PressureFields<Real>& fields = task.fields;
     Real* here = fields.pressure + c;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;
@@ -356,7 +356,7 @@ template <bool Solids, bool Mixed, class Real>
                                     std::int32_t low, std::int32_t high, Real omega,
                                     std::int32_t colour, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    const RelaxTask<Real> task(fields, weights.walls, s.stride, omega);
+    const PackedRelaxTask<Real> task(fields, weights.walls, s.stride, omega);
     for (std::int32_t j = low; j <= high; ++j) {
         relax_packed_row<Solids>(task, s.index((j + colour) & 1, j));
     }
