@@ -40,6 +40,7 @@ constexpr weir::WorldDef kDefinition = [] {
     def.capacity = kCapacity;
     def.cell_m = kCell;
     def.cfl = 2.0F;  // one substep a step, but in the wildest splash
+    def.pressure_sweeps = POCKET_SWEEPS;
     return def;
 }();
 
