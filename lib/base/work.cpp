@@ -28,9 +28,11 @@ Part Progress::next(std::int32_t items, std::int32_t cost) {
         return {};
     }
     const std::int32_t first = position_;
-    const std::int64_t all = static_cast<std::int64_t>(items - first) * cost;
-    if (all <= left_) {
-        left_ -= static_cast<std::int32_t>(all);
+    // Products of 64 bits are dear where there are none.
+    const bool small = items < 0x8000 && cost < 0x10000;
+    if (small ? (items - first) * cost <= left_
+              : static_cast<std::int64_t>(items - first) * cost <= left_) {
+        left_ -= (items - first) * cost;
         position_ = 0;
         ++done_;
         return {first, items};

@@ -59,12 +59,18 @@ void blend_row(const BlendRow& row) {
     std::int32_t here = row.field[0].raw;
     for (std::int32_t k = 0; k < row.count; ++k) {
         const std::int32_t right = row.field[k + 1].raw;
+        const std::int32_t now = row.now[k].raw;
+        if ((now | here | row.diagonal[k].raw) == 0) {  // a third of them are in the air
+            row.was[k].raw = 0;
+            left = here;
+            here = right;
+            continue;
+        }
         std::int32_t sharp = here;
         if (Sharp && amid(row.diagonal[k]) && amid(row.before[k])) {
             sharp = sharpened(here, left, right, row.lower[k].raw, row.field[k + row.stride].raw);
         }
         row.was[k].raw = static_cast<std::int16_t>(here);
-        const std::int32_t now = row.now[k].raw;
         if ((now | here | sharp) != 0) {
             row.field[k].raw = blended(now, here, sharp, row.share);
         }
