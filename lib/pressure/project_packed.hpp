@@ -16,41 +16,43 @@ namespace packed {
     return pressure_rise(fields, before, face, SmallFixed::of_raw(share * 512)).raw;
 }
 
+/// One row of faces of a kind, `back` from a face to the cell before it. A kind at a time: both want
+/// more registers than there are.
+template <bool Solids>
+[[gnu::noinline]] void project_faces(const PressureFields<SmallFixed>& fields,
+                                     const ShareOf<SmallFixed>* open, std::int32_t back,
+                                     const Part& faces, VelocityOf<SmallFixed>* velocity) {
+    const LevelOf<SmallFixed>* const level = fields.level;
+    for (std::int32_t face = faces.first; face < faces.end; ++face) {
+        const std::int32_t own = level[face].raw;
+        const std::int32_t before = level[face - back].raw;
+        if (own <= 0 && before <= 0) {
+            continue;
+        }
+        const std::int32_t share = Solids ? open[face].raw : 128;
+        if (share > 0) {
+            const SmallFixed* p = fields.pressure + face;
+            const std::int32_t rise = own > 0 && before > 0
+                                          ? p[0].raw - p[-back].raw
+                                          : rise_at_surface(fields, face - back, face, share);
+            velocity[face].raw = short_of(velocity[face].raw - rounded_shift(rise, 9));
+        }
+    }
+}
+
 }  // namespace packed
 
 template <bool Solids, bool Mixed>
 void project_packed(const FaceWeights<Solids, Mixed, SmallFixed>& weights, const Part& rows,
                     const PressureFields<SmallFixed>& fields, StaggeredGrid<SmallFixed>& grid) {
     const GridShape& s = grid.shape;
-    const SmallFixed* const p = fields.pressure;
-    const LevelOf<SmallFixed>* const level = fields.level;
-    const auto accelerate = [&](VelocityOf<SmallFixed>& velocity, std::int32_t face,
-                                std::int32_t before, bool both, const ShareOf<SmallFixed>* open) {
-        const std::int32_t share = Solids ? open[face].raw : 128;
-        if (share > 0) {
-            const std::int32_t rise = both ? p[face].raw - p[before].raw
-                                           : packed::rise_at_surface(fields, before, face, share);
-            velocity.raw = short_of(velocity.raw - rounded_shift(rise, 9));
-        }
-    };
-    const std::int32_t stride = s.stride;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        const bool has_lower = weights.has_lower(j);
         const std::int32_t row = s.index(0, j);
-        const std::int32_t behind = row + s.nx;
-        bool wet_before = weights.has_left(0) && level[row - 1].raw > 0;
-        for (std::int32_t c = row; c < behind; ++c) {
-            const bool wet = level[c].raw > 0;
-            if ((wet || wet_before) && (c > row || weights.has_left(0))) {
-                accelerate(grid.u[c], c, c - 1, wet && wet_before, weights.walls.open_u);
-            }
-            wet_before = wet;
-            if (has_lower) {
-                const bool wet_below = level[c - stride].raw > 0;
-                if (wet || wet_below) {
-                    accelerate(grid.v[c], c, c - stride, wet && wet_below, weights.walls.open_v);
-                }
-            }
+        const std::int32_t first = weights.has_left(0) ? row : row + 1;
+        packed::project_faces<Solids>(fields, weights.walls.open_u, 1, {first, row + s.nx}, grid.u);
+        if (weights.has_lower(j)) {
+            packed::project_faces<Solids>(fields, weights.walls.open_v, s.stride,
+                                          {row, row + s.nx}, grid.v);
         }
     }
 }
