@@ -13,6 +13,11 @@ void fold_along(Mass* mass, Real* momentum, Line inside, Line ghost, const Surfa
     for (std::int32_t k = 0; k < inside.count; ++k) {
         const std::int32_t to = inside.first + k * inside.step;
         const std::int32_t from = ghost.first + k * ghost.step;
+        if constexpr (Stored<Real>::coarse) {
+            if (mass[from].raw == 0) {
+                continue;  // nor has it momentum
+            }
+        }
         const Real image =
             wall.no_slip ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
         mass[to] += mass[from];
