@@ -116,8 +116,9 @@ Extent<float> extent(const Particles<float>& particles) {
 #endif
 
 /// Cells first … end − 1 along an axis of so many.
-Part span_of(std::int32_t cells, std::int32_t low, std::int32_t high, std::int32_t at_once) {
-    return {maximum(0, low - kMargin) / at_once * at_once, minimum(cells, high + kMargin + 1)};
+Part span_of(std::int32_t cells, std::int32_t low, std::int32_t high, std::int32_t at_once,
+             std::int32_t above) {
+    return {maximum(0, low - kMargin) / at_once * at_once, minimum(cells, high + above + 1)};
 }
 
 /// Empties columns first … end − 1 of a row of the tank.
@@ -153,16 +154,17 @@ template <class Real>
 GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
                         const Extent<Real>& extent, bool from_corner) {
     const auto cell = [](PositionOf<Real> place) { return static_cast<std::int32_t>(Real(place)); };
+    constexpr std::int32_t kAbove = Stored<Real>::coarse ? kMarginPacked : kMargin;
     GridShape part = tank;
     if (!borders.wrap_x) {
         const Part columns = span_of(tank.nx, from_corner ? 0 : cell(extent.low.x),
-                                     cell(extent.high.x), kWindowColumns);
+                                     cell(extent.high.x), kWindowColumns, kAbove);
         part.i0 = columns.first;
         part.nx = columns.end - columns.first;
     }
     if (!borders.wrap_y) {
         const Part rows = span_of(tank.ny, from_corner ? 0 : cell(extent.low.y),
-                                  cell(extent.high.y), kWindowRows);
+                                  cell(extent.high.y), kWindowRows, kAbove);
         part.j0 = rows.first;
         part.ny = rows.end - rows.first;
     }

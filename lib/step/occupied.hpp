@@ -14,6 +14,9 @@ namespace weir {
 /// reaches, one that velocity is extrapolated to, and what stencils of smoothing and mirroring look
 /// at beyond. Columns on either side likewise.
 inline constexpr std::int32_t kMargin = 4;
+/// Above and to the right in packed worlds: liquid that a mirror's place is beside is no further up
+/// than the row that mass reaches, and its stencil begins a row beyond that place.
+inline constexpr std::int32_t kMarginPacked = 3;
 
 /// Cost: 4 comparisons a particle, of which there is at least one. From so many columns on it does
 /// not matter how far they reach.

@@ -145,7 +145,8 @@ struct WorldDef {
 
     /// Red-black relaxation sweeps per substep, after one correction on cells four times as large;
     /// 1 … 1000, of which 4 are always made: after fewer, energy might rise. What is left of the
-    /// divergence falls to a fiftieth with 6, a sixteenth with 4.
+    /// divergence falls to a fiftieth with 6, a sixteenth with 4. `SmallFixed` makes two more in
+    /// place of that correction, 4 at least.
     std::int32_t pressure_sweeps = 6;
 
     /// Longest way of a particle within one substep, cells; 0.1 … 2. The step is cut accordingly.
