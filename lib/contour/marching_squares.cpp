@@ -89,7 +89,7 @@ Real slope(const Real distance[4], Edge edge) {
 
 /// Scaled by the larger part first: the squares of tiny distances would vanish.
 /// Of a vector that is not 0. Packed worlds: to 2^−14, by a root of 32 bits and two divisions.
-Vec2<SmallFixed> packed_unit(Vec2<SmallFixed> v) {
+inline Vec2<SmallFixed> packed_unit(Vec2<SmallFixed> v) {
     std::uint32_t x = fixed::magnitude(v.x.raw);
     std::uint32_t y = fixed::magnitude(v.y.raw);
     for (; (x | y) >= 1U << 14U; y >>= 1U) {

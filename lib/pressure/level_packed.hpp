@@ -44,8 +44,9 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
         Part slivers;
         const std::int32_t end = s.index(s.nx, j);
         for (std::int32_t c = s.index(0, j); c < end; ++c) {
-            const auto mass = static_cast<std::uint32_t>((mass_u[c].raw + mass_u[c + 1].raw) +
-                                                         (mass_v[c].raw + mass_v[c + s.stride].raw));
+            const auto mass = static_cast<std::uint32_t>(
+                (mass_u[c].raw + mass_u[c + 1].raw) +
+                (mass_v[c].raw + mass_v[c + s.stride].raw));
             if (mass == 0) {
                 densities[c].raw = 0;
                 levels[c].raw = -kDepth[0];

@@ -16,8 +16,8 @@ namespace packed {
     return pressure_rise(fields, before, face, SmallFixed::of_raw(share * 512)).raw;
 }
 
-/// One row of faces of a kind, `back` from a face to the cell before it. A kind at a time: both want
-/// more registers than there are.
+/// One row of faces of a kind, `back` from a face to the cell before it. A kind at a time: both
+/// want more registers than there are.
 template <bool Solids>
 [[gnu::noinline]] void project_faces(const PressureFields<SmallFixed>& fields,
                                      const ShareOf<SmallFixed>* open, std::int32_t back,

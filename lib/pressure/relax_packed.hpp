@@ -131,7 +131,8 @@ struct PackedRelaxTask {
     std::int32_t of_4;  ///< that of cells with four and with three sides
     std::int32_t of_3;
 
-    PackedRelaxTask(const PressureFields<Real>& f, const Walls<Real>& w, std::int32_t row, Real omega)
+    PackedRelaxTask(const PressureFields<Real>& f, const Walls<Real>& w, std::int32_t row,
+                    Real omega)
         : fields(f), walls(w), stride(row), step(omega.raw >> 1), of_4(step / 512),
           of_3(step / 384) {}
 };

@@ -1,10 +1,9 @@
 #include "solid/collide.hpp"
 
-#include "math/packed_arithmetic.hpp"
-#include "solid/body_force.hpp"
+#include "solid/blow.hpp"
 #include "solid/first_entry.hpp"
+#include "solid/look_packed.hpp"
 #include "solid/near_wall_lanes.hpp"
-#include "solid/reflect.hpp"
 #include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
 
@@ -30,53 +29,6 @@ constexpr Real kOtherSide = Real(0.0625);
 
 /// A pressed particle may go this far around what presses it, cells.
 constexpr std::int32_t kSlip = 1;
-
-template <class Real>
-struct Scene {
-    const GridShape& shape;
-    const Walls<Real>& walls;
-    Particles<Real>& particles;
-    Contacts<Real>& contacts;
-    CollideResult<Real>& result;
-    Seconds<Real> dt_s;
-    bool beyond;  ///< where no picture is stored, and a search for a way out would draw a thousand
-};
-
-/// Where a place of the liquid would be if it had moved with the body in this substep.
-template <class Real>
-Vec2<Real> carried(const Scene<Real>& scene, const Body<Real>& body, Vec2<Real> x) {
-    return scene.walls.moving && body.kind == BodyKind::moving
-               ? x + scene.dt_s * velocity_at(body, x)
-               : x;
-}
-
-/// Gives the particle its velocity after a blow of a body at `x`, and the body its due.
-template <class Real>
-void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
-          Vec2<Real> after) {
-    Particles<Real>& particles = scene.particles;
-    const Vec2<Real> before = particles.velocity[k];
-    particles.velocity[k] = after;
-    const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
-    if (scene.contacts.capacity > 0) {
-        record_blow(scene.contacts, scene.walls.body[slot], slot, kind, x, before - after);
-    }
-    if (scene.walls.load != nullptr) {
-        receive_blow(scene.walls, slot, kind, x, before - after);
-    }
-    scene.result.max_speed =
-        maximum(scene.result.max_speed, maximum(absolute(after.x), absolute(after.y)));
-}
-
-/// The surface of a body answers a particle that hits it at `x`.
-template <class Real>
-[[gnu::noinline]] void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
-                              Vec2<Real> x, Vec2<Real> normal) {
-    const Body<Real>& body = scene.walls.body[slot];
-    const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
-    const Vec2<Real> before = scene.particles.velocity[k];
-    blow(scene, k, slot, x, reflect(body.surface, surface, before, normal));
-}
 
 /// Blows that are to be answered once it is clear that the particle can stay where they put it.
 template <class Real>
@@ -349,77 +301,21 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
 
 #endif
 
-/// Whether all cells that a path can touch are without solid.
-bool is_path_open(std::int32_t stride, const std::uint8_t* origin, std::uint32_t from,
-                  std::uint32_t to) {
-    const auto column = [](std::uint32_t place) { return low_byte(place >> 8U); };
-    const auto row = [](std::uint32_t place) { return static_cast<std::int32_t>(place >> 24U); };
-    const std::int32_t first = minimum(column(from), column(to));
-    const std::int32_t last = maximum(column(from), column(to));
-    for (std::int32_t j = minimum(row(from), row(to)); j <= maximum(row(from), row(to)); ++j) {
-        for (std::int32_t i = first; i <= last; ++i) {
-            if (origin[j * stride + i] != kCellOutside) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-/// `last_near_wall` of packed places, as words. By itself, so that its loop has all registers.
-[[gnu::noinline]] std::int32_t last_near_wall(const std::uint8_t* origin, std::int32_t stride,
-                                              const Vec2<PositionOf<SmallFixed>>* places,
-                                              std::int32_t count) {
-    const Vec2<PositionOf<SmallFixed>>* at = places + count;
-    while (at != places) {
-        at = whole(at - 1);
-        const std::uint32_t place = word_at(at);
-        if (origin[static_cast<std::int32_t>(place >> 24U) * stride + low_byte(place >> 8U)] !=
-            kCellOutside) {
-            return static_cast<std::int32_t>(at - places);
-        }
-    }
-    return -1;
-}
-
-/// What a packed particle's place says by itself.
-enum class Place : std::uint8_t { open, at_wall, far };
-
-[[gnu::noinline]] Place look_at(Scene<SmallFixed>& scene, const Flight<SmallFixed>& flight,
-                                const std::uint8_t* origin, std::int32_t first, std::int32_t n) {
-    const std::int32_t stride = scene.shape.stride;
-    const Walls<SmallFixed>& walls = scene.walls;
-    const auto& place = scene.particles.position[first + n];
-    const std::uint32_t to = word_at(&place);
-    const std::int32_t cell = static_cast<std::int32_t>(to >> 24U) * stride + low_byte(to >> 8U);
-    const std::uint8_t which = origin[cell];
-    if (flight.far && is_far(Vec2<SmallFixed>(flight.before[n]), Vec2<SmallFixed>(place)) &&
-        !is_path_open(stride, origin, word_at(flight.before + n), to)) {
-        return Place::far;
-    }
-    if (which == kCellOutside) {
-        return Place::open;
-    }
-    const auto* low = walls.distance + (origin - walls.cell_case) + cell;
-    const auto* high = low + stride;
-    if (packed::side_of_line(which, {{low[0].raw, low[1].raw, high[1].raw, high[0].raw},
-                                     4 * low_byte(to), 4 * low_byte(to >> 16U)}) > 0) {
-        ++scene.result.tested;
-        return Place::open;
-    }
-    return Place::at_wall;
-}
-
-void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& flight, std::int32_t first,
-                    std::int32_t count) {
-    const std::uint8_t* origin = scene.walls.cell_case + scene.shape.index(0, 0);
+/// Nearly all particles are in cells without solid, and nearly all others clearly in the open.
+inline void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& flight,
+                           std::int32_t first, std::int32_t count) {
+    const packed::CasesAt cells(scene.shape, scene.walls);
     for (std::int32_t n = count; n > 0;) {
-        n = flight.far ? n - 1
-                       : last_near_wall(origin, scene.shape.stride,
-                                        scene.particles.position + first, n);
-        const Place at = n < 0 ? Place::open : look_at(scene, flight, origin, first, n);
-        if (at != Place::open && !meet_contour(scene, first + n, Vec2<SmallFixed>(flight.before[n]),
-                                               at == Place::far)) {
+        const auto* places = scene.particles.position + first;
+        n = flight.far ? n - 1 : packed::last_near_wall(cells, places, n);
+        if (n < 0) {
+            return;
+        }
+        const auto* before = flight.far ? flight.before + n : nullptr;
+        const packed::Look look = packed::look_at(cells, places + n, before, scene.result.tested);
+        const Vec2<SmallFixed> from = flight.before[n];
+        if (look != packed::Look::open &&
+            !meet_contour(scene, first + n, from, look == packed::Look::far)) {
             remove(scene, first + n, flight.mark_removed);
         }
     }

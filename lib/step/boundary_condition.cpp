@@ -30,14 +30,6 @@ Velocity<Real> velocity_now(const StaggeredGrid<Real>& grid, const PressureField
     return velocity;
 }
 
-/// Whether a face is an image that somebody reads.
-bool packed_image(const FaceAxis<SmallFixed>& axis, const PressureFields<SmallFixed>& fields,
-                  std::int32_t i, std::int32_t j, packed::Mirror& mirror) {
-    const std::int32_t face = axis.s.index(i, j);
-    return (axis.open()[face].raw != 0 || !is_unread(axis, fields, face)) &&
-           packed::find_mirror(axis, fields.level, i, j, mirror);
-}
-
 template <class Real>
 VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
                              std::int32_t j) {
@@ -45,7 +37,7 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& fiel
     const VelocityOf<Real> own = (axis.is_u ? field.velocity.u : field.velocity.v)[face];
     if constexpr (Stored<Real>::coarse) {
         packed::Mirror mirror;
-        if (!packed_image(axis, field.fields, i, j, mirror)) {
+        if (!packed::is_image(axis, field.fields, i, j, mirror)) {
             return own;
         }
         return field.was ? packed::MirrorTask{axis, field.velocity}.speed_before(mirror, face)
@@ -296,74 +288,6 @@ void mirror_together(const Walls<Real>& walls, PressureFields<Real>& fields,
     }
 }
 
-/// Both fields of a packed world in one look at each face. What is computed is held one behind the
-/// other in scratch, and which faces of a cell it is for in place of the cell's diagonal.
-class PackedMirrors {
-public:
-    using Real = SmallFixed;
-    using Speed = VelocityOf<Real>;
-
-    PackedMirrors(const Walls<Real>& walls, PressureFields<Real>& fields, StaggeredGrid<Real>& grid)
-        : walls_(walls), fields_(fields), grid_(grid), was_(velocity_before(grid, fields)),
-          now_(velocity_now(grid, fields)), held_(fields.divergence),
-          end_(held_ + grid.shape.index(grid.shape.nx, grid.shape.ny - 1)) {}
-
-    /// False: there are too many, and nothing has happened.
-    bool mirror() {
-        const GridShape& s = grid_.shape;
-        const FaceAxis<Real> on_u{s, walls_, true};
-        const FaceAxis<Real> on_v{s, walls_, false};
-        const Part rows{0, s.ny};
-        for_each_near(s, walls_, rows, [&](std::int32_t i, std::int32_t j) {
-            fields_.inverse_diagonal[s.index(i, j)].raw = static_cast<std::int16_t>(
-                (i > 0 && hold(on_u, i, j) ? 1 : 0) + (j > 0 && hold(on_v, i, j) ? 2 : 0));
-        });
-        if (held_ > end_) {
-            return false;
-        }
-        held_ = fields_.divergence;
-        for_each_near(s, walls_, rows, [&](std::int32_t i, std::int32_t j) {
-            const std::int32_t c = s.index(i, j);
-            const std::int32_t which = fields_.inverse_diagonal[c].raw;
-            if ((which & 1) != 0) {
-                write(grid_.u, grid_.mass_u, c);
-            }
-            if ((which & 2) != 0) {
-                write(grid_.v, grid_.mass_v, c);
-            }
-        });
-        return true;
-    }
-
-private:
-    bool hold(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j) {
-        packed::Mirror mirror;
-        if (!packed_image(axis, fields_, i, j, mirror)) {
-            return false;
-        }
-        held_ += 2;
-        if (held_ <= end_) {
-            const std::int32_t face = axis.s.index(i, j);
-            held_[-2] = packed::MirrorTask{axis, now_}.speed_now(mirror, face);
-            held_[-1] = packed::MirrorTask{axis, was_}.speed_before(mirror, face);
-        }
-        return true;
-    }
-    void write(Speed* now, Speed* was, std::int32_t face) {
-        now[face] = held_[0];
-        was[face] = held_[1];
-        held_ += 2;
-    }
-
-    const Walls<Real>& walls_;
-    PressureFields<Real>& fields_;
-    StaggeredGrid<Real>& grid_;
-    Velocity<Real> was_;
-    Velocity<Real> now_;
-    Speed* held_;
-    Speed* end_;
-};
-
 }  // namespace
 
 template <class Real>
@@ -377,7 +301,7 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     bool done = false;
     if (enough && rows.first == 0 && rows.end == s.ny && work.pieces(s.ny, s.nx, 1) <= 1) {
         if constexpr (Stored<Real>::coarse) {
-            done = PackedMirrors(walls, fields, grid).mirror();
+            done = packed::BothMirrors(walls, fields, grid, now.velocity, was.velocity).mirror();
         } else if (s.ny >= kRowsOfTurns) {
             mirror_together(walls, fields, grid);
             done = true;

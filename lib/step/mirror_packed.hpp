@@ -222,6 +222,80 @@ inline bool find_mirror(const FaceAxis<Real>& axis, const LevelOf<Real>* level, 
            mirror_of(axis, level, from, face, beyond, {-normal.x, -normal.y}, mirror);
 }
 
+/// Whether a face is an image that somebody reads.
+inline bool is_image(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
+                     std::int32_t i, std::int32_t j, Mirror& mirror) {
+    const std::int32_t face = axis.s.index(i, j);
+    return (axis.open()[face].raw != 0 || !is_unread(axis, fields, face)) &&
+           find_mirror(axis, fields.level, i, j, mirror);
+}
+
+/// Both fields of a packed world in one look at each face. What is computed is held one behind the
+/// other in scratch, and which faces of a cell it is for in place of the cell's diagonal.
+class BothMirrors {
+public:
+    BothMirrors(const Walls<Real>& walls, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
+                const Velocity<Real>& now, const Velocity<Real>& was)
+        : walls_(walls), fields_(fields), grid_(grid), now_(now), was_(was),
+          held_(fields.divergence),
+          end_(held_ + grid.shape.index(grid.shape.nx, grid.shape.ny - 1)) {}
+
+    /// False: there are too many, and nothing has happened.
+    bool mirror() {
+        const GridShape& s = grid_.shape;
+        const FaceAxis<Real> on_u{s, walls_, true};
+        const FaceAxis<Real> on_v{s, walls_, false};
+        const Part rows{0, s.ny};
+        for_each_near(s, walls_, rows, [&](std::int32_t i, std::int32_t j) {
+            fields_.inverse_diagonal[s.index(i, j)].raw = static_cast<std::int16_t>(
+                (i > 0 && hold(on_u, i, j) ? 1 : 0) + (j > 0 && hold(on_v, i, j) ? 2 : 0));
+        });
+        if (held_ > end_) {
+            return false;
+        }
+        held_ = fields_.divergence;
+        for_each_near(s, walls_, rows, [&](std::int32_t i, std::int32_t j) {
+            const std::int32_t c = s.index(i, j);
+            const std::int32_t which = fields_.inverse_diagonal[c].raw;
+            if ((which & 1) != 0) {
+                write(grid_.u, grid_.mass_u, c);
+            }
+            if ((which & 2) != 0) {
+                write(grid_.v, grid_.mass_v, c);
+            }
+        });
+        return true;
+    }
+
+private:
+    bool hold(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j) {
+        Mirror mirror;
+        if (!is_image(axis, fields_, i, j, mirror)) {
+            return false;
+        }
+        held_ += 2;
+        if (held_ <= end_) {
+            const std::int32_t face = axis.s.index(i, j);
+            held_[-2] = MirrorTask{axis, now_}.speed_now(mirror, face);
+            held_[-1] = MirrorTask{axis, was_}.speed_before(mirror, face);
+        }
+        return true;
+    }
+    void write(Speed* now, Speed* was, std::int32_t face) {
+        now[face] = held_[0];
+        was[face] = held_[1];
+        held_ += 2;
+    }
+
+    const Walls<Real>& walls_;
+    PressureFields<Real>& fields_;
+    StaggeredGrid<Real>& grid_;
+    const Velocity<Real>& now_;
+    const Velocity<Real>& was_;
+    Speed* held_;
+    Speed* end_;
+};
+
 }  // namespace packed
 
 }  // namespace weir

@@ -125,7 +125,7 @@ bool add_particles(const char*& place, const char* end, Speed* first, std::int32
 #undef WEIR_TAKE_MASS
 #undef WEIR_ADD_MOMENTUM
 
-/// Of a field, `g`: what is weighed of four faces, 2^−15. `low` becomes the first of the upper ones.
+/// `g`: what is weighed of a field's four faces, 2^−15. `low` becomes the first of the upper ones.
 #define WEIR_WEIGH                   \
     "ldrsh %[g], [%[low], %[z]]\n\t" \
     "muls %[g], %[ll]\n\t"           \
@@ -260,8 +260,8 @@ struct Stop {
 
 /// Along y, from `place` on: velocities, and there they go, up to one that does not simply go.
 /// Where they come from takes the place of the ways along x.
-inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_given, const char*& place,
-                           std::int32_t& fastest_yet) {
+inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_given,
+                           const char*& place, std::int32_t& fastest_yet) {
     const GatherTask task = given;
     const WayBounds bounds = bounds_given;
     std::int32_t fastest = fastest_yet;

@@ -251,8 +251,8 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
 }
 #endif
 
-/// Along x: velocities, and how far each particle goes, 256ths, a word. A pass for each component: both
-/// want more registers than there are. @return the square of the fastest, or `fastest`.
+/// Along x: velocities, and how far each particle goes, 256ths, a word. A pass for each component:
+/// both want more registers than there are. @return the square of the fastest, or `fastest`.
 [[gnu::noinline]] std::int32_t gather_u(const Gather& gather, const Particles<Real>& particles,
                                         void* ways, std::int32_t fastest) {
 #if defined(__ARM_ARCH_6M__)
@@ -282,7 +282,15 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
 #endif
 }
 
-/// Along y, and there they go. Where they come from takes the place of the ways along x.
+/// A Cortex-M0 has one loop for both.
+#if defined(__ARM_ARCH_6M__)
+constexpr bool kAlwaysKeeps = true;
+#else
+constexpr bool kAlwaysKeeps = false;
+#endif
+
+/// Along y, and there they go. `Keeps`: where they come from takes the place of the ways along x.
+template <bool Keeps>
 [[gnu::noinline]] std::int32_t gather_v(const Gather& gather, const Particles<Real>& particles,
                                         void* ways, std::int32_t fastest,
                                         TransferResult<Real>& result) {
@@ -318,7 +326,9 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
                                           weighed(further(along, to_gained), row, w)));
         // Both axes in a word. Halves leave a bit that tells which of them is out of its bounds.
         const std::uint32_t way_x = word_at(way + k);
-        put_word(way + k, from);
+        if (Keeps) {
+            put_word(way + k, from);
+        }
         const std::uint32_t both = way_x + static_cast<std::uint32_t>(way_y) * 0x10000U;
         const std::uint32_t to = from + both;
         const std::uint32_t half = (to >> 1U) & kHalves;
@@ -361,7 +371,8 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
         const Particles<Real> strip =
             particles.part(k, minimum(kStripPacked, particles.count - k));
         fastest = gather_u(gather, strip, ways, fastest);
-        fastest = gather_v(gather, strip, ways, fastest, result);
+        fastest = (transfer.before != nullptr ? gather_v<true> : gather_v<kAlwaysKeeps>)(
+            gather, strip, ways, fastest, result);
     }
     result.max_speed = transfer.max_speed;
     if (fastest > known * known) {

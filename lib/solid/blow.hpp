@@ -1,0 +1,58 @@
+// Particles that hit a body, and what the body receives.
+#pragma once
+
+#include "solid/body_force.hpp"
+#include "solid/collide.hpp"
+#include "solid/reflect.hpp"
+
+namespace weir {
+
+/// What `collide` works on.
+template <class Real>
+struct Scene {
+    const GridShape& shape;
+    const Walls<Real>& walls;
+    Particles<Real>& particles;
+    Contacts<Real>& contacts;
+    CollideResult<Real>& result;
+    Seconds<Real> dt_s;
+    bool beyond;  ///< where no picture is stored, and a search for a way out would draw a thousand
+};
+
+/// Where a place of the liquid would be if it had moved with the body in this substep.
+template <class Real>
+Vec2<Real> carried(const Scene<Real>& scene, const Body<Real>& body, Vec2<Real> x) {
+    return scene.walls.moving && body.kind == BodyKind::moving
+               ? x + scene.dt_s * velocity_at(body, x)
+               : x;
+}
+
+/// Gives the particle its velocity after a blow of a body at `x`, and the body its due.
+template <class Real>
+void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
+          Vec2<Real> after) {
+    Particles<Real>& particles = scene.particles;
+    const Vec2<Real> before = particles.velocity[k];
+    particles.velocity[k] = after;
+    const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
+    if (scene.contacts.capacity > 0) {
+        record_blow(scene.contacts, scene.walls.body[slot], slot, kind, x, before - after);
+    }
+    if (scene.walls.load != nullptr) {
+        receive_blow(scene.walls, slot, kind, x, before - after);
+    }
+    scene.result.max_speed =
+        maximum(scene.result.max_speed, maximum(absolute(after.x), absolute(after.y)));
+}
+
+/// The surface of a body answers a particle that hits it at `x`.
+template <class Real>
+[[gnu::noinline]] void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
+                              Vec2<Real> x, Vec2<Real> normal) {
+    const Body<Real>& body = scene.walls.body[slot];
+    const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
+    const Vec2<Real> before = scene.particles.velocity[k];
+    blow(scene, k, slot, x, reflect(body.surface, surface, before, normal));
+}
+
+}  // namespace weir
