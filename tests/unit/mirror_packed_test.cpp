@@ -1,5 +1,6 @@
 // Faces in solids: packed worlds, in whole numbers, against what Fixed makes of the same fields.
 #include <cmath>
+#include <cstdlib>
 
 #include "step/boundary_condition.hpp"
 #include "test_world.hpp"
@@ -26,7 +27,8 @@ WorldDef tank_with(Bodies bodies) {
 template <class Real>
 class MirroredTank {
 public:
-    explicit MirroredTank(Bodies bodies) : world_(tank_with(bodies)) {
+    /// `at_once`: both fields in one look at each face, as in a step that is not cut.
+    explicit MirroredTank(Bodies bodies, bool at_once = false) : world_(tank_with(bodies)) {
         BodyId id;
         BodyDef leaning = body_of(kTriangle, {0.03F, 0.02F}, 0.3F);
         leaning.surface.no_slip = bodies == Bodies::sticking;
@@ -48,7 +50,11 @@ public:
             simulation().pressure.level[c] = Real(i < 18.0 ? 1.0 : -1.0);
         }
         simulation().layers.walls.sticking = bodies == Bodies::sticking;
-        mirror_in_solids(simulation().layers.walls, simulation().pressure, grid());
+        Progress progress;
+        progress.begin();
+        progress.resume(kMostWork);
+        mirror_in_solids(simulation().layers.walls, simulation().pressure, grid(),
+                         at_once ? Work(progress) : Work());
     }
 
     Simulation<Real>& simulation() {
@@ -88,6 +94,29 @@ TEST_P(PackedMirror, IsWhatFixedMakesOfTheSameFields) {
         EXPECT_GT(images, 10) << which;
         EXPECT_LE(off, images / 20) << which;  // on a ridge either side is as near
         EXPECT_LT(sum / images, 0.03) << which;
+    }
+}
+
+TEST_P(PackedMirror, IsTheSameInOneLookAtEachFaceAndFieldByField) {
+    MirroredTank<SmallFixed> one(GetParam(), true);
+    MirroredTank<SmallFixed> two(GetParam());
+    for (int which = 0; which < 4; ++which) {
+        for (std::int32_t c = 0; c < one.shape().size(); ++c) {
+            ASSERT_EQ(one.field(which)[c].raw, two.field(which)[c].raw) << which << ' ' << c;
+        }
+    }
+}
+
+TEST_P(PackedMirror, LeavesNothingThatIsTakenForADiagonalAmidLiquid) {
+    for (const bool at_once : {false, true}) {
+        MirroredTank<SmallFixed> tank(GetParam(), at_once);
+        const Walls<SmallFixed>& walls = tank.simulation().layers.walls;
+        for_each_near(tank.shape(), walls, {0, tank.shape().ny},
+                      [&](std::int32_t i, std::int32_t j) {
+                          const std::int32_t c = tank.shape().index(i, j);
+                          const auto left = tank.simulation().pressure.inverse_diagonal[c];
+                          EXPECT_LE(std::abs(left.raw), 3) << i << ' ' << j;
+                      });
     }
 }
 
