@@ -304,18 +304,13 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
 /// Nearly all particles are in cells without solid, and nearly all others clearly in the open.
 inline void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& flight,
                            std::int32_t first, std::int32_t count) {
-    const packed::CasesAt cells(scene.shape, scene.walls);
     for (std::int32_t n = count; n > 0;) {
-        const auto* places = scene.particles.position + first;
-        n = flight.far ? n - 1 : packed::last_near_wall(cells, places, n);
-        if (n < 0) {
-            return;
-        }
-        const auto* before = flight.far ? flight.before + n : nullptr;
-        const packed::Look look = packed::look_at(cells, places + n, before, scene.result.tested);
-        const Vec2<SmallFixed> from = flight.before[n];
-        if (look != packed::Look::open &&
-            !meet_contour(scene, first + n, from, look == packed::Look::far)) {
+        const packed::Found found = packed::next_at_wall(
+            scene.shape, scene.walls, scene.particles.position + first,
+            flight.far ? flight.before : nullptr, n, scene.result.tested);
+        n = found.n;
+        if (n >= 0 && !meet_contour(scene, first + n, Vec2<SmallFixed>(flight.before[n]),
+                                    found.far)) {
             remove(scene, first + n, flight.mark_removed);
         }
     }

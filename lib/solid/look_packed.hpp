@@ -81,4 +81,28 @@ enum class Look : std::uint8_t { open, near, far };
     return Look::near;
 }
 
+struct Found {
+    std::int32_t n;  ///< −1: none
+    bool far;
+};
+
+/// The last of `count` particles that is not clearly in the open. `before`: null: none of them went
+/// further than a cell. By itself: what it needs is off the stack when a contour is asked.
+[[gnu::noinline]] inline Found next_at_wall(const GridShape& s, const Walls<SmallFixed>& walls,
+                                            const PlaceOfParticle* places,
+                                            const PlaceOfParticle* before, std::int32_t count,
+                                            std::int32_t& tested) {
+    const CasesAt at(s, walls);
+    for (std::int32_t n = count; n > 0;) {
+        n = before != nullptr ? n - 1 : last_near_wall(at, places, n);
+        const Look look = n < 0 ? Look::open
+                                : look_at(at, places + n, before != nullptr ? before + n : nullptr,
+                                          tested);
+        if (look != Look::open) {
+            return {n, look == Look::far};
+        }
+    }
+    return {-1, false};
+}
+
 }  // namespace weir::packed

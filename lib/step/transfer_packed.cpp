@@ -106,6 +106,9 @@ struct Clock {
 Clock clock_of(Seconds<Real> dt_s) {
     std::int32_t scale = minimum<std::int32_t>(dt_s.raw, (1 << 30) - 1);
     std::int32_t shift = 23;
+    for (; scale >= 0x800000; scale >>= 8) {
+        shift -= 8;
+    }
     while (scale >= 0x8000) {
         scale >>= 1;
         --shift;
