@@ -183,8 +183,7 @@ Borders<Real> borders_of(const WorldDef& def, Face<Real> pace) {
     return borders;
 }
 
-/// After fewer a coarse correction may leave more energy than it found. Packed worlds have none,
-/// and make two sweeps more than told in its place.
+/// After fewer a coarse correction may leave more energy; in its place packed worlds add two.
 template <class Real>
 constexpr std::int32_t kLeastSweeps = Stored<Real>::coarse ? 2 : 4;
 
@@ -213,8 +212,7 @@ Settings<Real> settings_of(const WorldState<Real>& state) {
     settings.second_density = static_cast<Real>(def.second_density_ratio);
     settings.borders = borders_of<Real>(def, pace);
     settings.cfl = static_cast<Real>(def.cfl);
-    settings.sweeps =
-        static_cast<std::int16_t>(maximum(def.pressure_sweeps, kLeastSweeps<Real>));
+    settings.sweeps = static_cast<std::int16_t>(maximum(def.pressure_sweeps, kLeastSweeps<Real>));
     settings.max_substeps = static_cast<std::int16_t>(def.max_substeps);
     Face<Real> sound_speed = pace * static_cast<Face<Real>>(def.sound_speed_mps);
     if (def.sound_speed_mps == 0.0F) {
