@@ -109,12 +109,16 @@ inline constexpr bool kPaysForLifting = sizeof(Product<Real>) == sizeof(Real);
 template <class Real>
 inline constexpr Real kStirred = Real(0.01);
 
-/// At most a 64th of a patch's velocity is the price, and not more than a 256th comes back: impacts
-/// keep their pressure, and what is at rest stays so.
+/// A patch's velocity over the most that it pays of it: impacts keep their pressure.
 template <class Real>
 inline constexpr Real kMostPrice = Real(64);
+
+/// The same of the most that comes back: what is at rest stays so. Drops, and what is compressible,
+/// are stirred by less.
 template <class Real>
-inline constexpr Real kMostRefund = Real(256);
+inline Real most_refund(const PressureFields<Real>& fields) {
+    return Real(fields.on_surface || fields.sound_speed > Real(0) ? 256 : 152);
+}
 
 /// Work of a patch's drift: against the pressure, or, where it gives way to that, against gravity,
 /// if that is more. Only what falls pays: the pressure of a blow rises in any direction.
@@ -142,14 +146,14 @@ inline Real share_of_drift(const Weights<Real>& sums, Real mean_excess) {
 /// Which share of its velocity a patch gives for what the drift lifts in it, and gets for what it
 /// lets down. Liquid in order is not asked: what it does is reversed later.
 template <class Real>
-inline Real price_of(const Weights<Real>& sums) {
+inline Real price_of(const Weights<Real>& sums, Real most_refund) {
     const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
     const Real work = work_of_drift(sums) * (disorder / kStirred<Real>);
     const Real moving = in_turn(sums.moving);
     if (work > Real(0)) {
         return work / (moving + kMostPrice<Real> * work);
     }
-    return moving > -kMostRefund<Real> * work ? work / moving : Real(0);
+    return moving > -most_refund * work ? work / moving : Real(0);
 }
 
 /// Drift on each of a patch's open faces, column by column, as `for_each_face` meets them.
@@ -251,7 +255,7 @@ inline void drift_any(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>
     if constexpr (kPaysForLifting<Real>) {
         if (pays) {
             find_ways<true>(drift, grid, ways, sums);
-            const Real price = price_of(sums);
+            const Real price = price_of(sums, most_refund(drift.fields));
             if (slows_down(drift, sums)) {
                 find_ways<false>(drift, grid, ways, sums);
             }
@@ -276,7 +280,7 @@ inline void drift_at_once(Drift& drift, bool pays, StaggeredGrid<float>& grid) {
     if (pays) {
         Weights<float> sums;
         find_drift<true, Closed>(drift, grid, way, sums);
-        price = price_of(sums);
+        price = price_of(sums, most_refund(drift.fields));
         pays = !slows_down(drift, sums);
     }
     if (!pays) {
@@ -312,7 +316,7 @@ inline void drift_apart(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Rea
             if (pays) {
                 Weights<Real> sums;
                 weigh_rows(drift, grid, sums);
-                price = price_of(sums);
+                price = price_of(sums, most_refund(drift.fields));
                 slows_down(drift, sums);
             }
             drift_rows(drift, price, grid);

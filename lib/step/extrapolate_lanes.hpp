@@ -8,12 +8,23 @@
 
 namespace weir {
 
-/// A push on liquid makes spray at most this much faster than the liquid is by it: what turns is
-/// faster beyond its surface, by the curvature. What a compressible liquid stores is no rotation's:
-/// it squeezes out jets, which its push would follow.
+/// How much faster than the liquid beside it a push on that liquid may make spray.
 template <class Real>
-inline Real reach_of_push(const PressureFields<Real>& fields) {
-    return Real(fields.sound_speed > Real(0) ? 1.0F : 1.2F);
+struct ReachOfPush {
+    Real factor;  ///< of the liquid's speed
+    Real beyond;  ///< and so much more
+};
+
+/// What turns is faster beyond its surface, by the curvature. Where the surface leans the liquid's
+/// faces do not agree, within a quarter of what gravity gives in a step, on what it takes to carry
+/// the spray above them. What a compressible liquid stores is no rotation's: it squeezes out jets,
+/// which its push would follow.
+template <class Real>
+inline ReachOfPush<Real> reach_of_push(const PressureFields<Real>& fields) {
+    if (fields.sound_speed > Real(0)) {
+        return {Real(1), Real(0)};
+    }
+    return {Real(1.2F), fields.on_surface ? Real(0) : Real(0.25F) * fields.cell_weight};
 }
 
 #if WEIR_HAS_LANES
@@ -27,7 +38,7 @@ struct ExtrapolateTask {
     std::int32_t back;
     std::int32_t stride;
     Lever lever;
-    float reach;  ///< `reach_of_push`
+    ReachOfPush<float> reach;
     float fall;   ///< what gravity makes of a velocity in the step
     bool velocity_itself;
     bool has_lower;      ///< whether the rows beside it are the tank's
@@ -39,13 +50,15 @@ struct ExtrapolateTask {
 /// As `push_on_spray`.
 template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
-                                typename L::Floats spray, float most, float fall,
+                                typename L::Floats spray,
+                                ReachOfPush<float> most, float fall,
                                 typename L::Floats open) {
     const auto zero = L::all(0.0F);
-    const auto reach = L::all(most) * liquid;
+    const auto reach = L::all(most.factor) * liquid;
     const auto speed = L::absolute(spray);
-    const auto faster = L::minimum(push, L::maximum(speed, reach) - spray);
-    const auto back = L::maximum(push, L::minimum(zero - speed, reach) - spray);
+    const auto beyond = L::all(most.beyond);
+    const auto faster = L::minimum(push, (L::maximum(speed, reach) + beyond) - spray);
+    const auto back = L::maximum(push, (L::minimum(zero - speed, reach) - beyond) - spray);
     const auto gained = push > zero ? faster : back;
     const auto stops = gained > zero
                            ? L::minimum(gained, L::maximum(zero, L::all(fall) - spray))

@@ -117,12 +117,14 @@ struct Component {
 /// through a face that is `open` in part stops it, and speeds it up, beyond the `fall` that gravity
 /// gives in a step, by that part: no more liquid is behind it.
 template <class Real>
-Real push_on_spray(Real push, Real liquid, Real spray, Real most, Real fall, Real open) {
-    const Real reach = most * liquid;
+Real push_on_spray(Real push, Real liquid, Real spray, ReachOfPush<Real> most, Real fall,
+                   Real open) {
+    const Real reach = most.factor * liquid;
     const Real speed = absolute(spray);
-    const Real gained = push > Real(0)
-                            ? minimum<Real>(push, maximum<Real>(speed, reach) - spray)
-                            : maximum<Real>(push, minimum<Real>(Real(0) - speed, reach) - spray);
+    const Real most_up = maximum<Real>(speed, reach) + most.beyond;
+    const Real most_down = minimum<Real>(Real(0) - speed, reach) - most.beyond;
+    const Real gained = push > Real(0) ? minimum<Real>(push, most_up - spray)
+                                       : maximum<Real>(push, most_down - spray);
     const Real stops =
         gained > Real(0) ? minimum<Real>(gained, maximum<Real>(Real(0), fall - spray))
                          : maximum<Real>(gained, minimum<Real>(Real(0), Real(0) - fall - spray));
@@ -134,7 +136,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                            bool velocity_itself, const GridShape& s, const Part& rows) {
     const LevelOf<Real>* level = fields.level;
     const std::int32_t back = component.back;
-    const Real reach = reach_of_push(fields);
+    const ReachOfPush<Real> reach = reach_of_push(fields);
     const auto height = [&](std::int32_t cell) { return bound_key(Real(level[cell])); };
     const auto wet = [&](std::int32_t face) {
         return height(face) > bound_key(Real(0)) || height(face - back) > bound_key(Real(0));
@@ -187,7 +189,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
             if (amid && component.light == nullptr && component.thin == nullptr &&
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
                                    back, s.stride, lever_of(fields),
-                                   static_cast<float>(reach), fields.cell_weight, velocity_itself,
+                                   reach, fields.cell_weight, velocity_itself,
                                    j > component.first_j, j + 1 < s.ny, face, row + s.nx})) {
                 continue;
             }

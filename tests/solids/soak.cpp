@@ -111,23 +111,34 @@ int outside(const Soak& soak, const Pool& pool) {
     return count;
 }
 
+/// Steps at the end that figures are means over: a few periods of what still sways.
+constexpr int kMeasured = 300;
+
+/// Mean height, less what swaying lifts: in the mean of a period as much as it moves.
+double height_at_rest(const Pool& pool, Vec up) {
+    double height = 0.0;
+    for (int k = 0; k < pool.particles(); ++k) {
+        height += weir::dot(pool.position(k), up) / pool.particles();
+    }
+    return height - pool.rms_speed() * pool.rms_speed() / (2.0 * kGravity);
+}
+
 void run(Report& report, const std::string& name, const Soak& soak, int steps, double most) {
     Pool pool(soak.vessel);
     const int particles = pool.particles();
     int most_outside = 0;
+    const Vec up = soak.vessel.gravity_tilts ? Vec{0.0, 1.0} : soak.vessel.turned_back({0.0, 1.0});
+    const int measured = std::min(steps, kMeasured);
+    double height = 0.0;
     for (int step = 0; step < steps; ++step) {
         pool.step();
         if (step % 50 == 0 || step + 1 == steps) {
             most_outside = std::max(most_outside, outside(soak, pool));
         }
+        height += step >= steps - measured ? height_at_rest(pool, up) / measured : 0.0;
     }
-    const Vec up = soak.vessel.gravity_tilts ? Vec{0.0, 1.0} : soak.vessel.turned_back({0.0, 1.0});
     const AtRest rest = at_rest(soak.room, 0.25 * particles, soak.low, soak.high, up);
     const AtRest drop = at_rest(soak.room, 0.01, soak.low, soak.high, up);
-    double height = 0.0;
-    for (int k = 0; k < pool.particles(); ++k) {
-        height += weir::dot(pool.position(k), up) / pool.particles();
-    }
     report.equals(name + ".outside", most_outside, "1", 0.0);
     report.equals(name + ".lost", particles - pool.particles(), "1", 0.0);
     report.at_most(name + ".volume",

@@ -63,12 +63,14 @@ TEST(Drift, GetsBackNoMoreThanFalls) {
         sums.raised[0] = raised;
         sums.moving[0] = 1.0e4F;
         sums.disorder[0] = 1.0F;
-        return price_of(sums);
+        return price_of(sums, most_refund(PressureFields<float>{}));
     };
     EXPECT_GT(price(1.0F, 0.0F), 0.0F);
     EXPECT_FLOAT_EQ(price(-1.0F, -2.0F), -1.0e-4F) << "by what it gave way to";
     EXPECT_FLOAT_EQ(price(-1.0F, -0.25F), -0.25e-4F) << "by what has fallen";
     EXPECT_GT(price(-1.0F, 0.25F), 0.0F) << "the pressure pushed it up";
+    EXPECT_FLOAT_EQ(price(-50.0F, -60.0F), -50.0e-4F);
+    EXPECT_EQ(price(-80.0F, -90.0F), 0.0F) << "more than can be paid at once";
 }
 
 }  // namespace

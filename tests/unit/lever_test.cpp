@@ -64,6 +64,9 @@ TYPED_TEST(SprayOf, IsPushedToTheLiquidsSpeedAndTurnedRound) {
         EXPECT_NEAR(Spray<TypeParam>().after(-1.0, 2.0, i), 2.0, 1e-3) << "the other way";
         EXPECT_NEAR(Spray<TypeParam>().after(-1.0, -3.0, i), 1.0, 1e-3) << "falls on it";
         EXPECT_NEAR(Spray<TypeParam>().after(-1.0, -1.0, i), 1.0, 1e-3) << "no faster than before";
+        Spray<TypeParam> heavy;
+        heavy.fields.cell_weight = TypeParam(2.0F);
+        EXPECT_NEAR(heavy.after(10.0, 10.0, i), 12.5, 1e-3) << "and a quarter of gravity's step";
     }
 }
 
