@@ -87,7 +87,6 @@ Real slope(const Real distance[4], Edge edge) {
     return distance[kEdgeNodes[edge].high] - distance[kEdgeNodes[edge].low];
 }
 
-/// Scaled by the larger part first: the squares of tiny distances would vanish.
 /// Of a vector that is not 0. Packed worlds: to 2^−14, by a root of 32 bits and two divisions.
 inline Vec2<SmallFixed> packed_unit(Vec2<SmallFixed> v) {
     std::uint32_t x = fixed::magnitude(v.x.raw);
@@ -106,6 +105,7 @@ inline Vec2<SmallFixed> packed_unit(Vec2<SmallFixed> v) {
     return {part(x, v.x.raw), part(y, v.y.raw)};
 }
 
+/// Scaled by the larger part first: the squares of tiny distances would vanish.
 template <class Real>
 Vec2<Real> unit(Vec2<Real> v) {
     if constexpr (Stored<Real>::coarse) {

@@ -50,9 +50,8 @@ struct ExtrapolateTask {
 /// As `push_on_spray`.
 template <class L>
 inline auto push_on_spray_lanes(typename L::Floats push, typename L::Floats liquid,
-                                typename L::Floats spray,
-                                ReachOfPush<float> most, float fall,
-                                typename L::Floats open) {
+                                typename L::Floats spray, ReachOfPush<float> most,
+                                float fall, typename L::Floats open) {
     const auto zero = L::all(0.0F);
     const auto reach = L::all(most.factor) * liquid;
     const auto speed = L::absolute(spray);

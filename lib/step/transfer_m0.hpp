@@ -203,6 +203,16 @@ bool add_particles(const char*& place, const char* end, Speed* first, std::int32
     "mov %[t], %[place]\n\t"         \
     "ldr %[ul], %[tw]\n\t"
 
+/// What both gathers leave in registers, and what they are told.
+#define WEIR_FOUND                                                                            \
+    [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll), [ul] "=&l"(ul),   \
+        [ur] "=&l"(ur), [t] "=&l"(t), [z] "=&l"(z), [g] "=&l"(g), [a] "=&h"(along),           \
+        [fastest] "+m"(fastest)
+#define WEIR_TOLD                                                                             \
+    [end] "m"(task.end), [first] "h"(task.first), [row] "h"(task.row), [on] "h"(task.on),     \
+        [scale] "m"(task.scale), [shift] "m"(task.shift), [chance] "m"(task.chance),          \
+        [flip] "m"(task.flip), [tv] "m"(task.to_velocity), [tw] "m"(task.to_way)
+
 /// What gathers one component of some particles.
 struct GatherTask {
     const char* end;             ///< of the places
@@ -232,13 +242,7 @@ inline std::int32_t gather_along_u(const GatherTask& given, const char* place,
             "beq 5f\n\t"
             "b 0b\n"
             "5:\n\t"
-            : [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll),
-              [ul] "=&l"(ul), [ur] "=&l"(ur), [t] "=&l"(t), [z] "=&l"(z), [g] "=&l"(g),
-              [a] "=&h"(along), [fastest] "+m"(fastest)
-            : [end] "m"(task.end), [first] "h"(task.first), [row] "h"(task.row),
-              [on] "h"(task.on), [scale] "m"(task.scale), [shift] "m"(task.shift),
-              [chance] "m"(task.chance), [flip] "m"(task.flip),
-              [tv] "m"(task.to_velocity), [tw] "m"(task.to_way)
+            : WEIR_FOUND : WEIR_TOLD
             : "cc", "memory");
     return fastest;
 }
@@ -298,13 +302,7 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
             "beq 5f\n\t"
             "b 0b\n"
             "5:\n\t"
-            : [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll),
-              [ul] "=&l"(ul), [ur] "=&l"(ur), [t] "=&l"(t), [z] "=&l"(z), [g] "=&l"(g),
-              [a] "=&h"(along), [fastest] "+m"(fastest)
-            : [end] "m"(task.end), [first] "h"(task.first), [row] "h"(task.row),
-              [on] "h"(task.on), [scale] "m"(task.scale), [shift] "m"(task.shift),
-              [chance] "m"(task.chance), [flip] "m"(task.flip),
-              [tv] "m"(task.to_velocity), [tw] "m"(task.to_way),
+            : WEIR_FOUND : WEIR_TOLD,
               [lowest] "m"(bounds.low), [highest] "m"(bounds.high), [half] "m"(bounds.half),
               [one] "m"(bounds.one), [far] "m"(bounds.far)
             : "cc", "memory");
@@ -318,6 +316,8 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
 #undef WEIR_WEIGH
 #undef WEIR_TWO_FIELDS
 #undef WEIR_CHANGE
+#undef WEIR_FOUND
+#undef WEIR_TOLD
 
 }  // namespace weir::packed
 
