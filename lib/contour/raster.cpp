@@ -1,5 +1,7 @@
 #include "contour/raster.hpp"
 
+#include "contour/raster_lanes.hpp"
+
 namespace weir {
 
 namespace {
@@ -73,28 +75,48 @@ struct EdgeRow {
 
 /// An edge and the nodes within `far` of it.
 template <class Real>
-void measure_edge(Vec2<Real> from, Vec2<Real> to, Real far, const Sheet<Real>& sheet) {
+struct NearEdge {
+    EdgeRow<Real> measured;
+    bool steep;  ///< else nodes are asked from `left` to `right` in every row
+    Real run;    ///< to the right, for a row more
+    Real reach;  ///< to the left and to the right of where the edge is in a row
+    Real left;
+    Real right;
+    Span rows;
+};
+
+/// Of an edge that has a length.
+template <class Real>
+NearEdge<Real> near_edge(Vec2<Real> from, Vec2<Real> to, Real size, Real far,
+                         const NodeBox& box) {
     const Vec2<Real> edge = to - from;
-    const Real size = length(edge);
+    const EdgeRow<Real> measured{from, edge, {edge.x / size, edge.y / size}, size};
+    const bool steep = absolute(measured.along.y) > kFlat<Real>;
+    return {measured,
+            steep,
+            steep ? measured.along.x / measured.along.y : Real(0),
+            steep ? far / absolute(measured.along.y) : Real(0),
+            minimum(from.x, to.x) - far,
+            maximum(from.x, to.x) + far,
+            whole_numbers(minimum(from.y, to.y) - far, maximum(from.y, to.y) + far, box.j0,
+                          box.j1)};
+}
+
+template <class Real>
+void measure_edge(Vec2<Real> from, Vec2<Real> to, Real far, const Sheet<Real>& sheet) {
+    const Real size = length(to - from);
     if (!(size > Real(0))) {
         return;
     }
-    const EdgeRow<Real> measured{from, edge, {edge.x / size, edge.y / size}, size};
-    const bool steep = absolute(measured.along.y) > kFlat<Real>;
-    const Real run = steep ? measured.along.x / measured.along.y : Real(0);
-    const Real reach = steep ? far / absolute(measured.along.y) : Real(0);
-    const Real left = minimum(from.x, to.x) - far;
-    const Real right = maximum(from.x, to.x) + far;
     const NodeBox& box = sheet.box;
-    const Span rows = whole_numbers(minimum(from.y, to.y) - far, maximum(from.y, to.y) + far,
-                                    box.j0, box.j1);
-    for (std::int32_t j = rows.first; j <= rows.last; ++j) {
+    const NearEdge<Real> near = near_edge(from, to, size, far, box);
+    for (std::int32_t j = near.rows.first; j <= near.rows.last; ++j) {
         const Real y = static_cast<Real>(j);
-        const Real middle = from.x + (y - from.y) * run;
-        const Span nodes = whole_numbers(steep ? maximum(left, middle - reach) : left,
-                                         steep ? minimum(right, middle + reach) : right,
-                                         box.i0, box.i1);
-        measured.measure(sheet.row(j), nodes, y);
+        const Real middle = from.x + (y - from.y) * near.run;
+        const Span nodes = whole_numbers(
+            near.steep ? maximum(near.left, middle - near.reach) : near.left,
+            near.steep ? minimum(near.right, middle + near.reach) : near.right, box.i0, box.i1);
+        near.measured.measure(sheet.row(j), nodes, y);
     }
 }
 
@@ -160,6 +182,126 @@ void measure(const RasterPolygon<Real>& polygon, Real far, const Sheet<Real>& sh
     });
 }
 
+template <class Real>
+void merge_node(const RasterPolygon<Real>& polygon, const Sheet<Real>& sheet, bool binary,
+                Real far, std::int32_t i, std::int32_t j, const NodeField<Real>& field) {
+    Real* row = sheet.row(j);
+    if (!(row[i] < kOnTheOutline<Real>)) {
+        row[i] = binary ? Real(0.5) : row[i];
+    } else if (binary) {
+        row[i] = Real(-0.5);
+    } else {
+        row[i] = row[i] <= Real(0) - far ? deep_distance(polygon, sheet, i, j)
+                                         : minimum(row[i], Real(0));
+    }
+    const std::int32_t node = field.origin + j * field.stride + i;
+    // Of two equally near the lower name, whichever was drawn first.
+    const Real stored = field.distance[node];
+    const bool named = has_names<Real>(field.nearest);
+    if (row[i] < stored || (named && row[i] == stored && row[i] < far &&
+                            polygon.name < field.nearest[node])) {
+        field.distance[node] = row[i];
+        if (named) {
+            field.nearest[node] = polygon.name;
+        }
+    }
+}
+
+#if WEIR_HAS_LANES
+
+constexpr RasterLoops kRasterByFour{4, measure_nodes<FourLanes>, turn_nodes<FourLanes>,
+                                    merge_nodes<FourLanes>};
+
+const RasterLoops& raster_loops() {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        return raster_by_eight;
+    }
+#endif
+    return kRasterByFour;
+}
+
+/// Rows of groups that hold a box; none if the rows that are stored are shorter than one.
+Span columns_of_groups(const NodeBox& box, std::int32_t lanes, const NodeField<float>& field) {
+    if (box.i1 - box.i0 + 1 >= lanes) {
+        return {box.i0, box.i1};
+    }
+    const std::int32_t last = maximum(box.i1, minimum(box.i0 + lanes - 1, field.last_column));
+    const std::int32_t first = last + 1 - lanes;
+    return {first, field.last_column < 0 || first < field.first_column ? first - 1 : last};
+}
+
+RasterEdge raster_edge(const NearEdge<float>& near) {
+    constexpr float kEverywhere = 1.0e9F;
+    const EdgeRow<float>& row = near.measured;
+    return {row.from.x,  row.from.y, row.edge.x, row.edge.y,
+            row.along.x, row.along.y, row.size,  near.run,
+            near.steep ? near.reach : kEverywhere, near.left, near.right,
+            near.rows.first, near.rows.last};
+}
+
+/// All edges, so many at a time.
+void measure_in_lanes(const RasterPolygon<float>& polygon, const RasterLoops& loops,
+                      const RasterTask& task, const NodeBox& box) {
+    EdgesOfOutline some;
+    bool anew = true;
+    const auto measure = [&] {
+        loops.measure(task, some, anew);
+        some.edges = 0;
+        anew = false;
+    };
+    for_each_edge(polygon.outline, [&](Vec2<float> from, Vec2<float> to) {
+        const float size = length(to - from);
+        if (!beyond(polygon.tank, from, to) && size > 0.0F) {
+            some.edge[some.edges++] = raster_edge(near_edge(from, to, size, task.far, box));
+            if (some.edges == EdgesOfOutline::kMost) {
+                measure();
+            }
+        }
+    });
+    measure();
+    for_each_edge(polygon.outline, [&](Vec2<float> from, Vec2<float> to) {
+        // The border moves a node by less than that.
+        const float more = 1.0F / 512.0F;
+        const Span rows = whole_numbers(minimum(from.y, to.y) - more,
+                                        maximum(from.y, to.y) + more, box.j0, box.j1);
+        some.turn[some.turns++] = {from.x, from.y, to.x, to.y, rows.first, rows.last};
+        if (some.turns == EdgesOfOutline::kMost) {
+            loops.turn(task, some);
+            some.turns = 0;
+        }
+    });
+    loops.turn(task, some);
+}
+
+/// As the plain loops. False: the box is too narrow.
+bool rasterize_in_lanes(const RasterPolygon<float>& polygon, float far,
+                        const Sheet<float>& sheet, const NodeField<float>& field) {
+    const RasterLoops& loops = raster_loops();
+    const NodeBox& box = sheet.box;
+    const Span columns = columns_of_groups(box, loops.lanes, field);
+    if (columns.last < columns.first) {
+        return false;
+    }
+    const Vec2<float> low = off_the_border(polygon.tank, polygon.tank.low);
+    const Vec2<float> high = off_the_border(polygon.tank, polygon.tank.high);
+    const RasterTask task{box.i0, box.j0, box.i1, box.j1, columns.first, columns.last + 1,
+                          low.x, low.y, high.x, high.y, far, kOnTheOutline<float>,
+                          polygon.name, sheet.value + field.origin, field.distance + field.origin,
+                          field.nearest + field.origin, field.stride};
+    measure_in_lanes(polygon, loops, task, box);
+    for (RasterPlace at{task.first, box.j0}; loops.merge(task, at); at.i += loops.lanes) {
+        const std::int32_t first = minimum(at.i, task.end - loops.lanes);
+        const std::int32_t last = minimum(first + loops.lanes - 1, box.i1);
+        for (std::int32_t i = maximum(first, box.i0); i <= last; ++i) {
+            merge_node(polygon, sheet, false, far, i, at.j, field);
+        }
+    }
+    return true;
+}
+
+#endif
+
 }  // namespace
 
 template <class Real>
@@ -185,32 +327,21 @@ template <class Real>
 std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, bool binary,
                        Real far, Real* scratch, const NodeField<Real>& field) {
     const Sheet<Real> sheet{box, scratch, field.origin, field.stride};
-    measure(polygon, far, sheet);
-    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-        Real* row = sheet.row(j);
-        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-            if (!(row[i] < kOnTheOutline<Real>)) {
-                row[i] = binary ? Real(0.5) : row[i];
-            } else if (binary) {
-                row[i] = Real(-0.5);
-            } else {
-                row[i] = row[i] <= Real(0) - far ? deep_distance(polygon, sheet, i, j)
-                                                 : minimum(row[i], Real(0));
-            }
-            const std::int32_t node = field.origin + j * field.stride + i;
-            // Of two equally near the lower name, whichever was drawn first.
-            const Real stored = field.distance[node];
-            const bool named = has_names<Real>(field.nearest);
-            if (row[i] < stored || (named && row[i] == stored && row[i] < far &&
-                                    polygon.name < field.nearest[node])) {
-                field.distance[node] = row[i];
-                if (named) {
-                    field.nearest[node] = polygon.name;
-                }
-            }
+    const std::int32_t nodes = (box.i1 - box.i0 + 1) * (box.j1 - box.j0 + 1);
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real>) {
+        if (!binary && rasterize_in_lanes(polygon, far, sheet, field)) {
+            return nodes;
         }
     }
-    return (box.i1 - box.i0 + 1) * (box.j1 - box.j0 + 1);
+#endif
+    measure(polygon, far, sheet);
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+            merge_node(polygon, sheet, binary, far, i, j, field);
+        }
+    }
+    return nodes;
 }
 
 #define WEIR_INSTANTIATE(Real)                                                              \

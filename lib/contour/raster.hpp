@@ -49,6 +49,10 @@ struct NodeField {
     SlotOf<Real>* nearest = nullptr;
     std::int32_t origin = 0;
     std::int32_t stride = 0;
+    /// Columns of which each row has room in both fields: loops in lanes write back what stands
+    /// beside a narrow box. None: such a box is drawn node by node.
+    std::int32_t first_column = 0;
+    std::int32_t last_column = -1;
 };
 
 /// Nodes at most `margin` cells away from the polygon's bounding box, within 0 … last.
@@ -65,7 +69,7 @@ NodeBox nodes_near(const Vec2<Real>* ring, std::int32_t count, Real margin, std:
 /// the nodes within `far` of it only; deeper inside, nodes look for the nearest edge one by one,
 /// with their neighbours' distances for a bound.
 /// Cost: edges × their length × 2 far, and a look at every edge for each node that is deep inside.
-/// @param scratch a field of nodes with the same numbering, overwritten in the box.
+/// @param scratch a field of nodes with the same numbering, overwritten in the box and beside it.
 template <class Real>
 std::int32_t rasterize(const RasterPolygon<Real>& polygon, const NodeBox& box, bool binary,
                        Real far, Real* scratch, const NodeField<Real>& field);

@@ -155,6 +155,17 @@ struct EightLanes {
         __builtin_memcpy(&lanes, from, sizeof lanes);
         return __builtin_convertvector(lanes, Ints);
     }
+    static Ints shorts(const std::uint16_t* from) {
+        using Unsigned = std::uint16_t __attribute__((vector_size(16)));
+        Unsigned lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return __builtin_convertvector(lanes, Ints);
+    }
+    static void store_shorts(std::uint16_t* to, Ints lanes) {
+        using Unsigned = std::uint16_t __attribute__((vector_size(16)));
+        const auto some = __builtin_convertvector(lanes, Unsigned);
+        __builtin_memcpy(to, &some, sizeof some);
+    }
     static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {
         const auto a = static_cast<std::int16_t>(first);
         const auto b = static_cast<std::int16_t>(second);

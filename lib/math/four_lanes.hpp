@@ -143,6 +143,17 @@ struct FourLanes {
         __builtin_memcpy(&lanes, from, sizeof lanes);
         return __builtin_convertvector(lanes, Ints);
     }
+    static Ints shorts(const std::uint16_t* from) {
+        using Unsigned = std::uint16_t __attribute__((vector_size(8)));
+        Unsigned lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return __builtin_convertvector(lanes, Ints);
+    }
+    static void store_shorts(std::uint16_t* to, Ints lanes) {
+        using Unsigned = std::uint16_t __attribute__((vector_size(8)));
+        const auto some = __builtin_convertvector(lanes, Unsigned);
+        __builtin_memcpy(to, &some, sizeof some);
+    }
     /// Two numbers again and again.
     static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {
         const auto a = static_cast<std::int16_t>(first);

@@ -53,7 +53,8 @@ NodeBox reach(const GridShape& shape, const BodyTable<Real>& table, const Body<R
 template <class Real>
 NodeField<Real> field_of(const Layers<Real>& layers, DistanceOf<Real>* distance,
                          SlotOf<Real>* nearest) {
-    return {distance, nearest, layers.shape.index(0, 0), layers.shape.stride};
+    const NodeBox all = everywhere(layers);
+    return {distance, nearest, layers.shape.index(0, 0), layers.shape.stride, all.i0, all.i1};
 }
 
 template <class Real>

@@ -8,6 +8,7 @@
 #include "brute_distance.hpp"
 #include "contour/gradient.hpp"
 #include "contour/raster.hpp"
+#include "fewer_lanes.hpp"
 #include "weir/geometry.hpp"
 
 namespace weir {
@@ -82,6 +83,43 @@ TEST(Raster, DrawingAPartAgainChangesNothing) {
     rasterize(polygon, NodeBox{9, 12, 17, 20}, false, 1.5F, field.scratch.data(),
               NodeField<float>{field.distance.data(), field.nearest.data(), 0, kNodes});
     EXPECT_EQ(field.distance, before);
+}
+
+/// Loops in lanes do a whole box, and beside it where there is room; a strip of one column is drawn
+/// node by node.
+TEST(Raster, AnyNumberOfLanesHasTheBitsOfNodeByNode) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const float size = kNodes - 1;
+    for (int scene = 0; scene < 400; ++scene) {
+        const Fewer fewer(scene % 2 == 0 ? 4 : 0);
+        Field whole;
+        Field strips;
+        for (int k = 0; k < 3; ++k) {
+            const Point centre{-2.0 + 36.0 * unit(random), -2.0 + 36.0 * unit(random)};
+            const double radius = 0.3 + (scene % 3 == 0 ? 12.0 : 3.0) * unit(random);
+            std::vector<Vec2f> corners;
+            for (const Point p : star(centre, radius, 3 + scene % 11, 6.3 * unit(random))) {
+                corners.push_back(convert<float>(p));
+            }
+            const auto count = static_cast<std::int32_t>(corners.size());
+            const RasterPolygon<float> polygon{{corners.data(), count},
+                                               static_cast<std::uint16_t>(2 - k),
+                                               {{}, {size, size}}};
+            const NodeBox box = nodes_near(corners.data(), count, 1.5F, kNodes - 1, kNodes - 1);
+            rasterize(polygon, box, false, 1.5F, whole.scratch.data(),
+                      NodeField<float>{whole.distance.data(), whole.nearest.data(), 0, kNodes, 0,
+                                       kNodes - 1});
+            for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+                rasterize(polygon, NodeBox{i, box.j0, i, box.j1}, false, 1.5F,
+                          strips.scratch.data(),
+                          NodeField<float>{strips.distance.data(), strips.nearest.data(), 0,
+                                           kNodes});
+            }
+        }
+        ASSERT_EQ(whole.distance, strips.distance) << scene;
+        ASSERT_EQ(whole.nearest, strips.nearest) << scene;
+    }
 }
 
 double sum(const std::vector<float>& share) {

@@ -2,26 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "busy_world.hpp"
-#include "math/wide_lanes.hpp"
+#include "fewer_lanes.hpp"
 
 namespace weir {
 namespace {
-
-/// With no more than so many lanes, until it ends.
-class Fewer {
-public:
-    explicit Fewer(std::int32_t lanes) { set(lanes); }
-    ~Fewer() { set(0); }
-    Fewer(const Fewer&) = delete;
-    Fewer& operator=(const Fewer&) = delete;
-
-private:
-    static void set([[maybe_unused]] std::int32_t lanes) {
-        if constexpr (kMostLanes > 4) {
-            lanes_known = lanes;
-        }
-    }
-};
 
 /// Rows of all lengths, against those of lanes.
 std::vector<std::uint64_t> hashes(std::int32_t kind, std::int32_t lanes) {
