@@ -143,6 +143,11 @@ struct FourLanes {
         __builtin_memcpy(&lanes, from, sizeof lanes);
         return __builtin_convertvector(lanes, Ints);
     }
+    static void store_bytes(std::uint8_t* to, Ints lanes) {
+        using Bytes = std::uint8_t __attribute__((vector_size(4)));
+        const auto some = __builtin_convertvector(lanes, Bytes);
+        __builtin_memcpy(to, &some, sizeof some);
+    }
     static Ints shorts(const std::uint16_t* from) {
         using Unsigned = std::uint16_t __attribute__((vector_size(8)));
         Unsigned lanes;

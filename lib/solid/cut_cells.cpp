@@ -1,38 +1,15 @@
 #include "solid/cut_cells.hpp"
 
-#include "contour/marching_squares.hpp"
-#include "solid/cut_cells_lanes.hpp"
+#include "solid/cut_cells_groups.hpp"
 
 namespace weir {
 
 namespace {
 
-/// A cell with less room than this is taken as solid: its pressure would be ill determined.
-template <class Real>
-constexpr Real kSliver = Real(0.02);
-
 /// The cells around a box of nodes, and `more` beyond them.
 NodeBox cells_around(const GridShape& shape, const NodeBox& nodes, std::int32_t more) {
     return {maximum(0, nodes.i0 - 1 - more), maximum(0, nodes.j0 - 1 - more),
             minimum(shape.nx - 1, nodes.i1 + more), minimum(shape.ny - 1, nodes.j1 + more)};
-}
-
-template <class Real>
-struct Corners {
-    Real distance[4];
-};
-
-template <class Real>
-Corners<Real> corners_of(const GridShape& s, const Walls<Real>& walls, std::int32_t cell) {
-    const DistanceOf<Real>* low = walls.distance + cell;
-    return {{low[0], low[1], low[s.stride + 1], low[s.stride]}};
-}
-
-constexpr std::uint8_t kOpen = 0;
-constexpr std::uint8_t kSolid = 15;
-
-constexpr bool is_cut(std::uint8_t solid_nodes) {
-    return solid_nodes != kOpen && solid_nodes != kSolid;
 }
 
 /// Cases of the cells whose nodes changed, and the faces around them.
@@ -48,7 +25,7 @@ void contour_matrix(const GridShape& s, const NodeBox& cells, Walls<Real>& walls
         const std::int32_t end = s.index(cells.i1 + 1, j);
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
-            c = contour_fours(s.stride, c, end, walls);
+            c = cut_loops().contour(cut_task(s, walls), c, end);
         }
 #endif
         std::uint32_t left = side(c);
@@ -78,12 +55,6 @@ void for_each_cut(const GridShape& s, const NodeBox& cells, const Walls<Real>& w
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         const std::uint8_t* row = walls.cell_case + s.index(0, j);
         for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
-#if WEIR_HAS_LANES
-            if (i + 3 <= cells.i1 && !any_cut(row + i)) {
-                i += 3;
-                continue;
-            }
-#endif
             if (is_cut(row[i])) {
                 visit(i, j);
             }
@@ -97,12 +68,22 @@ void for_each_cut(const GridShape& s, const NodeBox& cells, const Walls<Real>& w
 template <class Real>
 constexpr bool kExactShares = !Stored<Real>::coarse;
 
+/// Slivers among some cells, by looking at cut ones alone.
 template <class Real>
-void close_faces(const GridShape& s, std::int32_t c, Walls<Real>& walls) {
-    walls.open_u[c] = Real(0);
-    walls.open_u[c + 1] = Real(0);
-    walls.open_v[c] = Real(0);
-    walls.open_v[c + s.stride] = Real(0);
+void close_lone_slivers(const GridShape& s, const NodeBox& cells, Walls<Real>& walls) {
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real>) {
+        close_sliver_groups(s, cells, walls);
+        return;
+    }
+#endif
+    for_each_cut(s, cells, walls, [&](std::int32_t i, std::int32_t j) {
+        const std::int32_t c = s.index(i, j);
+        if (!is_roomy(walls.cell_case[c]) &&
+            open_area(corners_of(s, walls, c).distance) < kSliver<Real>) {
+            close_faces(s, c, walls);
+        }
+    });
 }
 
 template <class Real>
@@ -158,73 +139,21 @@ Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const Veloc
     return kOwnShare<Real> * at(i, j) + (kSideShare<Real> * sides + kCornerShare<Real> * corners);
 }
 
-/// Kernel of the nine cells around one over its liquid, by row and column. With t the hat function
-/// of a cell's width and h(x) = t(x − ½) + t(x + ½) it is ¼ [h(x) t(y) + t(x) h(y)].
-template <class Real>
-struct Shares {
-    Real of[3][3];
-};
-
-/// Hats of the three columns over the liquid, and of the rows; then with the other coordinate.
-template <class Real>
-struct Hats {
-    Real tx[3];
-    Real ty[3];
-    Real y_tx[3];
-    Real x_ty[3];
-
-    explicit Hats(const OpenMoments<Real>& m)
-        : tx{m.upper.x - m.first.x, m.area - ((m.upper.x + m.upper.x) - m.first.x), m.upper.x},
-          ty{m.upper.y - m.first.y, m.area - ((m.upper.y + m.upper.y) - m.first.y), m.upper.y},
-          y_tx{m.y_right - m.product, m.first.y - ((m.y_right + m.y_right) - m.product),
-               m.y_right},
-          x_ty{m.x_above - m.product, m.first.x - ((m.x_above + m.x_above) - m.product),
-               m.x_above} {}
-};
-
-template <class Real>
-Shares<Real> kernel_shares(const Hats<Real>& hats) {
-    const auto wide = [](Real t, Real moment, std::int32_t k) {
-        return k == 1 ? t : Real(0.5) * t + (k == 0 ? -moment : moment);
-    };
-    Shares<Real> shares;
-    for (std::int32_t row = 0; row < 3; ++row) {
-        for (std::int32_t column = 0; column < 3; ++column) {
-            shares.of[row][column] = Real(0.25) * (wide(hats.ty[row], hats.x_ty[row], column) +
-                                                   wide(hats.tx[column], hats.y_tx[column], row));
-        }
-    }
-    return shares;
-}
-
 /// Cut cells in and around some cells add theirs to them.
 template <class Real>
 void add_cut_cells(const GridShape& s, const NodeBox& cells, Walls<Real>& walls) {
     const NodeBox around{maximum(0, cells.i0 - 1), maximum(0, cells.j0 - 1),
                          minimum(s.nx - 1, cells.i1 + 1), minimum(s.ny - 1, cells.j1 + 1)};
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real>) {
+        add_cut_groups(s, cells, around, walls);
+        return;
+    }
+#endif
     for_each_cut(s, around, walls, [&](std::int32_t i, std::int32_t j) {
         const std::int32_t c = s.index(i, j);
         const Hats<Real> hats(open_moments(corners_of(s, walls, c).distance));
-#if WEIR_HAS_LANES
-        if constexpr (kHasLanes<Real>) {
-            if (i > cells.i0 && i < cells.i1 && j > cells.j0 && j < cells.j1) {
-                add_shares(hats.tx, hats.ty, hats.y_tx, hats.x_ty, s.stride,
-                           walls.full_density + c);
-                return;
-            }
-        }
-#endif
-        const Shares<Real> shares = kernel_shares(hats);
-        for (std::int32_t y = 0; y < 3; ++y) {
-            const std::int32_t row = clamp(j + y - 1, 0, s.ny - 1);
-            for (std::int32_t x = 0; row >= cells.j0 && row <= cells.j1 && x < 3; ++x) {
-                const std::int32_t column = clamp(i + x - 1, 0, s.nx - 1);
-                if (column >= cells.i0 && column <= cells.i1) {
-                    ShareOf<Real>& full = walls.full_density[s.index(column, row)];
-                    full = Real(full) + shares.of[y][x];
-                }
-            }
-        }
+        add_within(s, cells, i, j, kernel_shares(hats), walls);
     });
 }
 
@@ -290,43 +219,6 @@ void look_around_row(const GridShape& s, std::int32_t j, std::int32_t i0, std::i
     }
 }
 
-#if WEIR_HAS_LANES
-
-/// The same four at a time, away from the tank's walls. Returns the next cell to do.
-std::int32_t look_around_fours(const GridShape& s, std::int32_t j, std::int32_t i0,
-                               std::int32_t i1, bool thin, Walls<float>& walls) {
-    std::int32_t i = i0;
-    const std::int32_t below = j > 0 ? -s.stride : 0;
-    const std::int32_t above = j + 1 < s.ny ? s.stride : 0;
-    const std::int32_t last = minimum(i1, s.nx - 2);
-    for (; i <= last && last - 3 >= i0; i += 4) {
-        i = minimum(i, last - 3);  // some twice
-        const std::int32_t c = s.index(i, j);
-        const FourAround around = around_four(walls.cell_case + c, below, above);
-        store_lanes(walls.full_density + c, all_lanes(kCornerShare<float>) * around.in_32nds);
-        std::uint32_t near = around.near;
-        if (near != 0 && !thin) {
-            const FourMirrored u = mirrored_of_four(walls.open_u + c, walls.distance + c, s.stride);
-            const FourMirrored v = mirrored_of_four(walls.open_v + c, walls.distance + c, 1);
-            std::uint32_t mirrored = u.closed | v.closed;
-            for (std::int32_t k = 0; k < 4; ++k) {
-                const auto has = [&](std::uint32_t bits, std::int32_t to_other) {
-                    return (bits >> static_cast<std::uint32_t>(k) & 1U) != 0 &&
-                           sticking_body(walls, c + k, c + k + to_other) != kNoBody;
-                };
-                if (has(near & u.beside, s.stride) || has(near & v.beside, 1)) {
-                    mirrored |= 1U << static_cast<std::uint32_t>(k);
-                }
-            }
-            near &= mirrored;
-        }
-        mark_four(walls, s, i, j, near);
-    }
-    return i;
-}
-
-#endif
-
 /// What is around a cell: full densities, and whether a face of it is mirrored. Where thin walls
 /// may close faces, all cells near a wall count.
 template <class Real>
@@ -340,7 +232,7 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
                 look_around_row<Real>(s, j, 0, 0, area, thin, walls);
                 ++i;
             }
-            i = look_around_fours(s, j, i, cells.i1, thin, walls);
+            i = look_around_eights(s, j, i, cells.i1, thin, walls);
         }
 #endif
         if (i <= cells.i1) {
@@ -359,14 +251,7 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, const Rim& r
     const NodeBox inner = cells_around(shape, nodes, 1);
     contour_matrix(shape, cells_around(shape, nodes, 0), walls);
     if constexpr (kExactShares<Real>) {
-        for_each_cut(shape, inner, walls, [&](std::int32_t i, std::int32_t j) {
-            const std::int32_t c = shape.index(i, j);
-            const std::uint32_t solid = walls.cell_case[c];
-            const bool roomy = (solid & (solid - 1U)) == 0;  // one node in it: half at least
-            if (!roomy && open_area(corners_of(shape, walls, c).distance) < kSliver<Real>) {
-                close_faces(shape, c, walls);
-            }
-        });
+        close_lone_slivers(shape, inner, walls);
     } else {
         open_areas(shape, cells_around(shape, nodes, 2), walls, scratch);
         close_slivers(shape, inner, scratch, walls);

@@ -1,140 +1,188 @@
-// Cut cells four at a time: the plain loops' sums, and so their bits.
+// Cut cells some at a time: the plain loops' sums, and so their bits.
 #pragma once
 
-#include "math/lanes.hpp"
-#include "solid/walls.hpp"
+#include "math/four_lanes.hpp"
+#include "math/wide_lanes.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
 
 /// As `open_fraction`.
-inline Lanes open_fractions(Lanes a, Lanes b) {
-    const Lanes zero = all_lanes(0.0F);
-    const Lanes one = all_lanes(1.0F);
-    const Lanes outside = maximum(a, b);
-    const Lanes inside = minimum(a, b);
-    const LaneMask cut = (outside > zero) & (inside <= zero);
-    const Lanes share = outside / (cut ? outside - inside : one);
+template <class L>
+inline typename L::Floats open_fractions(typename L::Floats a, typename L::Floats b) {
+    const auto zero = L::all(0.0F);
+    const auto one = L::all(1.0F);
+    const auto outside = L::maximum(a, b);
+    const auto inside = L::minimum(a, b);
+    const auto cut = (outside > zero) & (inside <= zero);
+    const auto share = outside / (cut ? outside - inside : one);
     return outside > zero ? (inside > zero ? one : share) : zero;
 }
 
-/// Cases of cells first, first + 1 … end − 1, and their left and lower faces, if there are four.
+/// Fields of nodes and cells whose contour is told.
+struct CutTask {
+    std::int32_t stride;
+    const float* distance;
+    std::uint8_t* cell_case;
+    float* open_u;
+    float* open_v;
+};
+
+/// Cases of cells c … end − 1, and their left and lower faces, if there are enough for a group.
 /// Returns the next cell to do.
-inline std::int32_t contour_fours(std::int32_t stride, std::int32_t first, std::int32_t end,
-                                  Walls<float>& walls) {
-    using Bytes = std::uint8_t __attribute__((vector_size(4)));
-    const Lanes zero = all_lanes(0.0F);
-    std::int32_t c = first;
-    for (; c < end && end - 4 >= first; c += 4) {
-        c = minimum(c, end - 4);  // some twice
-        const float* low = walls.distance + c;
-        const float* high = low + stride;
-        const Lanes low_left = load_lanes(low);
-        const Lanes low_right = load_lanes(low + 1);
-        const Lanes high_left = load_lanes(high);
-        const LaneMask nodes = ((low_left <= zero) & 1) | ((low_right <= zero) & 2) |
-                               ((load_lanes(high + 1) <= zero) & 4) | ((high_left <= zero) & 8);
-        const Bytes cases = __builtin_convertvector(nodes, Bytes);
-        __builtin_memcpy(walls.cell_case + c, &cases, sizeof cases);
-        store_lanes(walls.open_u + c, open_fractions(low_left, high_left));
-        store_lanes(walls.open_v + c, open_fractions(low_left, low_right));
+template <class L>
+inline std::int32_t contour_groups(const CutTask& task, std::int32_t c, std::int32_t end) {
+    const auto zero = L::all(0.0F);
+    const std::int32_t last = end - L::kLanes;
+    for (const std::int32_t first = c; c < end && last >= first; c += L::kLanes) {
+        c = c < last ? c : last;  // some twice
+        const float* low = task.distance + c;
+        const float* high = low + task.stride;
+        const auto low_left = L::load(low);
+        const auto low_right = L::load(low + 1);
+        const auto high_left = L::load(high);
+        L::store_bytes(task.cell_case + c, ((low_left <= zero) & 1) | ((low_right <= zero) & 2) |
+                                               ((L::load(high + 1) <= zero) & 4) |
+                                               ((high_left <= zero) & 8));
+        L::store(task.open_u + c, open_fractions<L>(low_left, high_left));
+        L::store(task.open_v + c, open_fractions<L>(low_left, low_right));
     }
     return c;
 }
 
-/// Whether one of four cells is cut.
-inline bool any_cut(const std::uint8_t* cell_case) {
-    std::uint32_t four;
-    __builtin_memcpy(&four, cell_case, sizeof four);
-    return four != 0 && four != 0x0F0F0F0FU;
-}
-
 /// A number below 16 for each of eight cells.
 using EightCells = std::uint64_t;
-inline EightCells cases_of_eight(const std::uint8_t* cell_case) {
+
+/// 1 for those that are cut.
+inline EightCells cut_of_eight(const std::uint8_t* cell_case) {
+    constexpr EightCells kOnes = 0x0101010101010101U;
     EightCells cases;
     __builtin_memcpy(&cases, cell_case, sizeof cases);
-    return cases;
+    // Of a number below 16, more than 0 and less than 15.
+    return ((cases + 0x7F * kOnes) & ((cases ^ 0x0F * kOnes) + 0x7F * kOnes)) >> 7U & kOnes;
 }
 
-/// 1 where a case is 0, else 0.
-inline EightCells open_of_eight(EightCells cases) {
-    constexpr EightCells kOnes = 0x0101010101010101U;
-    return ((cases + 0x7F * kOnes) >> 7U & kOnes) ^ kOnes;
-}
-
-/// What is around four cells, of which none is at the tank's left or right wall.
-struct FourAround {
-    Lanes in_32nds;      ///< shares of the density kernel that are in open cells
-    std::uint32_t near;  ///< a bit for each: all around it is not of one kind
+/// What is around cells; of 16 bytes the first eight count.
+struct EightAround {
+    using Bytes = std::uint8_t __attribute__((vector_size(16)));
+    Bytes in_32nds;  ///< shares of the density kernel that are in open cells
+    Bytes near;      ///< all around it is not of one kind
 };
-/// `below`, `above`: to the cell there, or 0 at the tank's wall.
-inline FourAround around_four(const std::uint8_t* cell_case, std::int32_t below,
-                              std::int32_t above) {
-    constexpr EightCells kSolid = 0x0F0F0F0F0F0F0F0FU;
-    const EightCells low = cases_of_eight(cell_case - 1 + below);
-    const EightCells here = cases_of_eight(cell_case - 1);
-    const EightCells high = cases_of_eight(cell_case - 1 + above);
-    // Bytes 0 … 5 are columns: each cell has one more, its own and the next.
-    const auto three = [](EightCells a) { return a | a >> 8U | a >> 16U; };
-    const EightCells alike = open_of_eight(three(low | here | high)) |
-                             open_of_eight(three((low ^ kSolid) | (here ^ kSolid) |
-                                                 (high ^ kSolid)));
-    const auto apart = static_cast<std::uint32_t>(alike) ^ 0x01010101U;
-    const EightCells own = open_of_eight(here);
-    const EightCells ends = open_of_eight(low) + open_of_eight(high);
-    const EightCells in_32nds = 12U * (own >> 8U) +
-                                4U * (own + (own >> 16U) + (ends >> 8U)) + (ends + (ends >> 16U));
-    using Bytes = std::uint8_t __attribute__((vector_size(4)));
-    Bytes four;
-    __builtin_memcpy(&four, &in_32nds, sizeof four);
-    return {__builtin_convertvector(four, Lanes),
-            (apart | apart >> 7U | apart >> 14U | apart >> 21U) & 0xFU};
-}
-
-/// Adds a cut cell's shares of the density kernel to the nine cells around it, the middle one of
-/// which is `full`. Hats as in `Hats`.
-inline void add_shares(const float* tx, const float* ty, const float* y_tx, const float* x_ty,
-                       std::int32_t stride, float* full) {
-    const Lanes half = all_lanes(0.5F);
-    const Lanes columns{tx[0], tx[1], tx[2], 0.0F};
-    const Lanes moments{y_tx[0], y_tx[1], y_tx[2], 0.0F};
-    const auto add = [&](std::int32_t row, Lanes wide) {
-        const float side = 0.5F * ty[row];
-        const Lanes of_row{side - x_ty[row], ty[row], side + x_ty[row], 0.0F};
-        float* to = full + (row - 1) * stride - 1;
-        store_lanes(to, load_lanes(to) + all_lanes(0.25F) * (of_row + wide));
+/// Of eight cells, of which none is at the tank's left or right wall. `below`, `above`: to the cell
+/// there, or 0 at the tank's wall.
+inline EightAround around_eight(const std::uint8_t* cell_case, std::int32_t below,
+                                std::int32_t above) {
+    using Bytes = EightAround::Bytes;
+    const auto load = [&](std::int32_t at) {
+        std::uint64_t eight;
+        __builtin_memcpy(&eight, cell_case + at, sizeof eight);
+        using Halves = std::uint64_t __attribute__((vector_size(16)));
+        return reinterpret_cast<Bytes>(Halves{eight, 0});
     };
-    add(0, half * columns - moments);
-    add(1, columns);
-    add(2, half * columns + moments);
+    struct Column {
+        Bytes any, all;
+        Bytes own, ends;  ///< how many are open, as 0, -1, -2
+    };
+    const auto column = [&](std::int32_t i) {
+        const Bytes low = load(below + i);
+        const Bytes here = load(i);
+        const Bytes high = load(above + i);
+        const auto open = [](Bytes cases) { return reinterpret_cast<Bytes>(cases == 0); };
+        return Column{low | here | high, low & here & high, open(here), open(low) + open(high)};
+    };
+    const Column left = column(-1);
+    const Column middle = column(0);
+    const Column right = column(1);
+    const Bytes any = left.any | middle.any | right.any;
+    const Bytes all = left.all & middle.all & right.all;
+    const Bytes sides = left.own + right.own + middle.ends;
+    const Bytes two = sides + sides;
+    return {(middle.own & 12) - (two + two) - (left.ends + right.ends),
+            reinterpret_cast<Bytes>((any != 0) & (all != 15))};
+}
+inline std::uint64_t first_eight(EightAround::Bytes bytes) {
+    using Halves = std::uint64_t __attribute__((vector_size(16)));
+    return reinterpret_cast<Halves>(bytes)[0];
+}
+/// A bit for each byte that is set.
+inline std::uint32_t bits_of_eight(EightAround::Bytes bytes) {
+    return static_cast<std::uint32_t>(
+        ((first_eight(bytes) & 0x8080808080808080U) >> 7U) * 0x0102040810204080U >> 56U);
 }
 
-/// Of which of four faces, from those nodes to others, the mirror writes: a bit each.
-struct FourMirrored {
+/// Of which faces, from those nodes to others, the mirror writes: a bit each.
+struct MirroredFaces {
     std::uint32_t closed;  ///< and not too deep
     std::uint32_t beside;  ///< open, and so near to a wall that the liquid may stick
 };
-inline FourMirrored mirrored_of_four(const float* open, const float* distance,
-                                     std::int32_t to_other) {
-    const Lanes is_open = load_lanes(open);
-    const Lanes zero = all_lanes(0.0F);
-    const Lanes middle = all_lanes(0.5F) * (load_lanes(distance) + load_lanes(distance + to_other));
-    return {bits_of((is_open <= zero) & (middle >= all_lanes(kDeepestMirror<float>))),
-            bits_of((is_open > zero) & (middle < all_lanes(kBoundLayer<float>)))};
+template <class L>
+inline MirroredFaces mirrored_of_eight(const float* open, const float* distance,
+                                       std::int32_t to_other, float deepest, float beside) {
+    MirroredFaces faces{0, 0};
+    const auto zero = L::all(0.0F);
+    for (std::int32_t k = 0; k < 8; k += L::kLanes) {
+        const auto is_open = L::load(open + k);
+        const auto middle =
+            L::all(0.5F) * (L::load(distance + k) + L::load(distance + to_other + k));
+        faces.closed |= L::bits_of((is_open <= zero) & (middle >= L::all(deepest))) << k;
+        faces.beside |= L::bits_of((is_open > zero) & (middle < L::all(beside))) << k;
+    }
+    return faces;
 }
 
-/// `mark_near` for cells i … i + 3.
-inline void mark_four(const Walls<float>& walls, const GridShape& shape, std::int32_t i,
-                      std::int32_t j, std::uint32_t near) {
-    const std::int32_t column = shape.i0 + i;
-    std::uint32_t* word = walls.near + (shape.j0 + j) * near_words(shape) + column / 32;
-    const auto bit = static_cast<std::uint32_t>(column) % 32U;
-    word[0] = (word[0] & ~(0xFU << bit)) | near << bit;
-    if (bit > 28U) {
-        word[1] = (word[1] & ~(0xFU >> (32U - bit))) | near >> (32U - bit);
+/// Full densities and mirrored faces of eight cells.
+struct AroundTask {
+    std::int32_t below;
+    std::int32_t above;
+    float deepest;  ///< of mirrored faces
+    float beside;   ///< where the liquid may stick
+    float* full_density;
+};
+struct AroundEight {
+    std::uint32_t near;
+    MirroredFaces u;
+    MirroredFaces v;
+};
+template <class L>
+inline AroundEight look_at_eight(const CutTask& task, const AroundTask& around, std::int32_t c) {
+    const EightAround cells = around_eight(task.cell_case + c, around.below, around.above);
+    std::uint8_t in_32nds[8];
+    const std::uint64_t eight = first_eight(cells.in_32nds);
+    __builtin_memcpy(in_32nds, &eight, sizeof in_32nds);
+    for (std::int32_t k = 0; k < 8; k += L::kLanes) {
+        L::store(around.full_density + c + k,
+                 L::all(0.03125F) * L::floats(L::bytes(in_32nds + k)));
     }
+    const std::uint32_t near = bits_of_eight(cells.near);
+    if (near == 0) {
+        return {0, {0, 0}, {0, 0}};
+    }
+    return {near,
+            mirrored_of_eight<L>(task.open_u + c, task.distance + c, task.stride, around.deepest,
+                                 around.beside),
+            mirrored_of_eight<L>(task.open_v + c, task.distance + c, 1, around.deepest,
+                                 around.beside)};
+}
+
+/// Open areas of so many cells; not of saddles, nor of cells with one node in the solid.
+template <class L>
+inline void areas_of_group(const CutTask& task, const std::int32_t* cell, float* area) {
+    const auto nodes = L::squares_at(task.distance, task.distance + task.stride, cell);
+    const auto zero = L::all(0.0F);
+    const auto half = L::all(0.5F);
+    const auto bottom = open_fractions<L>(nodes.low_left, nodes.low_right);
+    const auto right = open_fractions<L>(nodes.low_right, nodes.high_right);
+    const auto top = open_fractions<L>(nodes.high_left, nodes.high_right);
+    const auto left = open_fractions<L>(nodes.low_left, nodes.high_left);
+    const auto s0 = nodes.low_left <= zero;
+    const auto s1 = nodes.low_right <= zero;
+    const auto s2 = nodes.high_right <= zero;
+    const auto s3 = nodes.high_left <= zero;
+    const auto level = (s0 == s1) & (s2 == s3);
+    const auto upright = (s1 == s2) & (s0 == s3);
+    const auto corner = half * (((s0 & s1) ? top : bottom) * ((s0 & s3) ? right : left));
+    L::store(area, level ? half * (left + right) : (upright ? half * (bottom + top) : corner));
 }
 
 #endif

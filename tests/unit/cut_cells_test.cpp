@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
+#include "fewer_lanes.hpp"
+#include "solid/cut_cells_groups.hpp"
 #include "test_world.hpp"
 #include "world/world_state.hpp"
 
@@ -117,6 +120,64 @@ TEST(CutCells, LiquidOnAThinFloorIsNoDenserThanAbove) {
         EXPECT_LT(worst_row_on_floor(off, 6.7F), 0.09) << off;
     }
 }
+
+#if WEIR_HAS_LANES
+
+/// Four nodes of a cell that is cut, no saddle; some of them on the contour.
+Corners<float> dice_corners(std::mt19937& random) {
+    std::uniform_real_distribution<float> distance(-1.4F, 1.4F);
+    Corners<float> corners{};
+    do {
+        for (float& one : corners.distance) {
+            one = random() % 8 == 0 ? 0.0F : distance(random) * (random() % 4 == 0 ? 1e-3F : 1.0F);
+        }
+    } while (!is_cut(contour_case(corners.distance)) || is_saddle(contour_case(corners.distance)));
+    return corners;
+}
+
+TEST(CutCells, LanesHaveTheBitsOfThePlainLoops) {
+    std::mt19937 random(3);
+    for (int trial = 0; trial < 4000; ++trial) {
+        const Fewer fewer(trial % 2 == 0 ? 4 : 0);
+        const CutLoops& loops = cut_loops();
+        Corners<float> corners[8];
+        float field[32];  // two rows of eight cells, apart
+        std::int32_t cell[8];
+        for (std::int32_t k = 0; k < 8; ++k) {
+            corners[k] = dice_corners(random);
+            const float* d = corners[k].distance;
+            cell[k] = 2 * k;
+            field[2 * k] = d[0];
+            field[2 * k + 1] = d[1];
+            field[16 + 2 * k] = d[3];
+            field[16 + 2 * k + 1] = d[2];
+        }
+        CutTask task{};
+        task.stride = 16;
+        task.distance = field;
+        float area[8];
+        RowsOfShares shares[8];
+        for (std::int32_t k = 0; k < 8; k += loops.lanes) {
+            loops.areas(task, cell + k, area + k);
+            loops.shares(field, 16, cell + k, shares + k);
+        }
+        for (std::int32_t k = 0; k < 8; ++k) {
+            const float* d = corners[k].distance;
+            if (!is_roomy(contour_case(d))) {
+                ASSERT_EQ(area[k], open_area(d)) << trial;
+            }
+            const Shares<float> plain = kernel_shares(Hats<float>(open_moments(d)));
+            for (std::int32_t row = 0; row < 3; ++row) {
+                for (std::int32_t column = 0; column < 3; ++column) {
+                    ASSERT_EQ(shares[k][row][column], plain.of[row][column]) << trial;
+                }
+                ASSERT_EQ(shares[k][row][3], 0.0F);
+            }
+        }
+    }
+}
+
+#endif
 
 }  // namespace
 }  // namespace weir
