@@ -15,6 +15,24 @@ namespace weir {
 // No other file may be given what is compiled here.
 namespace {
 
+/// For each set of eight: which are in it, the last one first, a byte each.
+struct LastFirst {
+    std::uint64_t of[256] = {};
+
+    constexpr LastFirst() {
+        for (std::uint32_t set = 0; set < 256; ++set) {
+            std::uint32_t shift = 0;
+            for (std::uint32_t k = 8; k-- > 0;) {
+                if ((set >> k & 1U) != 0) {
+                    of[set] |= static_cast<std::uint64_t>(k) << shift;
+                    shift += 8;
+                }
+            }
+        }
+    }
+};
+constexpr LastFirst kLastFirst;
+
 struct EightLanes {
     using Floats = float __attribute__((vector_size(32)));
     using Ints = std::int32_t __attribute__((vector_size(32)));
@@ -96,6 +114,17 @@ struct EightLanes {
     static void store_in_turn(float* to, Floats a, Floats b) {
         store(to, __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11));
         store(to + 8, __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15));
+    }
+    /// Appends those of a set, the last one first: their numbers, from `first` on, and what
+    /// `store_halves` would store of them. Returns how many. Writes eight of either.
+    static std::int32_t append(std::uint32_t set, std::int32_t first, Ints a,
+                               std::int32_t* number, std::uint32_t* value) {
+        const Ints which = bytes(reinterpret_cast<const std::uint8_t*>(kLastFirst.of + set));
+        store_whole(number, which + first);
+        const Ints in_order = __builtin_shufflevector(a, a, 0, 1, 4, 5, 2, 3, 6, 7);
+        const Ints chosen = __builtin_ia32_permvarsi256(in_order, which);
+        __builtin_memcpy(value, &chosen, sizeof chosen);
+        return __builtin_popcount(set);
     }
     /// Bytes at numbers that `sums_of_products` gave: a bit for each that is not 0, in the order of
     /// `store_halves`. Three bytes more than the last one are read.

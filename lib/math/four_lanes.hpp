@@ -56,6 +56,21 @@ struct FourLanes {
         __builtin_memcpy(first, &lanes, 2 * sizeof *first);
         __builtin_memcpy(second, &later, 2 * sizeof *second);
     }
+    /// Appends those of a set, the last one first: their numbers, from `first` on, and what
+    /// `store_halves` would store of them. Returns how many.
+    static std::int32_t append(std::uint32_t set, std::int32_t first, Ints a,
+                               std::int32_t* number, std::uint32_t* value) {
+        std::uint32_t lane[4];
+        store_halves(lane, lane + 2, a);
+        std::int32_t n = 0;
+        for (; set != 0; ++n) {
+            const std::int32_t k = 31 - __builtin_clz(set);
+            set ^= 1U << static_cast<std::uint32_t>(k);
+            number[n] = first + k;
+            value[n] = lane[k];
+        }
+        return n;
+    }
     /// Bytes at numbers that `sums_of_products` gave: a bit for each that is not 0, in the order of
     /// `store_halves`.
     static std::uint32_t set_bytes(const std::uint8_t* bytes, Ints at) {

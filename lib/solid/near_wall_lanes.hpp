@@ -35,19 +35,12 @@ inline std::int32_t find_near_wall(const std::uint8_t* cell_case, std::int32_t s
         const float* x = position + 2 * (count - L::kLanes);
         const auto cells = L::sums_of_products(L::whole(L::load(x)),
                                                L::whole(L::load(x + L::kLanes)), factors);
-        std::uint32_t set = L::set_bytes(cell_case, cells);
+        const std::uint32_t set = L::set_bytes(cell_case, cells);
         if (set == 0) {
             continue;
         }
-        std::uint32_t cell[L::kLanes];
-        L::store_halves(cell, cell + L::kLanes / 2, cells);
-        do {
-            const std::int32_t k = 31 - __builtin_clz(set);
-            set ^= 1U << static_cast<std::uint32_t>(k);
-            near.n[near.count] = count - L::kLanes + k;
-            near.cell[near.count] = cell[k];
-            ++near.count;
-        } while (set != 0);
+        near.count += L::append(set, count - L::kLanes, cells, near.n + near.count,
+                                near.cell + near.count);
     }
     found.count = near.count;
     return count;
