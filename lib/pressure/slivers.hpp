@@ -56,6 +56,21 @@ template <class Real>
            several(upper || borders.wrap_y, s.index(i, upper ? j + 1 : 0));
 }
 
+#if WEIR_HAS_LANES
+/// The first of cells that may be a sliver with liquid, or `end`.
+inline std::int32_t skip_wide_or_dry(const CutDensity<float>& cut, const float* level,
+                                     std::int32_t c, std::int32_t end) {
+    const Lanes sliver = all_lanes(cut.sliver);
+    const Lanes zero = all_lanes(0.0F);
+    for (; c + 4 <= end; c += 4) {
+        if (any_true((load_lanes(cut.full + c) < sliver) & (load_lanes(level + c) > zero))) {
+            return c;
+        }
+    }
+    return c;
+}
+#endif
+
 /// One particle in a sliver is no liquid, unless there are others: closed faces would be mirrored
 /// for its sake, from air, and turn what flies by. Cells c … end − 1 of row j.
 template <class Real>
@@ -64,6 +79,14 @@ void empty_lone_slivers(const StaggeredGrid<Real>& grid, const Borders<Real>& bo
                         LevelOf<Real>* level) {
     const std::int32_t row = grid.shape.index(0, j);
     for (std::int32_t c = cells.first; c < cells.end; ++c) {
+#if WEIR_HAS_LANES
+        if constexpr (kHasLanes<Real>) {
+            c = skip_wide_or_dry(cut, level, c, cells.end);
+            if (c == cells.end) {
+                return;
+            }
+        }
+#endif
         if (Real(cut.full[c]) < cut.sliver && is_positive(Real(level[c])) &&
             !holds_several(grid, c) && !beside_several(grid, borders, c - row, j)) {
             level[c] = kEmptyLevel<Real>;

@@ -106,6 +106,16 @@ void note_movable(BodyTable<Real>& table) {
 }
 
 template <class Real>
+bool any_without_slip(const BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        if (table.body[slot].kind != BodyKind::free && table.body[slot].surface.no_slip) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <class Real>
 void place(BodyTable<Real>& table, const Body<Real>& body) {
     const Rotation<Real> turn = rotation(body.angle);
     for (std::int32_t k = 0; k < body.vertex_count; ++k) {
@@ -142,6 +152,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&);  \
     template void add_polyline(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
     template void note_movable(BodyTable<Real>&);                                          \
+    template bool any_without_slip(const BodyTable<Real>&);                                \
     template void place(BodyTable<Real>&, const Body<Real>&);                              \
     template void remove(BodyTable<Real>&, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

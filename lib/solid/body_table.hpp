@@ -113,6 +113,10 @@ void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_p
 template <class Real>
 void note_movable(BodyTable<Real>& table);
 
+/// Whether viscous liquid sticks to a body.
+template <class Real>
+bool any_without_slip(const BodyTable<Real>& table);
+
 /// Turns and moves the vertices to the body's pose.
 template <class Real>
 void place(BodyTable<Real>& table, const Body<Real>& body);

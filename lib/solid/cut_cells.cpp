@@ -184,7 +184,8 @@ Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t
 template <class Real>
 bool is_mirrored(const Walls<Real>& walls, Real open, std::int32_t a, std::int32_t b) {
     const Real distance = Real(0.5) * (Real(walls.distance[a]) + Real(walls.distance[b]));
-    return open > Real(0) ? distance < kBoundLayer<Real> && sticking_body(walls, a, b) != kNoBody
+    return open > Real(0) ? walls.any_sticking && distance < kBoundLayer<Real> &&
+                                sticking_body(walls, a, b) != kNoBody
                           : !(distance < kDeepestMirror<Real>);
 }
 

@@ -176,7 +176,7 @@ inline std::int32_t look_around_eights(const GridShape& s, std::int32_t j, std::
                 }
             }
         };
-        if (!thin) {
+        if (walls.any_sticking && !thin) {
             add_sticking(eight.u.beside, s.stride);
             add_sticking(eight.v.beside, 1);
         }

@@ -351,6 +351,7 @@ void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
         refresh(layers, table, drawn);
     }
     remove(table, slot);
+    layers.walls.any_sticking = any_without_slip(table);
     if (thin) {
         relink_all(layers.thin, layers.shape, table);
     }

@@ -26,17 +26,6 @@ namespace weir {
 
 namespace {
 
-/// Whether liquid that is viscous sticks to a body.
-template <class Real>
-bool any_without_slip(const BodyTable<Real>& table) {
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        if (table.body[slot].kind != BodyKind::free && table.body[slot].surface.no_slip) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /// Moving bodies go where their velocities take them, or stay for no time.
 template <class Real>
 void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s) {
@@ -254,7 +243,7 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         moved_s = plan.walls_held ? Seconds<Real>{} : plan.dt_s + simulation.walls_behind_s;
         simulation.walls_behind_s = Seconds<Real>{};
         Walls<Real>& walls = simulation.layers.walls;
-        walls.sticking = plan.viscosity > Real(0) && any_without_slip(simulation.bodies);
+        walls.sticking = plan.viscosity > Real(0) && walls.any_sticking;
         move_bodies(simulation.bodies, walls, moved_s);
     }
     if (work.once(simulation.bodies.capacity)) {

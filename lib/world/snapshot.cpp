@@ -273,6 +273,7 @@ void redraw(Simulation<Real>& simulation) {
     }
     note_movable(table);
     simulation.layers.walls.active = table.used > 0;
+    simulation.layers.walls.any_sticking = any_without_slip(table);
     simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = stored_part(simulation);  // what is not kept may stand anywhere
     if (simulation.regions != nullptr) {

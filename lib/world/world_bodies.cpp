@@ -126,6 +126,7 @@ template <class Real>
     ++table.used;
     note_movable(table);
     layers.walls.active = true;
+    layers.walls.any_sticking = any_without_slip(table);
     if (table.load != nullptr) {
         weigh(def, table, body, table.load[slot]);
     }
