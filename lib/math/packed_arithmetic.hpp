@@ -29,6 +29,16 @@ inline std::int32_t beside_product(std::int32_t number) {
 #endif
 }
 
+/// Adds to a sum that stays in one of those registers of a Cortex-M0 that can only be added to.
+template <class Number>
+inline void add_aside(Number& sum, Number term) {
+#if defined(__ARM_ARCH_6M__)
+    __asm__("add %0, %1" : "+h"(sum) : "r"(term));
+#else
+    sum += term;
+#endif
+}
+
 /// As a number of so many bits.
 template <int Bits>
 inline std::int32_t saturated(std::int32_t value) {

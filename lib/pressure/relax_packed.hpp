@@ -303,37 +303,54 @@ template <bool Solids, class Real>
 /// A residual of so little, raw, moves no velocity by a unit, nor does a column of 32 of them.
 inline constexpr std::int32_t kExactRaw = 8;
 
-/// Sums pᵀb and pᵀAp over the cells of some rows, in the same unit and as fine as 32-bit products
+/// A sum of up to 2^16 products in two halves: a small chip adds 64 bits out of its memory.
+struct SumOfHalves {
+    std::int32_t high = 0;
+    std::uint32_t low = 0;
+
+    void add(std::int32_t product) {
+        add_aside(high, product >> 16);
+        add_aside<std::uint32_t>(low, static_cast<std::uint16_t>(product));
+    }
+    std::int64_t whole() const { return std::int64_t{high} * 0x10000 + low; }
+};
+
+/// Sums pᵀb and pᵀAp over the cells of a row, in the same unit and as fine as 32-bit products
 /// allow: eighths are asked for. Notes whether a residual is worth a sweep.
 template <bool Solids, class Real>
 void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, std::int32_t stride,
                   std::int32_t first, std::int32_t end, Solve<Real>& solve) {
-    std::int64_t wanted = 0;
-    std::int64_t there = 0;
+    SumOfHalves wanted;
+    SumOfHalves there;
     std::uint32_t off = solve.off;
-    for (std::int32_t c = first; c < end; ++c) {
-        const std::int32_t kept = fields.inverse_diagonal[c].raw;
+    const VelocityOf<Real>* diagonal = fields.inverse_diagonal + first;
+    const std::ptrdiff_t to_divergence = fields.divergence - fields.inverse_diagonal;
+    const Real* at = fields.pressure + first;
+    const Real* const last = fields.pressure + end;
+    for (; at != last; ++at, ++diagonal) {
+        const std::int32_t kept = diagonal->raw;
         if (kept == 0) {
             continue;
         }
         if (kept == kRowEnd) {
             break;
         }
-        const Real* at = fields.pressure + c;
+        // Four pressures of 29 bits less four others are one of 32.
         const std::int32_t pull =
-            kept == 512 ? fixed::subtract(4 * at->raw, (at[-1].raw + at[1].raw) +
-                                                           (at[-stride].raw + at[stride].raw))
-                        : pull_rare<Solids>(fields, walls, stride, c);
+            kept == 512 || kept == 384
+                ? (kept == 512 ? 4 : 3) * at->raw - neighbours_in_open(at, stride)
+                : pull_rare<Solids>(fields, walls, stride,
+                                    static_cast<std::int32_t>(at - fields.pressure));
         const std::int32_t p = short_of(rounded_shift(at->raw, 10));
-        const std::int32_t flow = fields.divergence[c].raw;
+        const std::int32_t flow = diagonal[to_divergence].raw;
         off |= static_cast<std::uint32_t>(pull) +
                static_cast<std::uint32_t>(flow * 512 + kExactRaw);
-        wanted += p * flow;
-        there += p * short_of(rounded_shift(saturated<25>(pull), 9));
+        wanted.add(p * flow);
+        there.add(p * short_of(rounded_shift(saturated<25>(pull), 9)));
     }
     solve.off = off;
-    solve.wanted.raw -= wanted;
-    solve.there.raw += there;
+    solve.wanted.raw -= wanted.whole();
+    solve.there.raw += there.whole();
 }
 
 /// A small world has no coarse grid: so many sweeps take its place.
