@@ -10,8 +10,9 @@ namespace weir {
 
 /// Particles are gathered and collided by so many at a time, so that where each came from is known
 /// at no memory but this. Lanes take a while to set up, and live where a kilobyte of stack is.
+/// Packed worlds take several of them at once, as many as scratch has words for.
 template <class Real>
-inline constexpr std::int32_t kBlock = kHasLanes<Real> ? 512 : (Stored<Real>::coarse ? 20 : 32);
+inline constexpr std::int32_t kBlock = kHasLanes<Real> ? 512 : (Stored<Real>::coarse ? 16 : 32);
 
 /// Where the particles of a block come from.
 template <class Real>

@@ -54,6 +54,29 @@ inline bool is_path_open(const CasesAt& at, std::uint32_t from, std::uint32_t to
     return true;
 }
 
+/// `weir::is_far`, told from words.
+inline bool goes_far(std::uint32_t from, std::uint32_t to) {
+    const auto beyond = [](std::uint32_t there, std::uint32_t here) {
+        return there - here + 256U > 512U;
+    };
+    return beyond(static_cast<std::uint16_t>(to), static_cast<std::uint16_t>(from)) ||
+           beyond(to >> 16U, from >> 16U);
+}
+
+/// The same, or the last one that went far.
+[[gnu::noinline]] inline std::int32_t last_near_wall_or_far(const CasesAt& at,
+                                                            const PlaceOfParticle* places,
+                                                            const PlaceOfParticle* before,
+                                                            std::int32_t count) {
+    for (std::int32_t n = count - 1; n >= 0; --n) {
+        const std::uint32_t place = word_at(places + n);
+        if (at.cases[at.cell(place)] != kCellOutside || goes_far(word_at(before + n), place)) {
+            return n;
+        }
+    }
+    return -1;
+}
+
 /// What a particle's place says by itself: clearly in the open, or to be asked, or that the way
 /// there has to be asked, too.
 enum class Look : std::uint8_t { open, near, far };
@@ -64,7 +87,7 @@ enum class Look : std::uint8_t { open, near, far };
     const std::uint32_t to = word_at(place);
     const std::int32_t cell = at.cell(to);
     const std::uint8_t which = at.cases[cell];
-    if (before != nullptr && is_far(Vec2<SmallFixed>(*before), Vec2<SmallFixed>(*place)) &&
+    if (before != nullptr && goes_far(word_at(before), to) &&
         !is_path_open(at, word_at(before), to)) {
         return Look::far;
     }
@@ -94,7 +117,8 @@ struct Found {
                                             std::int32_t& tested) {
     const CasesAt at(s, walls);
     for (std::int32_t n = count; n > 0;) {
-        n = before != nullptr ? n - 1 : last_near_wall(at, places, n);
+        n = before != nullptr ? last_near_wall_or_far(at, places, before, n)
+                              : last_near_wall(at, places, n);
         const Look look = n < 0 ? Look::open
                                 : look_at(at, places + n, before != nullptr ? before + n : nullptr,
                                           tested);

@@ -66,8 +66,9 @@ void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer,
                    StepReport& report) {
     Findings<TransferResult<Real>> found{};
     const Part part = work.take(simulation.gathered, 1);
-    // What hits the tank's walls is summed in its order.
-    const Work alone = transfer.tank != nullptr ? Work() : work;
+    // What hits the tank's walls is summed in its order. Packed worlds have scratch for one thread.
+    const bool one_by_one = transfer.tank != nullptr || Stored<Real>::coarse;
+    const Work alone = one_by_one ? Work() : work;
     alone.share(part, kCellsAParticle, kBlock<Real>, [&](const Part& piece, std::int32_t n) {
         Particles<Real> some =
             simulation.particles.part(piece.first, piece.end - piece.first);
@@ -80,11 +81,9 @@ void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer,
 template <class Value, std::int32_t Most>
 class Copies {
 public:
-    const Value* room() const { return reinterpret_cast<const Value*>(bytes_); }
-    void* bytes() { return bytes_; }
     const Value* of(const Value* from, std::int32_t count) {
         std::memcpy(bytes_, from, static_cast<std::size_t>(count) * sizeof(Value));
-        return room();
+        return reinterpret_cast<const Value*>(bytes_);
     }
 
 private:
@@ -111,6 +110,22 @@ TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
     return moved;
 }
 
+/// What a packed world's pressure has needed is free by then, and lies behind its velocities. There
+/// is room for a block at least.
+template <class Real>
+void lend_scratch(const PressureFields<Real>& fields, const GridShape& tank,
+                  Transfer<Real>& transfer) {
+    constexpr std::uintptr_t kWord = sizeof(std::uint32_t);
+    static_assert((kMinCells + 2) * (kMinCells + 2) * sizeof(VelocityOf<Real>) >=
+                  (kBlock<SmallFixed> + 1) * kWord, "or the smallest tank has too little");
+    const auto first = reinterpret_cast<std::uintptr_t>(fields.divergence);
+    const std::uintptr_t begin = (first + kWord - 1) / kWord * kWord;
+    const std::uintptr_t end =
+        first + static_cast<std::uintptr_t>(tank.size()) * sizeof(VelocityOf<Real>);
+    transfer.ways = reinterpret_cast<void*>(begin);
+    transfer.room = static_cast<std::int32_t>((end - begin) / kWord);
+}
+
 /// Moves a block of particles and lets them meet the solids.
 template <class Real>
 void gather_block(Simulation<Real>& simulation, Transfer<Real>& transfer, const Part& places,
@@ -120,12 +135,11 @@ void gather_block(Simulation<Real>& simulation, Transfer<Real>& transfer, const 
     Particles<Real>& particles = simulation.particles;
     const std::int32_t first = places.first;
     const std::int32_t count = places.end - first;
-    Copies<Vec2<PositionOf<Real>>, kBlock<Real>> copies;
-    const Vec2<PositionOf<Real>>* before = copies.room();
-    if constexpr (Stored<Real>::coarse) {  // the gather leaves them there, on one thread
-        transfer.before = copies.bytes();
-    } else {
-        copies.of(particles.position + first, count);
+    constexpr bool kLeft = Stored<Real>::coarse;  // by the gather, on one thread
+    Copies<Vec2<PositionOf<Real>>, kLeft ? 1 : kBlock<Real>> copies;
+    const auto* before = static_cast<const Vec2<PositionOf<Real>>*>(transfer.ways);
+    if constexpr (!kLeft) {
+        before = copies.of(particles.position + first, count);
     }
     Particles<Real> block = particles.part(first, count);
     moved = walls.thin != nullptr
@@ -151,10 +165,12 @@ void gather_among_solids(Simulation<Real>& simulation, Transfer<Real>& transfer,
     const Part part = work.take((simulation.gathered + kBlock<Real> - 1) / kBlock<Real>,
                                 kBlock<Real>);
     clock.charge(Stage::grid_to_particle);
-    const auto places = [&](std::int32_t at) {
+    const auto places = [&](std::int32_t at, std::int32_t blocks) {
         const std::int32_t end = simulation.gathered - at * kBlock<Real>;
-        return Part{maximum(0, end - kBlock<Real>), end};
+        return Part{maximum(0, end - blocks * kBlock<Real>), end};
     };
+    // So many blocks at once.
+    const std::int32_t most = Stored<Real>::coarse ? transfer.room / kBlock<Real> : 1;
     // Blows are summed in their order.
     const bool alone = simulation.contacts.capacity > 0 || simulation.bodies.load != nullptr ||
                        Stored<Real>::coarse;
@@ -162,10 +178,10 @@ void gather_among_solids(Simulation<Real>& simulation, Transfer<Real>& transfer,
     Findings<TransferResult<Real>> moved{};
     Findings<CollideResult<Real>> collisions{};
     const auto stage = [&](const Part& blocks, std::int32_t n, bool mark, StageClock* charged) {
-        for (std::int32_t at = blocks.first; at < blocks.end; ++at) {
+        for (std::int32_t at = blocks.first; at < blocks.end; at += most) {
             TransferResult<Real> block;
-            gather_block(simulation, transfer, places(at), mark, charged, block,
-                         collisions.of[n]);
+            gather_block(simulation, transfer, places(at, minimum(most, blocks.end - at)), mark,
+                         charged, block, collisions.of[n]);
             moved.of[n].add(block);
             if constexpr (Stored<Real>::coarse) {
                 transfer.max_speed = moved.of[n].max_speed;
@@ -200,6 +216,9 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
         transfer.particle_mass = simulation.layers.walls.particle_mass;
     }
     transfer.settling = plan.settling;
+    if constexpr (Stored<Real>::coarse) {
+        lend_scratch(simulation.pressure, simulation.layers.shape, transfer);
+    }
     prepare_gather(simulation.grid, work);
     if (work.once(1)) {
         simulation.grid.shape = simulation.layers.shape;
@@ -214,6 +233,7 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
     }
     if constexpr (Solids) {
         transfer.near = Real(1) / dt_s;
+        transfer.keeps_places = true;
         ThinWalls<Real>& thin = simulation.layers.thin;
         if (simulation.layers.walls.thin != nullptr &&
             work.once(simulation.bodies.vertices_used + 1)) {

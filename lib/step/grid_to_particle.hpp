@@ -36,7 +36,9 @@ struct Transfer {
     bool settling = false;     ///< packed velocities lose a unit
     // In packed worlds:
     Real max_speed = Real(0);  ///< of particles before these: a root only for who is faster
-    void* before = nullptr;    ///< takes the places where a block comes from; null: nobody asks
+    void* ways = nullptr;      ///< a word of scratch for each of some particles; null: there is none
+    std::int32_t room = 0;     ///< so many words
+    bool keeps_places = false; ///< the places where particles come from are left there
 };
 
 /// Turns the velocity before the pressure (kept where the mass was) into the one field that a

@@ -366,15 +366,15 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
                         transfer.flip_ratio.raw >> 2,
                         highest(s.nx) + highest(s.ny) * 0x10000U};
     alignas(std::uint32_t) unsigned char own[kStripPacked * Strip::kStep];
-    void* const ways = transfer.before != nullptr ? transfer.before : static_cast<void*>(own);
+    void* const ways = transfer.ways != nullptr ? transfer.ways : static_cast<void*>(own);
+    const std::int32_t room = transfer.ways != nullptr ? transfer.room : kStripPacked;
     TransferResult<Real> result;
     const std::int32_t known = transfer.max_speed.raw / 512;
     std::int32_t fastest = known * known;
-    for (std::int32_t k = 0; k < particles.count; k += kStripPacked) {
-        const Particles<Real> strip =
-            particles.part(k, minimum(kStripPacked, particles.count - k));
+    for (std::int32_t k = 0; k < particles.count; k += room) {
+        const Particles<Real> strip = particles.part(k, minimum(room, particles.count - k));
         fastest = gather_u(gather, strip, ways, fastest);
-        fastest = (transfer.before != nullptr ? gather_v<true> : gather_v<kAlwaysKeeps>)(
+        fastest = (transfer.keeps_places ? gather_v<true> : gather_v<kAlwaysKeeps>)(
             gather, strip, ways, fastest, result);
     }
     result.max_speed = transfer.max_speed;

@@ -12,7 +12,7 @@ namespace weir {
 std::int32_t scatter_packed(const Particles<SmallFixed>& particles,
                             StaggeredGrid<SmallFixed>& grid);
 
-/// Between its two passes a gather keeps a word of so many particles.
+/// Between its two passes a gather keeps a word of so many particles, if it is given no scratch.
 inline constexpr std::int32_t kStripPacked = 32;
 
 /// As `grid_to_particle`.
