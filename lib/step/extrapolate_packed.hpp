@@ -20,13 +20,22 @@ struct AirFaces {
     std::int32_t first_j;
     VelocityOf<SmallFixed>* velocity;
 
-    bool wet(std::int32_t face) const {
-        return fields.level[face].raw > 0 || fields.level[face - back].raw > 0;
-    }
-    std::int32_t share(std::int32_t face) const { return open != nullptr ? open[face].raw : 128; }
-    std::int32_t gained(std::int32_t face) const {
-        const SmallFixed share_of_face = SmallFixed::of_raw(share(face) * 512);
-        return fixed::subtract(0, pressure_rise(fields, face - back, face, share_of_face).raw);
+};
+
+/// What faces with liquid on one of their sides at least have gained.
+struct Gains {
+    std::int32_t sum = 0;
+    std::int32_t count = 0;
+
+    /// Not inline: most faces beside one in air are in air, too.
+    [[gnu::noinline]] void add(const AirFaces& faces, std::int32_t face) {
+        const std::int32_t share = faces.open != nullptr ? faces.open[face].raw : 128;
+        if (share > 0) {
+            const SmallFixed rise = pressure_rise(faces.fields, face - faces.back, face,
+                                                  SmallFixed::of_raw(share * 512));
+            sum = fixed::add(sum, fixed::subtract(0, rise.raw));
+            count += 1;
+        }
     }
 };
 
@@ -47,25 +56,26 @@ inline std::int32_t mean_of(std::int32_t sum, std::int32_t count) {
 [[gnu::noinline]] inline void extrapolate_face(const AirFaces& faces, std::int32_t i,
                                                std::int32_t j) {
     const GridShape& s = faces.shape;
-    const std::int32_t face = s.index(i, j);
     if (i < faces.first_i || j < faces.first_j) {
         return;
     }
-    std::int32_t sum = 0;
-    std::int32_t count = 0;
-    const auto look = [&](bool exists, std::int32_t neighbour) {
-        if (exists && faces.wet(neighbour) && faces.share(neighbour) > 0) {
-            sum = fixed::add(sum, faces.gained(neighbour));
-            count += 1;
+    const std::int32_t face = s.index(i, j);
+    const LevelOf<SmallFixed>* const own = faces.fields.level + face;
+    const LevelOf<SmallFixed>* const before = own - faces.back;
+    Gains gains;
+    const auto look = [&](bool exists, std::int32_t step) {
+        if (exists && (own[step].raw > 0 || before[step].raw > 0)) {
+            gains.add(faces, face + step);
         }
     };
-    look(i > faces.first_i, face - 1);
-    look(i + 1 < s.nx, face + 1);
-    look(j > faces.first_j, face - s.stride);
-    look(j + 1 < s.ny, face + s.stride);
-    if (count > 0) {
+    look(i > faces.first_i, -1);
+    look(i + 1 < s.nx, 1);
+    look(j > faces.first_j, -s.stride);
+    look(j + 1 < s.ny, s.stride);
+    if (gains.count > 0) {
         const std::int32_t now = std::int32_t{faces.velocity[face].raw} * 512;
-        faces.velocity[face] = SmallFixed::of_raw(fixed::add(now, mean_of(sum, count)));
+        faces.velocity[face] =
+            SmallFixed::of_raw(fixed::add(now, mean_of(gains.sum, gains.count)));
     }
 }
 
@@ -82,18 +92,19 @@ inline void extrapolate_packed(const Borders<SmallFixed>& borders, const Walls<S
                              s.stride, 0,
                              borders.wrap_y ? 0 : 1, grid.v};
     constexpr std::int32_t kEmpty = LevelOf<SmallFixed>(kEmptyLevel<SmallFixed>).raw;
-    const auto in_reach = [&](std::int32_t c) {
-        return fields.level[c].raw <= 0 && fields.level[c].raw > kEmpty;
+    const auto in_reach = [](const LevelOf<SmallFixed>& level) {
+        return level.raw <= 0 && level.raw > kEmpty;
     };
+    const std::int32_t columns = s.nx;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
-            const std::int32_t c = s.index(i, j);
+        const LevelOf<SmallFixed>* const row = fields.level + s.index(0, j);
+        for (std::int32_t i = 0; i < columns; ++i) {
             // A face that has mass shows in both its cells; one that has none is read by nobody.
-            if (in_reach(c)) {
-                if (in_reach(c - 1)) {
+            if (in_reach(row[i])) {
+                if (in_reach(row[i - 1])) {
                     packed::extrapolate_face(u, i, j);
                 }
-                if (in_reach(c - s.stride)) {
+                if (in_reach(row[i - s.stride])) {
                     packed::extrapolate_face(v, i, j);
                 }
             }
