@@ -69,14 +69,15 @@ inline std::int32_t less_diagonal(std::int32_t from, std::int32_t diagonal,
 }
 
 /// Of a cell's neighbours, each with its face, so much more than its diagonal × pressure. `flow`:
-/// less so much. `kept`: its diagonal, negative at walls.
+/// less so much. `kept`: its diagonal, negative at walls. `first`: of all pressures.
 template <bool Solids, class Real>
-inline std::int32_t short_of_neighbours(const Real* at, const Walls<Real>& walls, std::int32_t c,
-                                        std::int32_t stride, std::int32_t kept,
+inline std::int32_t short_of_neighbours(const Real* at, const Walls<Real>& walls,
+                                        const Real* first, std::int32_t stride, std::int32_t kept,
                                         std::int32_t flow) {
     if (!Solids || kept > 0) {
         return less_diagonal(neighbours_in_open(at, stride) - flow, kept, at->raw);
     }
+    const auto c = static_cast<std::int32_t>(at - first);
     return less_diagonal(neighbours_at_wall(at, walls, c, stride) - flow, -kept, at->raw);
 }
 
@@ -137,21 +138,20 @@ struct PackedRelaxTask {
           of_3(step / 384) {}
 };
 
-/// A cell at the surface or at a wall.
+/// A cell at the surface or at a wall, with its diagonal and what flows out of it.
 template <bool Solids, class Real>
-[[gnu::noinline]] void relax_rare(const PackedRelaxTask<Real>& task, Real* at) {
-    const PressureFields<Real>& fields = task.fields;
-    const auto c = static_cast<std::int32_t>(at - fields.pressure);
-    const std::int32_t kept = fields.inverse_diagonal[c].raw;
+[[gnu::noinline]] void relax_rare(const PackedRelaxTask<Real>& task, Real* at, std::int32_t kept,
+                                  std::int32_t flow) {
     const std::int32_t residual =
-        short_of_neighbours<Solids>(at, task.walls, c, task.stride, kept,
-                                    std::int32_t{fields.divergence[c].raw} * 512);
+        short_of_neighbours<Solids>(at, task.walls, task.fields.pressure, task.stride, kept,
+                                    flow * 512);
     at->raw = relaxed(at->raw, residual, coarse_factor(task.step, kept < 0 ? -kept : kept));
 }
 
 /// Relaxes cells c, c + 2 … of a row.
 template <bool Solids, class Real>
-[[gnu::noinline]] void relax_packed_row(const PackedRelaxTask<Real>& task, std::int32_t c) {
+[[gnu::always_inline]] inline void relax_packed_row(const PackedRelaxTask<Real>& task,
+                                                    std::int32_t c) {
     const PressureFields<Real>& fields = task.fields;
     Real* here = fields.pressure + c;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;
@@ -172,7 +172,10 @@ template <bool Solids, class Real>
         diagonal = whole(diagonal + 2);
         own = diagonal->raw;
     };
-    for (; own != kRowEnd; next()) {
+    for (;; next()) {
+        while (own == 0) {
+            next();
+        }
         while (own == amid) {
             relax_plain<4>(here, around(), diagonal[to_divergence].raw, of_4, half);
             next();
@@ -182,7 +185,7 @@ template <bool Solids, class Real>
         } else if (own == kRowEnd) {
             return;
         } else if (own != 0) {
-            relax_rare<Solids>(task, here);
+            relax_rare<Solids>(task, here, own, diagonal[to_divergence].raw);
         }
     }
 }
@@ -296,7 +299,8 @@ template <bool Solids, class Real>
 [[gnu::noinline]] std::int32_t pull_rare(const PressureFields<Real>& fields,
                                          const Walls<Real>& walls, std::int32_t stride,
                                          std::int32_t c) {
-    return fixed::subtract(0, short_of_neighbours<Solids>(fields.pressure + c, walls, c, stride,
+    return fixed::subtract(0, short_of_neighbours<Solids>(fields.pressure + c, walls,
+                                                          fields.pressure, stride,
                                                           fields.inverse_diagonal[c].raw, 0));
 }
 
