@@ -20,6 +20,32 @@ struct ShortInverses {
 };
 inline constexpr ShortInverses kShortInverses;
 
+/// 2^16 / n, cut off, for n = 1 … 128.
+struct SmallInverses {
+    constexpr SmallInverses() {
+        for (std::uint32_t n = 1; n <= 128; ++n) {
+            of[n] = static_cast<std::uint16_t>(n == 1 ? 0xFFFFU : 0x10000U / n);
+        }
+    }
+    std::uint16_t of[129] = {};
+};
+inline constexpr SmallInverses kSmallInverses;
+
+/// `size` / `divisor`, cut off, for sizes up to 2^15 and divisors of 1 … 128.
+inline std::uint32_t small_quotient(std::uint32_t size, std::uint32_t divisor) {
+    const std::uint32_t quotient = (size * kSmallInverses.of[divisor]) >> 16U;  // or one too small
+    return quotient + (size - quotient * divisor >= divisor ? 1U : 0U);
+}
+
+/// The same on any processor.
+inline std::uint32_t small_quotient_of(std::uint32_t size, std::uint32_t divisor) {
+#if defined(__ARM_ARCH_6M__)
+    return small_quotient(size, divisor);
+#else
+    return size / divisor;
+#endif
+}
+
 /// `size` / `divisor`, cut off, for divisors below 2^16 and quotients below 2^15: seven digits at
 /// once, twice, and what is then missing, at most three.
 inline std::uint32_t short_quotient(std::uint32_t size, std::uint32_t divisor) {

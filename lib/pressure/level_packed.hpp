@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid/borders.hpp"
+#include "math/quotient_packed.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "pressure/slivers.hpp"
 
@@ -57,7 +58,10 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
                 if (full[c].raw * rest_count < 128) {
                     slivers = {slivers.empty() ? c : slivers.first, c + 1};
                 }
-                density = full[c].raw < 3 ? 0 : density * 128 / full[c].raw;
+                const std::uint32_t share = full[c].raw;
+                density = share < 3 ? 0
+                                    : static_cast<std::int32_t>(quotient_of(
+                                          static_cast<std::uint32_t>(density) * 128U, share));
             }
             densities[c].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
             levels[c].raw = packed_level(density);

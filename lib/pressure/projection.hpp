@@ -3,6 +3,7 @@
 
 #include "grid/borders.hpp"
 #include "math/packed_arithmetic.hpp"
+#include "math/quotient_packed.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/free_body.hpp"
 #include "weir/features.hpp"
@@ -96,14 +97,15 @@ inline Real jet_share(const PressureFields<Real>& fields, std::int32_t wet, std:
 
 /// What a face adds to the diagonal of a liquid cell beside air, in 128ths as `weight` and `open`:
 /// weight over liquid fraction, in whole numbers; levels in 64ths.
-inline std::int32_t packed_coefficient(std::int32_t weight, std::int32_t open,
-                                       std::int32_t level_liquid, std::int32_t level_air) {
+[[gnu::noinline]] inline std::int32_t packed_coefficient(std::int32_t weight, std::int32_t open,
+                                                         std::int32_t level_liquid,
+                                                         std::int32_t level_air) {
     const std::int32_t least = maximum(6, 128 - 4 * open);
     const std::int32_t both = level_liquid - level_air;
     const bool limited = level_liquid * 128 <= least * both;
     return static_cast<std::int32_t>(
-        static_cast<std::uint32_t>(weight * (limited ? 128 : both)) /
-        static_cast<std::uint32_t>(limited ? least : level_liquid));
+        small_quotient_of(static_cast<std::uint32_t>(weight * (limited ? 128 : both)),
+                          static_cast<std::uint32_t>(limited ? least : level_liquid)));
 }
 
 /// From one cell to the next, of which at least one is liquid: what the face between them loses in

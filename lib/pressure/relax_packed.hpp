@@ -213,23 +213,25 @@ template <bool Solids, class Weights, class Fields>
     const Walls<Real>& walls = weights.walls;
     const StaggeredGrid<Real>& grid = weights.grid;
     const GridShape& s = grid.shape;
-    const auto share = [](bool inside, const ShareOf<Real>* open, std::int32_t face) {
-        return !inside ? 0 : (Solids ? static_cast<std::int32_t>(open[face].raw) : 128);
-    };
     const std::int32_t c = s.index(i, j);
     const std::int32_t up = c + s.stride;
-    const std::int32_t level = fields.level[c].raw;
-    const Faces<std::int32_t> w{share(weights.has_left(i), walls.open_u, c),
-                                share(weights.has_right(i), walls.open_u, c + 1),
-                                share(weights.has_lower(j), walls.open_v, c),
-                                share(weights.has_upper(j), walls.open_v, up)};
-    const auto part = [&](std::int32_t weight, std::int32_t neighbour) {
-        const std::int32_t there = fields.level[neighbour].raw;
-        return there > 0 || weight == 0 ? weight
-                                        : packed_coefficient(weight, weight, level, there);
+    const auto* const level = fields.level + c;
+    std::int32_t diagonal = 0;
+    std::int32_t outwards = 0;
+    const auto look = [&](bool inside, const ShareOf<Real>* open, std::int32_t face,
+                          std::int32_t velocity, std::int32_t step) {
+        const std::int32_t weight = Solids ? static_cast<std::int32_t>(open[face].raw) : 128;
+        if (inside && weight != 0) {
+            outwards += weight * velocity;
+            const std::int32_t there = level[step].raw;
+            diagonal += there > 0 ? weight
+                                  : packed_coefficient(weight, weight, level[0].raw, there);
+        }
     };
-    const std::int32_t diagonal = (part(w.left, c - 1) + part(w.right, c + 1)) +
-                                  (part(w.lower, c - s.stride) + part(w.upper, up));
+    look(weights.has_left(i), walls.open_u, c, -grid.u[c].raw, -1);
+    look(weights.has_right(i), walls.open_u, c + 1, grid.u[c + 1].raw, 1);
+    look(weights.has_lower(j), walls.open_v, c, -grid.v[c].raw, -s.stride);
+    look(weights.has_upper(j), walls.open_v, up, grid.v[up].raw, s.stride);
     if (diagonal == 0) {
         fields.inverse_diagonal[c].raw = 0;
         fields.divergence[c].raw = 0;  // whoever goes by levels reads it
@@ -237,9 +239,7 @@ template <bool Solids, class Weights, class Fields>
         return;
     }
     const bool wide = !Solids || untouched(walls, c, up);
-    const std::int32_t along_x = w.right * grid.u[c + 1].raw - w.left * grid.u[c].raw;
-    const std::int32_t along_y = w.upper * grid.v[up].raw - w.lower * grid.v[c].raw;
-    std::int32_t flow = rounded_shift(along_x + along_y, 7);
+    std::int32_t flow = rounded_shift(outwards, 7);
     if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
         flow += rounded_shift(wall_flow(s, walls, i, j).raw, 9);
     }

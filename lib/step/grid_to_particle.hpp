@@ -36,8 +36,8 @@ struct Transfer {
     bool settling = false;     ///< packed velocities lose a unit
     // In packed worlds:
     Real max_speed = Real(0);  ///< of particles before these: a root only for who is faster
-    void* ways = nullptr;      ///< a word of scratch for each of some particles; null: there is none
-    std::int32_t room = 0;     ///< so many words
+    void* ways = nullptr;      ///< words of scratch, one for each of some particles; null: none
+    std::int32_t room = 0;     ///< so many
     bool keeps_places = false; ///< the places where particles come from are left there
 };
 

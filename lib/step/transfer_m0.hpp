@@ -61,13 +61,12 @@ namespace weir::packed {
     __asm__(".syntax unified\n"                                                              \
             "0:\n\t"                                                                         \
             "mov %[t], %[place]\n\t"                                                         \
-            "ldr %[at], [%[t]]\n\t"                                                          \
+            "ldmia %[t]!, {%[at]}\n\t"                                                       \
+            "mov %[place], %[t]\n\t"                                                         \
             "add %[t], %[tv]\n\t"                                                            \
             "movs %[seen], #0\n\t"                                                           \
             "ldrsh %[v], [%[t], %[seen]]\n\t"                                                \
             "lsls %[v], %[v], #2\n\t"                                                        \
-            "movs %[t], #4\n\t"                                                              \
-            "add %[place], %[t]\n\t"                                                         \
             half                                                                             \
             WEIR_FOUR_FACES                                                                  \
             WEIR_ADD_MASS("0", "ll")                                                         \
@@ -86,8 +85,7 @@ namespace weir::packed {
             "subs %[low], %[low], %[t]\n\t"                                                  \
             WEIR_ADD_MOMENTUM("0", "ll")                                                     \
             WEIR_ADD_MOMENTUM("4", "at")                                                     \
-            "ldr %[t], %[end]\n\t"                                                           \
-            "cmp %[place], %[t]\n\t"                                                         \
+            "cmp %[place], %[end]\n\t"                                                       \
             "bne 0b\n\t"                                                                     \
             "b 2f\n"                                                                         \
             "1:\n\t"                                                                         \
@@ -100,8 +98,8 @@ namespace weir::packed {
             "2:\n\t"                                                                         \
             : [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll),        \
               [ul] "=&l"(ul), [ur] "=&l"(ur), [t] "=&l"(t), [v] "=&l"(v), [seen] "=&l"(seen) \
-            : [end] "m"(end), [first] "h"(first), [row] "h"(row),                            \
-              [tv] "h"(to_velocity), [to] "h"(to_momentum)                                   \
+            : [end] "h"(last), [first] "h"(first), [row] "h"(row),                           \
+              [tv] "h"(from_next), [to] "h"(to_momentum)                                     \
             : "cc", "memory");
 
 /// Mass and momentum of one component of the particles from `place` to `end` to their faces, until
@@ -111,6 +109,8 @@ namespace weir::packed {
 template <bool OnU>
 bool add_particles(const char*& place, const char* end, Speed* first, std::int32_t row,
                    std::ptrdiff_t to_velocity, std::uintptr_t to_momentum) {
+    const std::ptrdiff_t from_next = to_velocity - 4;
+    register const char* last __asm__("lr") = end;  // else it is not found that there is room
     std::uint32_t at, low, ll, ul, ur, t, v, seen;
     if (OnU) {
         WEIR_SCATTER(WEIR_HALF_U);
@@ -142,74 +142,55 @@ bool add_particles(const char*& place, const char* end, Speed* first, std::int32
     "muls %[t], %[ul]\n\t"           \
     "adds %[g], %[g], %[t]\n\t"
 
-/// Of a particle's `place` two fields: `at`, which carries it, and `g`, which it gains.
-#define WEIR_TWO_FIELDS(half) \
-    ".syntax unified\n"       \
-    "0:\n\t"                  \
-    "mov %[t], %[place]\n\t"  \
-    "ldr %[at], [%[t]]\n\t"   \
-    half                      \
-    WEIR_FOUR_FACES           \
-    "movs %[z], #0\n\t"       \
-    WEIR_WEIGH                \
-    "mov %[a], %[g]\n\t"      \
-    "add %[low], %[on]\n\t"   \
-    WEIR_WEIGH                \
-    "mov %[at], %[a]\n\t"
+/// `t`: how far what carries it, `g`, takes a particle (`moves`).
+#define WEIR_MOVES                  \
+    "movs %[t], %[g]\n\t"           \
+    "adds %[t], #128\n\t"           \
+    "asrs %[t], %[t], #8\n\t"       \
+    "ldr %[z], %[scale]\n\t"        \
+    "muls %[t], %[z]\n\t"           \
+    "ldr %[z], %[shift]\n\t"        \
+    "asrs %[t], %[z]\n\t"           \
+    "ldr %[z], %[chance]\n\t"       \
+    "muls %[g], %[z]\n\t"           \
+    "lsrs %[g], %[g], #26\n\t"      \
+    "adds %[t], %[t], %[g]\n\t"     \
+    "asrs %[t], %[t], #6\n\t"
 
-/// `ll`: how far it goes (`moves`); its velocity (`change`), and whether it is the fastest. `t` and
-/// `ul` are then the place and from there to the way.
-#define WEIR_CHANGE                  \
-    "movs %[low], %[at]\n\t"         \
-    "adds %[low], #128\n\t"          \
-    "asrs %[low], %[low], #8\n\t"    \
-    "ldr %[t], %[scale]\n\t"         \
-    "muls %[low], %[t]\n\t"          \
-    "ldr %[t], %[shift]\n\t"         \
-    "asrs %[low], %[t]\n\t"          \
-    "ldr %[t], %[chance]\n\t"        \
-    "muls %[at], %[t]\n\t"           \
-    "lsrs %[at], %[at], #26\n\t"     \
-    "adds %[low], %[low], %[at]\n\t" \
-    "asrs %[ll], %[low], #6\n\t"     \
-    "mov %[t], %[place]\n\t"         \
-    "ldr %[ul], %[tv]\n\t"           \
-    "adds %[t], %[t], %[ul]\n\t"     \
-    "ldrsh %[at], [%[t], %[z]]\n\t"  \
-    "ldr %[ul], %[flip]\n\t"         \
-    "muls %[at], %[ul]\n\t"          \
-    "lsls %[g], %[g], #6\n\t"        \
-    "adds %[at], %[at], %[g]\n\t"    \
-    "movs %[ul], #128\n\t"           \
-    "lsls %[ul], %[ul], #6\n\t"      \
-    "adds %[at], %[at], %[ul]\n\t"   \
-    "asrs %[at], %[at], #14\n\t"     \
-    "sxth %[low], %[at]\n\t"         \
-    "cmp %[low], %[at]\n\t"          \
-    "beq 3f\n\t"                     \
-    "asrs %[at], %[at], #31\n\t"     \
-    "movs %[low], #128\n\t"          \
-    "lsls %[low], %[low], #8\n\t"    \
-    "subs %[low], #1\n\t"            \
-    "eors %[low], %[at]\n"           \
-    "3:\n\t"                         \
-    "strh %[low], [%[t]]\n\t"        \
-    "muls %[low], %[low]\n\t"        \
-    "ldr %[t], %[fastest]\n\t"       \
-    "cmp %[low], %[t]\n\t"           \
-    "ble 4f\n\t"                     \
-    "str %[low], %[fastest]\n"       \
-    "4:\n\t"                         \
-    "mov %[t], %[place]\n\t"         \
-    "ldr %[ul], %[tw]\n\t"
+/// Its velocity, `low`, out of what it gains, `g` (`change`), and `low` squared. Seldom it is
+/// limited (6), or the fastest (7).
+#define WEIR_CHANGE                 \
+    "mov %[t], %[place]\n\t"        \
+    "ldr %[ul], %[tv]\n\t"          \
+    "adds %[t], %[t], %[ul]\n\t"    \
+    "ldrsh %[at], [%[t], %[z]]\n\t" \
+    "ldr %[ul], %[flip]\n\t"        \
+    "muls %[at], %[ul]\n\t"         \
+    "adds %[g], #128\n\t"           \
+    "lsls %[g], %[g], #6\n\t"       \
+    "adds %[at], %[at], %[g]\n\t"   \
+    "asrs %[at], %[at], #14\n\t"    \
+    "sxth %[low], %[at]\n\t"        \
+    "cmp %[low], %[at]\n\t"         \
+    "bne 6f\n"                      \
+    "3:\n\t"                        \
+    "strh %[low], [%[t]]\n\t"       \
+    "muls %[low], %[low]\n\t"
+#define WEIR_LIMIT                  \
+    "6:\n\t"                        \
+    "asrs %[at], %[at], #31\n\t"    \
+    "movs %[low], #128\n\t"         \
+    "lsls %[low], %[low], #8\n\t"   \
+    "subs %[low], #1\n\t"           \
+    "eors %[low], %[at]\n\t"        \
+    "b 3b\n"
 
 /// What both gathers leave in registers, and what they are told.
-#define WEIR_FOUND                                                                            \
-    [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll), [ul] "=&l"(ul),   \
-        [ur] "=&l"(ur), [t] "=&l"(t), [z] "=&l"(z), [g] "=&l"(g), [a] "=&h"(along),           \
-        [fastest] "+m"(fastest)
+#define WEIR_FOUND                                                                          \
+    [place] "+&h"(place), [at] "=&l"(at), [low] "=&l"(low), [ll] "=&l"(ll), [ul] "=&l"(ul), \
+        [ur] "=&l"(ur), [t] "=&l"(t), [z] "=&l"(z), [g] "=&l"(g)
 #define WEIR_TOLD                                                                             \
-    [end] "m"(task.end), [first] "h"(task.first), [row] "h"(task.row), [on] "h"(task.on),     \
+    [end] "h"(task.end), [first] "h"(task.first), [row] "h"(task.row), [on] "h"(task.on),     \
         [scale] "m"(task.scale), [shift] "m"(task.shift), [chance] "m"(task.chance),          \
         [flip] "m"(task.flip), [tv] "m"(task.to_velocity), [tw] "m"(task.to_way)
 
@@ -230,21 +211,42 @@ struct GatherTask {
 /// Along x: velocities and ways of all. @return the square of the fastest, or `fastest`.
 inline std::int32_t gather_along_u(const GatherTask& given, const char* place,
                                    std::int32_t fastest) {
-    const GatherTask task = given;
-    std::uint32_t at, low, ll, ul, ur, t, z, g, along;
-    __asm__(WEIR_TWO_FIELDS(WEIR_HALF_U)
-            WEIR_CHANGE
-            "str %[ll], [%[t], %[ul]]\n\t"
-            "adds %[t], #4\n\t"
+    GatherTask task = given;
+    task.to_velocity -= 4;  // from the next place on
+    task.to_way -= 4;
+    register std::int32_t most __asm__("lr") = fastest;
+    std::uint32_t at, low, ll, ul, ur, t, z, g;
+    __asm__(".syntax unified\n"
+            "0:\n\t"
+            "mov %[t], %[place]\n\t"
+            "ldmia %[t]!, {%[at]}\n\t"
             "mov %[place], %[t]\n\t"
-            "ldr %[ul], %[end]\n\t"
-            "cmp %[t], %[ul]\n\t"
-            "beq 5f\n\t"
-            "b 0b\n"
+            WEIR_HALF_U
+            WEIR_FOUR_FACES
+            "movs %[z], #0\n\t"
+            WEIR_WEIGH
+            WEIR_MOVES
+            "mov %[g], %[place]\n\t"
+            "ldr %[z], %[tw]\n\t"
+            "str %[t], [%[g], %[z]]\n\t"
+            "movs %[z], #0\n\t"
+            "add %[low], %[on]\n\t"
+            WEIR_WEIGH
+            WEIR_CHANGE
+            "cmp %[low], %[fastest]\n\t"
+            "bgt 7f\n"
+            "4:\n\t"
+            "cmp %[place], %[end]\n\t"
+            "bne 0b\n\t"
+            "b 5f\n"
+            WEIR_LIMIT
+            "7:\n\t"
+            "mov %[fastest], %[low]\n\t"
+            "b 4b\n"
             "5:\n\t"
-            : WEIR_FOUND : WEIR_TOLD
+            : WEIR_FOUND, [fastest] "+h"(most) : WEIR_TOLD
             : "cc", "memory");
-    return fastest;
+    return most;
 }
 
 /// What `gather_v` compares words with.
@@ -269,13 +271,32 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
     const GatherTask task = given;
     const WayBounds bounds = bounds_given;
     std::int32_t fastest = fastest_yet;
-    std::uint32_t at, low, ll, ul, ur, t, z, g, along;
-    __asm__(WEIR_TWO_FIELDS(WEIR_HALF_V)
+    register std::uint32_t way __asm__("lr");
+    std::uint32_t at, low, ll, ul, ur, t, z, g;
+    __asm__(".syntax unified\n"
+            "0:\n\t"
+            "mov %[t], %[place]\n\t"
+            "ldr %[at], [%[t]]\n\t"
+            WEIR_HALF_V
+            WEIR_FOUR_FACES
+            "movs %[z], #0\n\t"
+            WEIR_WEIGH
+            WEIR_MOVES
+            "mov %[a], %[t]\n\t"
+            "movs %[z], #0\n\t"
+            "add %[low], %[on]\n\t"
+            WEIR_WEIGH
             WEIR_CHANGE
+            "ldr %[t], %[fastest]\n\t"
+            "cmp %[low], %[t]\n\t"
+            "bgt 7f\n"
+            "4:\n\t"
+            "mov %[t], %[place]\n\t"
+            "ldr %[ul], %[tw]\n\t"
             "ldr %[at], [%[t]]\n\t"
             "ldr %[ur], [%[t], %[ul]]\n\t"
             "str %[at], [%[t], %[ul]]\n\t"
-            "mov %[a], %[ll]\n\t"
+            "mov %[ll], %[a]\n\t"
             "lsls %[ll], %[ll], #16\n\t"
             "adds %[ll], %[ll], %[ur]\n\t"
             "adds %[z], %[at], %[ll]\n\t"
@@ -297,25 +318,29 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
             "str %[z], [%[t]]\n\t"
             "adds %[t], #4\n\t"
             "mov %[place], %[t]\n\t"
-            "ldr %[ul], %[end]\n\t"
-            "cmp %[t], %[ul]\n\t"
+            "cmp %[t], %[end]\n\t"
             "beq 5f\n\t"
             "b 0b\n"
+            WEIR_LIMIT
+            "7:\n\t"
+            "str %[low], %[fastest]\n\t"
+            "b 4b\n"
             "5:\n\t"
-            : WEIR_FOUND : WEIR_TOLD,
+            : WEIR_FOUND, [a] "=&h"(way), [fastest] "+m"(fastest) : WEIR_TOLD,
               [lowest] "m"(bounds.low), [highest] "m"(bounds.high), [half] "m"(bounds.half),
               [one] "m"(bounds.one), [far] "m"(bounds.far)
             : "cc", "memory");
     fastest_yet = fastest;
-    return {g, {static_cast<std::int32_t>(ur), static_cast<std::int32_t>(along)}};
+    return {g, {static_cast<std::int32_t>(ur), static_cast<std::int32_t>(way)}};
 }
 
 #undef WEIR_FOUR_FACES
 #undef WEIR_HALF_U
 #undef WEIR_HALF_V
 #undef WEIR_WEIGH
-#undef WEIR_TWO_FIELDS
+#undef WEIR_MOVES
 #undef WEIR_CHANGE
+#undef WEIR_LIMIT
 #undef WEIR_FOUND
 #undef WEIR_TOLD
 

@@ -41,6 +41,15 @@ TEST(PackedArithmetic, ShortQuotientsAreQuotients) {
     }
 }
 
+TEST(PackedArithmetic, SmallQuotientsAreQuotients) {
+    for (std::uint32_t divisor = 1; divisor <= 128; ++divisor) {
+        for (std::uint32_t size = 0; size <= 1U << 15U; ++size) {
+            ASSERT_EQ(small_quotient(size, divisor), size / divisor) << size << " / " << divisor;
+            ASSERT_EQ(small_quotient_of(size, divisor), size / divisor);
+        }
+    }
+}
+
 TEST(PackedArithmetic, PressuresAreRescaledAsMultiplied) {
     Numbers any;
     for (int k = 0; k < kCases; ++k) {
