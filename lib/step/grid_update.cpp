@@ -6,6 +6,7 @@
 #include "step/extrapolate_lanes.hpp"
 #include "step/extrapolate_packed.hpp"
 #include "step/face_lanes.hpp"
+#include "step/update_m0.hpp"
 
 namespace weir {
 
@@ -52,6 +53,16 @@ void update_packed(const SmallFixed* momentum, VelocityOf<SmallFixed>* mass, con
                    SmallFixed gained, VelocityOf<SmallFixed>* velocity) {
     const std::int32_t faster = VelocityOf<SmallFixed>(gained).raw;
     for (std::int32_t face = faces.first; face < faces.end; ++face) {
+#if defined(__ARM_ARCH_6M__)
+        const auto first = reinterpret_cast<std::uintptr_t>(mass);
+        const VelocityOf<SmallFixed>* const next = packed::velocities_of(
+            mass + face, mass + faces.end, reinterpret_cast<std::uintptr_t>(momentum) - 2 * first,
+            packed::bytes_between(mass, velocity), faster);
+        face = static_cast<std::int32_t>(next - mass);
+        if (face == faces.end) {
+            return;
+        }
+#endif
         const std::int32_t m = mass[face].raw;
         if (m == 0) {
             velocity[face].raw = 0;
