@@ -4,6 +4,7 @@
 #include "grid/borders.hpp"
 #include "math/packed_arithmetic.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "step/blend_m0.hpp"
 
 namespace weir {
 
@@ -53,8 +54,23 @@ struct BlendRow {
     std::int32_t share;
 };
 
+/// What stands beside the tank's wall is not sharpened.
+inline void blend_last(const BlendRow& row, std::int32_t here) {
+    row.field[row.count].raw = blended(row.now[row.count].raw, here, here, row.share);
+}
+
 template <bool Sharp>
 void blend_row(const BlendRow& row) {
+#if defined(__ARM_ARCH_6M__)
+    if (Sharp) {
+        const auto from_face = [&](const Speed* other) { return bytes_between(row.field, other); };
+        blend_last(row, blend_faces({from_face(row.now), from_face(row.was), from_face(row.lower),
+                                     row.stride * kSpeedBytes, from_face(row.diagonal),
+                                     from_face(row.before)},
+                                    row.field, row.field + row.count, row.share));
+        return;
+    }
+#endif
     std::int32_t left = row.field[-1].raw;
     std::int32_t here = row.field[0].raw;
     for (std::int32_t k = 0; k < row.count; ++k) {
@@ -77,7 +93,7 @@ void blend_row(const BlendRow& row) {
         left = here;
         here = right;
     }
-    row.field[row.count].raw = blended(row.now[row.count].raw, here, here, row.share);
+    blend_last(row, here);
 }
 
 /// What `extend_velocity` is told where a share of a velocity is kept.
