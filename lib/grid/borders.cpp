@@ -1,5 +1,7 @@
 #include "grid/borders.hpp"
 
+#include "math/packed_arithmetic.hpp"
+
 namespace weir {
 
 namespace {
@@ -7,12 +9,12 @@ namespace {
 /// Ghost mass and momentum along a wall, onto the line before it. Without slip the image moves
 /// against the liquid, seen from the wall. `sense`: the axis along which the conveyor runs.
 template <class Mass, class Real>
-void fold_along(Mass* mass, Real* momentum, Line inside, Line ghost, const SurfaceLaw<Real>& wall,
-                Real sense) {
+void fold_along(Mass* mass, Real* momentum, const Line& inside, const Line& ghost,
+                const SurfaceLaw<Real>& wall, Real sense) {
     const Real slide = sense * wall.conveyor;
-    for (std::int32_t k = 0; k < inside.count; ++k) {
-        const std::int32_t to = inside.first + k * inside.step;
-        const std::int32_t from = ghost.first + k * ghost.step;
+    const std::int32_t end = inside.first + inside.count * inside.step;
+    std::int32_t from = ghost.first;
+    for (std::int32_t to = inside.first; to != end; to += inside.step, from += ghost.step) {
         if constexpr (Stored<Real>::coarse) {
             if (mass[from].raw == 0) {
                 continue;  // nor has it momentum
@@ -27,9 +29,20 @@ void fold_along(Mass* mass, Real* momentum, Line inside, Line ghost, const Surfa
     }
 }
 
+/// Of a line's faces, many of which have none.
+void double_masses(VelocityOf<SmallFixed>* mass, SmallFixed* momentum, const Line& line) {
+    std::int32_t at = line.first;
+    for (std::int32_t k = 0; k < line.count; ++k, at += line.step) {
+        if (mass[at].raw != 0) {
+            mass[at].raw = short_of(2 * mass[at].raw);
+            momentum[at] += momentum[at];
+        }
+    }
+}
+
 /// Faces on a wall or on the seam: their other half lies beyond.
 template <class Real>
-void fold_across(Real* field, Line low, Line high, bool wrap) {
+void fold_across(Real* field, const Line& low, const Line& high, bool wrap) {
     if (wrap) {
         add(field, low, high);
         copy(field, high, low);
@@ -38,11 +51,23 @@ void fold_across(Real* field, Line low, Line high, bool wrap) {
         add(field, high, high);
     }
 }
+template <class Mass, class Real>
+void fold_across(Mass* mass, Real* momentum, const Line& low, const Line& high, bool wrap) {
+    if constexpr (Stored<Real>::coarse) {
+        if (!wrap) {
+            double_masses(mass, momentum, low);
+            double_masses(mass, momentum, high);
+            return;
+        }
+    }
+    fold_across(mass, low, high, wrap);
+    fold_across(momentum, low, high, wrap);
+}
 
 /// `cell`: from a face on the wall to the cell that it belongs to; `inward`: from there to the
 /// next one away from the wall. The first and last entry of the line are ghosts.
 template <class Velocity, class Level>
-void close(Velocity* velocity, Line wall, const Level* level, std::int32_t cell,
+void close(Velocity* velocity, const Line& wall, const Level* level, std::int32_t cell,
            std::int32_t inward) {
     const auto wet = [&](std::int32_t at) {
         return level[at] > Level(0) || level[at + inward] > Level(0);
@@ -57,8 +82,8 @@ void close(Velocity* velocity, Line wall, const Level* level, std::int32_t cell,
 }
 
 template <class Velocity, class Real>
-void mirror_along(Velocity* velocity, Line ghost, Line inside, const SurfaceLaw<Real>& wall,
-                  Real sense) {
+void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
+                  const SurfaceLaw<Real>& wall, Real sense) {
     if (!wall.no_slip) {
         copy(velocity, ghost, inside);
         return;
@@ -96,10 +121,8 @@ void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
         fold_along(grid.mass_v, grid.momentum_v(), column(s, right), column(s, s.nx), b.right,
                    Real(1));
     }
-    fold_across(grid.mass_u, column(s, 0), column(s, s.nx), b.wrap_x);
-    fold_across(grid.momentum_u(), column(s, 0), column(s, s.nx), b.wrap_x);
-    fold_across(grid.mass_v, row(s, 0), row(s, s.ny), b.wrap_y);
-    fold_across(grid.momentum_v(), row(s, 0), row(s, s.ny), b.wrap_y);
+    fold_across(grid.mass_u, grid.momentum_u(), column(s, 0), column(s, s.nx), b.wrap_x);
+    fold_across(grid.mass_v, grid.momentum_v(), row(s, 0), row(s, s.ny), b.wrap_y);
 }
 
 template <class Real>

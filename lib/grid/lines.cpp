@@ -11,7 +11,7 @@ struct Bits {
 };
 
 template <class Whole>
-void copy_column(void* field, Line to, Line from) {
+void copy_column(void* field, const Line& to, const Line& from) {
     auto* const bits = static_cast<typename Bits<Whole>::Type*>(field);
     auto* at = bits + to.first;
     const auto* other = bits + from.first;
@@ -22,10 +22,10 @@ void copy_column(void* field, Line to, Line from) {
 
 }  // namespace
 
-void copy_line(void* field, std::size_t size, Line to, Line from) {
+void copy_line(void* field, std::size_t size, const Line& to, const Line& from) {
     if (to.step == 1) {
         auto* const bytes = static_cast<std::byte*>(field);
-        const auto at = [&](Line line) {
+        const auto at = [&](const Line& line) {
             return bytes + static_cast<std::ptrdiff_t>(line.first) *
                                static_cast<std::ptrdiff_t>(size);
         };

@@ -18,10 +18,10 @@ inline Line column(const GridShape& s, std::int32_t i) {
 inline Line row(const GridShape& s, std::int32_t j) { return {s.index(-1, j), 1, s.nx + 2}; }
 
 /// Of numbers of any kind, of 1, 2, 4 or 8 bytes.
-void copy_line(void* field, std::size_t size, Line to, Line from);
+void copy_line(void* field, std::size_t size, const Line& to, const Line& from);
 
 template <class Field>
-inline void copy(Field* field, Line to, Line from) {
+inline void copy(Field* field, const Line& to, const Line& from) {
     copy_line(field, sizeof(Field), to, from);
 }
 
@@ -30,21 +30,21 @@ void fill_ghosts(void* field, std::size_t size, const GridShape& shape, bool sea
                  bool seams_only);
 
 template <class Field>
-void add(Field* field, Line to, Line from) {
+void add(Field* field, const Line& to, const Line& from) {
     for (std::int32_t k = 0; k < to.count; ++k) {
         field[to.first + k * to.step] += field[from.first + k * from.step];
     }
 }
 
 template <class Field>
-void set_zero(Field* field, Line line) {
+void set_zero(Field* field, const Line& line) {
     for (std::int32_t k = 0; k < line.count; ++k) {
         field[line.first + k * line.step] = Field(0);
     }
 }
 
 template <class Field>
-void move(Field* field, Line to, Line from) {
+void move(Field* field, const Line& to, const Line& from) {
     add(field, to, from);
     set_zero(field, from);
 }
