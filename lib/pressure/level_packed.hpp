@@ -21,11 +21,74 @@ inline constexpr std::int8_t kDepth[] = {
 /// Level of an air cell that is taken as filled.
 inline constexpr std::int32_t kFilledRaw = 32;
 
-/// `density` in 256ths.
-inline std::int8_t packed_level(std::int32_t density) {
-    return static_cast<std::int8_t>(density <= 128 ? -kDepth[density]
-                                                   : kDepth[256 - minimum(density, 256)]);
+/// Levels of densities in 256ths: of what is more than half full, as much above a cell's centre as
+/// those of what it lacks are below.
+struct PackedLevels {
+    constexpr PackedLevels() {
+        for (std::int32_t density = 0; density <= 256; ++density) {
+            of[density] = static_cast<std::int8_t>(density <= 128 ? -kDepth[density]
+                                                                  : kDepth[256 - density]);
+        }
+    }
+    std::int8_t of[257] = {};
+};
+inline constexpr PackedLevels kPackedLevels;
+
+namespace packed {
+
+/// Of a row's cells whose faces hold so much: density in 256ths of what is full, and level.
+struct DensityRow {
+    const VelocityOf<SmallFixed>* mass;  ///< on the left face of the first cell
+    std::ptrdiff_t to_lower;             ///< from there to that of the lower face
+    std::int32_t stride;
+    const ShareOf<SmallFixed>* full;     ///< null: no solids
+    DensityOf<SmallFixed>* density;
+    LevelOf<SmallFixed>* level;
+    std::int32_t count;
+    std::uint32_t per_face;
+    std::int32_t rest_count;
+};
+
+/// Of a cell that is cut. `slivers` are those that hold less than a particle when full.
+[[gnu::noinline]] inline std::int32_t cut_density(const DensityRow& row, std::int32_t k,
+                                                  std::int32_t density, Part& slivers) {
+    const std::uint32_t full = row.full[k].raw;
+    if (density > 0 && static_cast<std::int32_t>(full) * row.rest_count < 128) {
+        slivers = {slivers.empty() ? k : slivers.first, k + 1};
+    }
+    return full < 3 ? 0
+                    : static_cast<std::int32_t>(
+                          quotient_of(static_cast<std::uint32_t>(density) * 128U, full));
 }
+
+[[gnu::noinline]] inline Part find_densities(const DensityRow& row) {
+    Part slivers;
+    const VelocityOf<SmallFixed>* face = row.mass;
+    const std::ptrdiff_t to_lower = row.to_lower;
+    const std::ptrdiff_t to_upper = to_lower + row.stride;
+    const ShareOf<SmallFixed>* const full = row.full;
+    const std::uint32_t per_face = row.per_face;
+    std::int32_t left = face->raw;
+    for (std::int32_t k = 0; k < row.count; ++k) {
+        const std::int32_t right = face[1].raw;
+        const auto mass = static_cast<std::uint32_t>((left + right) +
+                                                     (face[to_lower].raw + face[to_upper].raw));
+        left = right;
+        face = whole(face + 1);
+        std::int32_t density = 0;
+        if (mass != 0) {
+            density = static_cast<std::int32_t>((mass * per_face + 0x8000U) >> 16U);
+            if (full != nullptr && full[k].raw < 128) {
+                density = cut_density(row, k, density, slivers);
+            }
+        }
+        row.density[k].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
+        row.level[k].raw = kPackedLevels.of[minimum(density, 256)];
+    }
+    return slivers;
+}
+
+}  // namespace packed
 
 /// Density and level of the cells of some rows. There are no thin walls.
 inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
@@ -34,40 +97,16 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
                            EmptySlivers<SmallFixed> empty_slivers, const Part& rows,
                            PressureFields<SmallFixed>& fields) {
     const GridShape& s = grid.shape;
-    const ShareOf<SmallFixed>* const full = cut.full;
-    const VelocityOf<SmallFixed>* const mass_u = grid.mass_u;
-    const VelocityOf<SmallFixed>* const mass_v = grid.mass_v;
-    DensityOf<SmallFixed>* const densities = fields.density;
-    LevelOf<SmallFixed>* const levels = fields.level;
     // Mass of a face is in 256ths of a particle, four faces a cell.
     const std::uint32_t per_face = 0x4000U / static_cast<std::uint32_t>(rest_count);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        Part slivers;
-        const std::int32_t end = s.index(s.nx, j);
-        for (std::int32_t c = s.index(0, j); c < end; ++c) {
-            const auto mass = static_cast<std::uint32_t>(
-                (mass_u[c].raw + mass_u[c + 1].raw) +
-                (mass_v[c].raw + mass_v[c + s.stride].raw));
-            if (mass == 0) {
-                densities[c].raw = 0;
-                levels[c].raw = -kDepth[0];
-                continue;
-            }
-            auto density = static_cast<std::int32_t>((mass * per_face + 0x8000U) >> 16U);
-            if (full != nullptr && full[c].raw < 128 && density > 0) {
-                if (full[c].raw * rest_count < 128) {
-                    slivers = {slivers.empty() ? c : slivers.first, c + 1};
-                }
-                const std::uint32_t share = full[c].raw;
-                density = share < 3 ? 0
-                                    : static_cast<std::int32_t>(quotient_of(
-                                          static_cast<std::uint32_t>(density) * 128U, share));
-            }
-            densities[c].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
-            levels[c].raw = packed_level(density);
-        }
-        if (!slivers.empty() && empty_slivers != nullptr) {
-            empty_slivers(grid, borders, cut, j, slivers, fields.level);
+        const std::int32_t c = s.index(0, j);
+        const Part found = packed::find_densities(
+            {grid.mass_u + c, grid.mass_v - grid.mass_u, s.stride,
+             cut.full != nullptr ? cut.full + c : nullptr, fields.density + c, fields.level + c,
+             s.nx, per_face, rest_count});
+        if (!found.empty() && empty_slivers != nullptr) {
+            empty_slivers(grid, borders, cut, j, {c + found.first, c + found.end}, fields.level);
         }
     }
 }
