@@ -1,5 +1,6 @@
 #include "pressure/projection.hpp"
 
+#include "pressure/build_packed.hpp"
 #include "pressure/coarse_correction.hpp"
 #include "pressure/equation_of_state.hpp"
 #include "pressure/project.hpp"

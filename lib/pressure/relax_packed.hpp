@@ -4,7 +4,6 @@
 
 #include "math/packed_arithmetic.hpp"
 #include "pressure/face_weights.hpp"
-#include "pressure/leap_packed.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -186,110 +185,6 @@ template <bool Solids, class Real>
             return;
         } else if (own != 0) {
             relax_rare<Solids>(task, here, own, diagonal[to_divergence].raw);
-        }
-    }
-}
-
-/// A pressure to start from.
-inline SmallFixed rescaled(SmallFixed last, SmallFixed rescale) {
-    const auto share = static_cast<std::uint32_t>(rescale.raw);
-    if (share == 1U << 16U) {
-        return last;
-    }
-    if (share > 1U << 16U) {
-        return bounded(last * rescale);
-    }
-    const std::uint32_t size = fixed::magnitude(last.raw);
-    const auto less = static_cast<std::int32_t>((size >> 16U) * share +
-                                                (((size & 0xFFFFU) * share + 0x8000U) >> 16U));
-    return bounded(SmallFixed::of_raw(last.raw < 0 ? -less : less));
-}
-
-/// The equation of a liquid cell that has air, a wall or the tank's end beside it.
-template <bool Solids, class Weights, class Fields>
-[[gnu::noinline]] void build_rare(const Weights& weights, std::int32_t i, std::int32_t j,
-                                  Fields& fields) {
-    using Real = SmallFixed;
-    const Walls<Real>& walls = weights.walls;
-    const StaggeredGrid<Real>& grid = weights.grid;
-    const GridShape& s = grid.shape;
-    const std::int32_t c = s.index(i, j);
-    const std::int32_t up = c + s.stride;
-    const auto* const level = fields.level + c;
-    std::int32_t diagonal = 0;
-    std::int32_t outwards = 0;
-    const auto look = [&](bool inside, const ShareOf<Real>* open, std::int32_t face,
-                          std::int32_t velocity, std::int32_t step) {
-        const std::int32_t weight = Solids ? static_cast<std::int32_t>(open[face].raw) : 128;
-        if (inside && weight != 0) {
-            outwards += weight * velocity;
-            const std::int32_t there = level[step].raw;
-            diagonal += there > 0 ? weight
-                                  : packed_coefficient(weight, weight, level[0].raw, there);
-        }
-    };
-    look(weights.has_left(i), walls.open_u, c, -grid.u[c].raw, -1);
-    look(weights.has_right(i), walls.open_u, c + 1, grid.u[c + 1].raw, 1);
-    look(weights.has_lower(j), walls.open_v, c, -grid.v[c].raw, -s.stride);
-    look(weights.has_upper(j), walls.open_v, up, grid.v[up].raw, s.stride);
-    if (diagonal == 0) {
-        fields.inverse_diagonal[c].raw = 0;
-        fields.divergence[c].raw = 0;  // whoever goes by levels reads it
-        fields.pressure[c].raw = 0;
-        return;
-    }
-    const bool wide = !Solids || untouched(walls, c, up);
-    std::int32_t flow = rounded_shift(outwards, 7);
-    if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
-        flow += rounded_shift(wall_flow(s, walls, i, j).raw, 9);
-    }
-    fields.divergence[c].raw = short_of(flow);
-    fields.inverse_diagonal[c].raw = short_of(wide ? diagonal : -diagonal);
-    fields.pressure[c] = rescaled(fields.pressure[c], fields.solve.rescale);
-}
-
-/// Puts up the equations of some rows: flow out of each cell, its diagonal, pressure to start from.
-template <bool Solids, class Weights, class Fields>
-void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
-    const StaggeredGrid<SmallFixed>& grid = weights.grid;
-    const GridShape& s = grid.shape;
-    const auto* level = fields.level;
-    const Walls<SmallFixed>& walls = weights.walls;
-    const PackedLeap leap(fields.leaps, fields.last_dt);
-    const bool wraps = weights.borders.wrap_x;
-    const auto open = [&](std::int32_t c) {
-        return !Solids || (untouched(walls, c, c + s.stride) &&
-                           !(walls.moving && touches_wall(walls, c)));
-    };
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        const bool inner_row = weights.has_lower(j) && weights.has_upper(j);
-        const std::int32_t row = s.index(0, j);
-        const std::int32_t behind = row + s.nx;
-        std::int32_t end = row;  // of the row's liquid
-        for (std::int32_t c = row; c < behind; ++c) {
-            const std::int32_t up = c + s.stride;
-            if (level[c].raw <= 0) {
-                fields.inverse_diagonal[c].raw = 0;
-                fields.pressure[c].raw = 0;
-                continue;
-            }
-            if (inner_row && level[c - 1].raw > 0 && level[c + 1].raw > 0 && level[up].raw > 0 &&
-                level[c - s.stride].raw > 0 && (wraps || (c > row && c + 1 < behind)) && open(c)) {
-                const std::int32_t flow = (grid.u[c + 1].raw - grid.u[c].raw) +
-                                          (grid.v[up].raw - grid.v[c].raw);
-                fields.divergence[c].raw = short_of(flow + wanted_convergence(grid, c, leap));
-                fields.inverse_diagonal[c].raw = 512;
-                fields.pressure[c] = rescaled(fields.pressure[c], fields.solve.rescale);
-            } else {
-                build_rare<Solids>(weights, c - row, j, fields);
-            }
-            end = fields.inverse_diagonal[c].raw != 0 ? c + 1 : end;
-        }
-        fields.inverse_diagonal[end].raw = kRowEnd;
-        fields.inverse_diagonal[end + 1].raw = kRowEnd;
-        if (end != row) {
-            fields.solve.first_row = minimum(fields.solve.first_row, j);
-            fields.solve.last_row = j;
         }
     }
 }

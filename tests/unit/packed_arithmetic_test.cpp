@@ -7,8 +7,8 @@
 
 #include "contour/marching_squares.hpp"
 #include "math/quotient_packed.hpp"
+#include "pressure/build_packed.hpp"
 #include "pressure/projection.hpp"
-#include "pressure/relax_packed.hpp"
 #include "step/extrapolate_packed.hpp"
 
 namespace weir {
