@@ -98,6 +98,7 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
     const std::int32_t stride = s.stride;
     const Walls<SmallFixed>& walls = weights.walls;
     const PackedLeap leap(fields.leaps, fields.last_dt);
+    const bool wraps = weights.borders.wrap_x;
     const auto open = [&](std::int32_t c) {
         return !Solids || (untouched(walls, c, c + stride) &&
                            !(walls.moving && touches_wall(walls, c)));
@@ -108,15 +109,17 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
         const std::int32_t row = s.index(0, j);
         const std::int32_t behind = row + s.nx;
         std::int32_t end = row;  // of the row's liquid
-        for (std::int32_t c = row; c < behind; ++c) {
+        std::int32_t sides = across | kRight | (wraps ? kLeft : 0);
+        for (std::int32_t c = row; c < behind; ++c, sides |= kLeft) {
             const auto* const level = fields.level + c;
             if (level->raw <= 0) {
                 fields.inverse_diagonal[c].raw = 0;
                 fields.pressure[c].raw = 0;
                 continue;
             }
-            const std::int32_t sides = across | (weights.has_left(c - row) ? kLeft : 0) |
-                                       (weights.has_right(c - row) ? kRight : 0);
+            if (c + 1 == behind && !wraps) {
+                sides &= ~kRight;
+            }
             if (!open(c)) {
                 build_rare<Solids>(weights, c - row, j, fields);
             } else if (sides != kAllSides || level[-1].raw <= 0 || level[1].raw <= 0 ||
