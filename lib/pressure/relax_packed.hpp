@@ -73,11 +73,11 @@ template <bool Solids, class Real>
 inline std::int32_t short_of_neighbours(const Real* at, const Walls<Real>& walls,
                                         const Real* first, std::int32_t stride, std::int32_t kept,
                                         std::int32_t flow) {
-    if (!Solids || kept > 0) {
-        return less_diagonal(neighbours_in_open(at, stride) - flow, kept, at->raw);
-    }
-    const auto c = static_cast<std::int32_t>(at - first);
-    return less_diagonal(neighbours_at_wall(at, walls, c, stride) - flow, -kept, at->raw);
+    const bool in_open = !Solids || kept > 0;
+    const std::int32_t around =
+        in_open ? neighbours_in_open(at, stride)
+                : neighbours_at_wall(at, walls, static_cast<std::int32_t>(at - first), stride);
+    return less_diagonal(around - flow, in_open ? kept : -kept, at->raw);
 }
 
 /// What a cell's pressure becomes: p += ω (Σ p − divergence − n p) / n. The factor ω / n, in
@@ -115,9 +115,10 @@ inline constexpr Inverses kInverses;
 
 /// ω / n in 256ths without a division: of a diagonal rounded up to a 32nd of 2048, or an eighth.
 inline std::int32_t coarse_factor(std::int32_t step, std::int32_t diagonal) {
-    const int less = diagonal > 2048 ? 3 : 0;
-    const std::int32_t n = ((diagonal >> less) + 31) >> 5;
-    return minimum((step * kInverses.of[minimum(n, 64)]) >> (16 + less), 511);
+    if (diagonal > 2048) {
+        return (step * kInverses.of[minimum(((diagonal >> 3) + 31) >> 5, 64)]) >> 19;
+    }
+    return minimum((step * kInverses.of[(diagonal + 31) >> 5]) >> 16, 511);
 }
 
 /// What a row's cells are relaxed with. (One place for all of it: five arguments are a call's price
