@@ -20,7 +20,22 @@ void Progress::expect(std::int32_t items, std::int32_t cost) {
     position_ = items > 0 && cost > position_ ? cost : position_;
 }
 
+// Nearly all loops are done at once, with products of 32 bits.
 Part Progress::next(std::int32_t items, std::int32_t cost) {
+    if (at_ == done_ && left_ > 0 && items < 0x8000 && cost < 0x10000) {
+        const std::int32_t first = position_;
+        const std::int32_t left = left_ - (items - first) * cost;
+        if (left >= 0) {
+            left_ = left;
+            position_ = 0;
+            at_ = ++done_;
+            return {first, items};
+        }
+    }
+    return next_of_many(items, cost);
+}
+
+[[gnu::noinline]] Part Progress::next_of_many(std::int32_t items, std::int32_t cost) {
     if (at_++ != done_ || left_ <= 0) {
         if (foreseeing()) {
             expect(items, cost);
@@ -28,10 +43,7 @@ Part Progress::next(std::int32_t items, std::int32_t cost) {
         return {};
     }
     const std::int32_t first = position_;
-    // Products of 64 bits are dear where there are none.
-    const bool small = items < 0x8000 && cost < 0x10000;
-    if (small ? (items - first) * cost <= left_
-              : static_cast<std::int64_t>(items - first) * cost <= left_) {
+    if (static_cast<std::int64_t>(items - first) * cost <= left_) {
         left_ -= (items - first) * cost;
         position_ = 0;
         ++done_;

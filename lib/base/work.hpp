@@ -67,6 +67,8 @@ public:
 #endif
 
 private:
+    Part next_of_many(std::int32_t items, std::int32_t cost);
+
     std::int32_t left_ = 0;
     std::int32_t done_ = 0;      ///< loops
     std::int32_t position_ = 0;  ///< items of the next one

@@ -23,7 +23,8 @@ template <bool Solids>
                                      const ShareOf<SmallFixed>* open, std::int32_t back,
                                      const Part& faces, VelocityOf<SmallFixed>* velocity) {
     const LevelOf<SmallFixed>* const level = fields.level;
-    for (std::int32_t face = faces.first; face < faces.end; ++face) {
+    const SmallFixed* p = fields.pressure + faces.first;
+    for (std::int32_t face = faces.first; face < faces.end; ++face, p = whole(p + 1)) {
         const std::int32_t own = level[face].raw;
         const std::int32_t before = level[face - back].raw;
         if (own <= 0 && before <= 0) {
@@ -31,7 +32,6 @@ template <bool Solids>
         }
         const std::int32_t share = Solids ? open[face].raw : 128;
         if (share > 0) {
-            const SmallFixed* p = fields.pressure + face;
             const std::int32_t rise = own > 0 && before > 0
                                           ? p[0].raw - p[-back].raw
                                           : rise_at_surface(fields, face - back, face, share);
@@ -42,11 +42,13 @@ template <bool Solids>
 
 }  // namespace packed
 
+/// A row has faces that are pushed if there is liquid in it or below.
 template <bool Solids, bool Mixed>
 void project_packed(const FaceWeights<Solids, Mixed, SmallFixed>& weights, const Part& rows,
                     const PressureFields<SmallFixed>& fields, StaggeredGrid<SmallFixed>& grid) {
     const GridShape& s = grid.shape;
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+    const Part wet = rows_near_liquid(rows, weights.borders, fields.solve, 0, 1);
+    for (std::int32_t j = wet.first; j < wet.end; ++j) {
         const std::int32_t row = s.index(0, j);
         const std::int32_t first = weights.has_left(0) ? row : row + 1;
         packed::project_faces<Solids>(fields, weights.walls.open_u, 1, {first, row + s.nx}, grid.u);

@@ -34,6 +34,17 @@ void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
                         Seconds<Real> dt_s, std::int32_t sweeps, StaggeredGrid<Real>& grid,
                         PressureFields<Real>& fields, Work work);
 
+/// Of some rows those that are so near to liquid, once there are equations; all across a seam.
+template <class Real>
+inline Part rows_near_liquid(const Part& rows, const Borders<Real>& borders,
+                             const Solve<Real>& solve, std::int32_t below, std::int32_t above) {
+    if (borders.wrap_y) {
+        return rows;
+    }
+    return {maximum(rows.first, solve.first_row - below),
+            minimum(rows.end, solve.last_row + above + 1)};
+}
+
 /// 1 for a face, less for one that is open by less than a quarter: a narrow gap.
 template <class Real>
 inline Real width_of(Real open) {

@@ -96,7 +96,8 @@ inline void extrapolate_packed(const Borders<SmallFixed>& borders, const Walls<S
         return level.raw <= 0 && level.raw > kEmpty;
     };
     const std::int32_t columns = s.nx;
-    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+    const Part near = rows_near_liquid(rows, borders, fields.solve, 1, 2);
+    for (std::int32_t j = near.first; j < near.end; ++j) {
         const LevelOf<SmallFixed>* const row = fields.level + s.index(0, j);
         for (std::int32_t i = 0; i < columns; ++i) {
             // A face that has mass shows in both its cells; one that has none is read by nobody.
