@@ -45,11 +45,13 @@ inline std::int32_t saturated(std::int32_t value) {
 #if defined(__ARM_FEATURE_SAT)
     return __builtin_arm_ssat(value, Bits);
 #else
-    // Most are one.
     const std::uint32_t shifted = static_cast<std::uint32_t>(value) << (32 - Bits);
     const std::int32_t cut = Bits == 16 ? static_cast<std::int16_t>(value)
                                         : static_cast<std::int32_t>(shifted) >> (32 - Bits);
-    return cut == value ? value : (value >> 31) ^ ((1 << (Bits - 1)) - 1);
+    if (__builtin_expect(cut != value, 0)) {  // most are one
+        return (value >> 31) ^ ((1 << (Bits - 1)) - 1);
+    }
+    return value;
 #endif
 }
 inline std::int16_t short_of(std::int32_t value) {
