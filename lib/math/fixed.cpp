@@ -66,6 +66,23 @@ struct Digit {
 }  // namespace
 
 #if defined(__ARM_ARCH_6M__)
+// Upper halves with their signs: only the lower ones' product fills a word.
+std::int64_t wide_product(std::int32_t a, std::int32_t b) {
+    const auto a_low = static_cast<std::int32_t>(a & 0xFFFF);
+    const auto b_low = static_cast<std::int32_t>(b & 0xFFFF);
+    const std::int32_t a_high = a >> 16;
+    const std::int32_t b_high = b >> 16;
+    const auto low = static_cast<std::uint32_t>(a_low) * static_cast<std::uint32_t>(b_low);
+    const std::int32_t one = a_high * b_low;
+    const std::int32_t other = a_low * b_high;
+    // No more than 2^31 − 2^16 by size, each: their sum is taken in halves.
+    const auto middle = static_cast<std::int32_t>(low >> 16U) + (one & 0xFFFF) + (other & 0xFFFF);
+    const std::int32_t high = a_high * b_high + (one >> 16) + (other >> 16) + (middle >> 16);
+    const std::uint32_t lowest = (static_cast<std::uint32_t>(middle) << 16U) | (low & 0xFFFFU);
+    return static_cast<std::int64_t>(
+        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32U) | lowest);
+}
+
 std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
     const std::uint32_t x = magnitude(a);
     const std::uint32_t y = magnitude(b);

@@ -104,7 +104,7 @@ constexpr Product<Real> product(Real a, Real b) {
 }
 template <class S>
 inline WideFixed<S> product(FixedPoint<16, S> a, FixedPoint<16, S> b) {
-    return WideFixed<S>::of_raw(static_cast<std::int64_t>(a.raw) * b.raw);
+    return WideFixed<S>::of_raw(fixed::wide_product(a.raw, b.raw));
 }
 template <class Real>
 constexpr Real part_of(Real whole, std::int32_t parts) {
