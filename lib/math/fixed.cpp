@@ -83,30 +83,45 @@ std::int64_t wide_product(std::int32_t a, std::int32_t b) {
         (static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32U) | lowest);
 }
 
-std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
-    const std::uint32_t x = magnitude(a);
-    const std::uint32_t y = magnitude(b);
-    const std::uint32_t low = (x & 0xFFFFU) * (y & 0xFFFFU);
-    const std::uint32_t middle = (x >> 16U) * (y & 0xFFFFU) + (x & 0xFFFFU) * (y >> 16U);
-    const std::uint32_t high = (x >> 16U) * (y >> 16U);
-    const bool negative = (a ^ b) < 0;
-    std::uint32_t size = 0;
-    if (shift == 16) {
-        const std::uint32_t rounded = (low >> 16U) + ((low >> 15U) & 1U);
-        const bool over = high > 0x7FFFU || __builtin_add_overflow(middle, rounded, &size) ||
-                          __builtin_add_overflow(size, high << 16U, &size);
-        size = over ? 0xFFFFFFFFU : size;
-    } else {
-        const std::uint64_t whole = (static_cast<std::uint64_t>(high) << 32U) +
-                                    (static_cast<std::uint64_t>(middle) << 16U) + low;
-        const auto places = static_cast<unsigned>(shift);
-        const std::uint64_t result = (whole + (std::uint64_t{1} << (places - 1U))) >> places;
-        size = result > 0xFFFFFFFFU ? 0xFFFFFFFFU : static_cast<std::uint32_t>(result);
-    }
+namespace {
+
+std::int32_t signed_of(std::uint32_t size, bool negative) {
     if (negative) {
         return size >= 0x80000000U ? kLeastRaw : -static_cast<std::int32_t>(size);
     }
     return size > 0x7FFFFFFFU ? kMostRaw : static_cast<std::int32_t>(size);
+}
+
+/// By itself: it wants more registers.
+[[gnu::noinline]] std::int32_t multiply_seldom(std::int32_t a, std::int32_t b, int shift) {
+    const std::int64_t product = wide_product(a, b);
+    const std::uint64_t whole = product < 0 ? 0U - static_cast<std::uint64_t>(product)
+                                            : static_cast<std::uint64_t>(product);
+    const auto places = static_cast<unsigned>(shift);
+    const std::uint64_t result = (whole + (std::uint64_t{1} << (places - 1U))) >> places;
+    return signed_of(result > 0xFFFFFFFFU ? 0xFFFFFFFFU : static_cast<std::uint32_t>(result),
+                     product < 0);
+}
+
+}  // namespace
+
+std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
+    if (shift != 16) {
+        return multiply_seldom(a, b, shift);
+    }
+    const std::uint32_t x = magnitude(a);
+    const std::uint32_t y = magnitude(b);
+    const std::uint32_t high = (x >> 16U) * (y >> 16U);
+    if (__builtin_expect(high > 0x7FFFU, 0)) {
+        return signed_of(0xFFFFFFFFU, (a ^ b) < 0);
+    }
+    const std::uint32_t low = (x & 0xFFFFU) * (y & 0xFFFFU);
+    const std::uint32_t middle = (x >> 16U) * (y & 0xFFFFU) + (x & 0xFFFFU) * (y >> 16U);
+    std::uint32_t size = 0;
+    const bool over =
+        __builtin_add_overflow(middle, (low >> 16U) + ((low >> 15U) & 1U), &size) ||
+        __builtin_add_overflow(size, high << 16U, &size);
+    return signed_of(over ? 0xFFFFFFFFU : size, (a ^ b) < 0);
 }
 #endif
 
