@@ -34,6 +34,11 @@ struct PackedLevels {
 };
 inline constexpr PackedLevels kPackedLevels;
 
+/// `density` in 256ths.
+inline std::int8_t packed_level(std::int32_t density) {
+    return kPackedLevels.of[minimum(density, 256)];
+}
+
 namespace packed {
 
 /// Of a row's cells whose faces hold so much: density in 256ths of what is full, and level.
@@ -83,7 +88,7 @@ struct DensityRow {
             }
         }
         row.density[k].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
-        row.level[k].raw = kPackedLevels.of[minimum(density, 256)];
+        row.level[k].raw = packed_level(density);
     }
     return slivers;
 }
