@@ -201,6 +201,21 @@ void gather(bool scratch) {
     }
 }
 
+void calculate() {
+    for (std::int32_t k = 0; k < 50; ++k) {
+        const Real a = Real::of_raw(g_numbers.either(31));
+        const Real b = Real::of_raw(g_numbers.either(31));
+        const auto seconds = weir::Seconds<Real>::of_raw(g_numbers.size(30));
+        const std::int64_t all = weir::product(a, b).raw;
+        g_hash.add(static_cast<std::uint32_t>(all));
+        g_hash.add(static_cast<std::uint32_t>(static_cast<std::uint64_t>(all) >> 32U));
+        g_hash.add(a * b);
+        g_hash.add(seconds * a);
+        g_hash.add(a / b);
+        g_hash.add(weir::square_root(weir::absolute(a)));
+    }
+}
+
 void tell(const char* what) { port::print(what, " ", port::hex(g_hash.value()), "\n"); }
 
 }  // namespace
@@ -223,5 +238,9 @@ int main() {
         gather(round % 2 == 0);
     }
     tell("gather");
+    for (std::int32_t round = 0; round < kRounds; ++round) {
+        calculate();
+    }
+    tell("calculate");
     port::exit(0);
 }
