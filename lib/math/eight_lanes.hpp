@@ -36,6 +36,7 @@ constexpr LastFirst kLastFirst;
 struct EightLanes {
     using Floats = float __attribute__((vector_size(32)));
     using Ints = std::int32_t __attribute__((vector_size(32)));
+    using UpToEight = EightLanes;
     using Shorts = std::int16_t __attribute__((vector_size(32)));
     using Four = float __attribute__((vector_size(16)));
     using FourInts = std::int32_t __attribute__((vector_size(16)));

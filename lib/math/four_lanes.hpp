@@ -13,6 +13,7 @@ struct FourLanes {
     using Floats = Lanes;
     using Four = Lanes;
     using Ints = LaneMask;
+    using UpToEight = FourLanes;  ///< as many of these, but no more
     using Shorts = std::int16_t __attribute__((vector_size(16)));
     static constexpr std::int32_t kGroups = 1;
     static constexpr std::int32_t kLanes = 4;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "math/wide_lanes.hpp"
+#include "math/eight_lanes.hpp"
 
 namespace weir {
 
@@ -18,6 +18,7 @@ namespace {
 struct SixteenLanes {
     using Floats = float __attribute__((vector_size(64)));
     using Ints = std::int32_t __attribute__((vector_size(64)));
+    using UpToEight = EightLanes;
     using Four = float __attribute__((vector_size(16)));
     static constexpr std::int32_t kGroups = 4;
     static constexpr std::int32_t kLanes = 16;

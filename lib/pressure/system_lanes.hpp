@@ -4,6 +4,7 @@
 
 #include "pressure/plain_lanes.hpp"
 #include "pressure/some_lanes.hpp"
+#include "pressure/wall_flow_lanes.hpp"
 
 namespace weir {
 
@@ -88,7 +89,11 @@ inline bool build_any(RowTask& task, std::int32_t c) {
     if constexpr (Pushed) {
         float flow[L::kLanes];
         L::store(flow, divergence);
-        task.add_flow(task, c, L::bits_of(wet), L::bits_of(wide), flow);
+        if (task.walls->thin == nullptr) {
+            add_wall_flows<L>(task, c, L::bits_of(wet), L::bits_of(wide), flow);
+        } else {
+            task.add_flow(task, c, L::bits_of(wet), L::bits_of(wide), flow);
+        }
         divergence = L::load(flow);
     }
     const auto start = wet ? scaled : zero;
