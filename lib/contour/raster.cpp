@@ -209,8 +209,8 @@ void merge_node(const RasterPolygon<Real>& polygon, const Sheet<Real>& sheet, bo
 
 #if WEIR_HAS_LANES
 
-constexpr RasterLoops kRasterByFour{4, measure_nodes<FourLanes>, turn_nodes<FourLanes>,
-                                    merge_nodes<FourLanes>};
+constexpr RasterLoops kRasterByFour{4, prepare_edges<FourLanes>, measure_nodes<FourLanes>,
+                                    turn_nodes<FourLanes>, merge_nodes<FourLanes>};
 
 const RasterLoops& raster_loops() {
 #if WEIR_HAS_WIDE_LANES
@@ -231,47 +231,48 @@ Span columns_of_groups(const NodeBox& box, std::int32_t lanes, const NodeField<f
     return {first, field.last_column < 0 || first < field.first_column ? first - 1 : last};
 }
 
-RasterEdge raster_edge(const NearEdge<float>& near) {
-    constexpr float kEverywhere = 1.0e9F;
-    const EdgeRow<float>& row = near.measured;
-    return {row.from.x,  row.from.y, row.edge.x, row.edge.y,
-            row.along.x, row.along.y, row.size,  near.run,
-            near.steep ? near.reach : kEverywhere, near.left, near.right,
-            near.rows.first, near.rows.last};
+/// visit(edges) for all edges of an outline, so many at a time.
+template <class Visit>
+void for_some_edges(const RasterPolygon<float>& polygon, const RasterLoops& loops,
+                    const RasterTask& task, RasterEdges& edges, const Visit& visit) {
+    const Outline<float>& outline = polygon.outline;
+    for (std::int32_t ring = 0; ring < outline.rings; ++ring) {
+        const std::int32_t end = outline.end_of(ring);
+        const std::int32_t first = outline.begin_of(ring);
+        Vec2<float> corner = outline.vertex[end - 1];
+        for (std::int32_t at = first; at < end; at += edges.count) {
+            edges.count = minimum(RasterEdges::kMost, end - at);
+            edges.x[0] = corner.x;
+            edges.y[0] = corner.y;
+            for (std::int32_t k = 0; k < edges.count; ++k) {
+                corner = outline.vertex[at + k];
+                edges.x[k + 1] = corner.x;
+                edges.y[k + 1] = corner.y;
+            }
+            for (std::int32_t k = edges.count + 1; k % 8 != 1; ++k) {
+                edges.x[k] = corner.x;
+                edges.y[k] = corner.y;
+            }
+            loops.prepare(task, edges);
+            visit();
+        }
+    }
 }
 
-/// All edges, so many at a time.
+/// The polygon's own distances. Those of few edges are prepared once.
 void measure_in_lanes(const RasterPolygon<float>& polygon, const RasterLoops& loops,
-                      const RasterTask& task, const NodeBox& box) {
-    EdgesOfOutline some;
+                      const RasterTask& task) {
+    RasterEdges edges;
     bool anew = true;
-    const auto measure = [&] {
-        loops.measure(task, some, anew);
-        some.edges = 0;
+    for_some_edges(polygon, loops, task, edges, [&] {
+        loops.measure(task, edges, anew);
         anew = false;
-    };
-    for_each_edge(polygon.outline, [&](Vec2<float> from, Vec2<float> to) {
-        const float size = length(to - from);
-        if (!beyond(polygon.tank, from, to) && size > 0.0F) {
-            some.edge[some.edges++] = raster_edge(near_edge(from, to, size, task.far, box));
-            if (some.edges == EdgesOfOutline::kMost) {
-                measure();
-            }
-        }
     });
-    measure();
-    for_each_edge(polygon.outline, [&](Vec2<float> from, Vec2<float> to) {
-        // The border moves a node by less than that.
-        const float more = 1.0F / 512.0F;
-        const Span rows = whole_numbers(minimum(from.y, to.y) - more,
-                                        maximum(from.y, to.y) + more, box.j0, box.j1);
-        some.turn[some.turns++] = {from.x, from.y, to.x, to.y, rows.first, rows.last};
-        if (some.turns == EdgesOfOutline::kMost) {
-            loops.turn(task, some);
-            some.turns = 0;
-        }
-    });
-    loops.turn(task, some);
+    if (polygon.outline.count == edges.count) {
+        loops.turn(task, edges);
+        return;
+    }
+    for_some_edges(polygon, loops, task, edges, [&] { loops.turn(task, edges); });
 }
 
 /// As the plain loops. False: the box is too narrow.
@@ -285,11 +286,14 @@ bool rasterize_in_lanes(const RasterPolygon<float>& polygon, float far,
     }
     const Vec2<float> low = off_the_border(polygon.tank, polygon.tank.low);
     const Vec2<float> high = off_the_border(polygon.tank, polygon.tank.high);
+    const Bounds<float> wall = walls_of(polygon.tank);
     const RasterTask task{box.i0, box.j0, box.i1, box.j1, columns.first, columns.last + 1,
-                          low.x, low.y, high.x, high.y, far, kOnTheOutline<float>,
-                          polygon.name, sheet.value + field.origin, field.distance + field.origin,
+                          low.x, low.y, high.x, high.y,
+                          wall.low.x, wall.low.y, wall.high.x, wall.high.y,
+                          far, kFlat<float>, kOnTheOutline<float>, polygon.name,
+                          sheet.value + field.origin, field.distance + field.origin,
                           field.nearest + field.origin, field.stride};
-    measure_in_lanes(polygon, loops, task, box);
+    measure_in_lanes(polygon, loops, task);
     for (RasterPlace at{task.first, box.j0}; loops.merge(task, at); at.i += loops.lanes) {
         const std::int32_t first = minimum(at.i, task.end - loops.lanes);
         const std::int32_t last = minimum(first + loops.lanes - 1, box.i1);

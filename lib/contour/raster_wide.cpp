@@ -6,8 +6,8 @@
 
 namespace weir {
 
-const RasterLoops raster_by_eight{8, measure_nodes<EightLanes>, turn_nodes<EightLanes>,
-                                  merge_nodes<EightLanes>};
+const RasterLoops raster_by_eight{8, prepare_edges<EightLanes>, measure_nodes<EightLanes>,
+                                  turn_nodes<EightLanes>, merge_nodes<EightLanes>};
 
 }  // namespace weir
 

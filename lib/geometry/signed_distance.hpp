@@ -18,10 +18,21 @@ struct Bounds {
     Vec2<Real> high{Real(1.0e9), Real(1.0e9)};
 };
 
-/// Whether an edge lies on the border or beyond it, by rounding or clearly.
+template <class Real>
+inline constexpr Real kHairOfBorder = Real(1.0 / 16384.0);
+
+/// Edges that lie there or beyond lie on the border or beyond it, by rounding or clearly.
+template <class Real>
+Bounds<Real> walls_of(const Bounds<Real>& bounds) {
+    constexpr Real kHair = kHairOfBorder<Real>;
+    return {{bounds.low.x + kHair, bounds.low.y + kHair},
+            {bounds.high.x - kHair, bounds.high.y - kHair}};
+}
+
+/// Whether an edge does.
 template <class Real>
 bool beyond(const Bounds<Real>& bounds, Vec2<Real> a, Vec2<Real> b) {
-    constexpr Real kHair = Real(1.0 / 16384.0);
+    constexpr Real kHair = kHairOfBorder<Real>;
     return maximum(a.x, b.x) <= bounds.low.x + kHair ||
            minimum(a.x, b.x) >= bounds.high.x - kHair ||
            maximum(a.y, b.y) <= bounds.low.y + kHair || minimum(a.y, b.y) >= bounds.high.y - kHair;

@@ -127,6 +127,12 @@ struct EightLanes {
         __builtin_memcpy(value, &chosen, sizeof chosen);
         return __builtin_popcount(set);
     }
+    /// Stores which of eight are in a set, from `first` on, the first one first. The set's lowest
+    /// bit is for the last of them.
+    static void store_set(std::uint32_t set, std::int32_t first, std::int32_t* number) {
+        const Ints from_end = bytes(reinterpret_cast<const std::uint8_t*>(kLastFirst.of + set));
+        store_whole(number, first + 7 - from_end);
+    }
     /// Bytes at numbers that `sums_of_products` gave: a bit for each that is not 0, in the order of
     /// `store_halves`. Three bytes more than the last one are read.
     static std::uint32_t set_bytes(const std::uint8_t* bytes, Ints lanes) {

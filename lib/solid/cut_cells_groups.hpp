@@ -12,27 +12,26 @@ inline CutTask cut_task(const GridShape& s, const Walls<float>& walls) {
     return {s.stride, walls.distance, walls.cell_case, walls.open_u, walls.open_v};
 }
 
-/// Cells of which there are enough for all lanes.
-struct CutList {
-    static constexpr std::int32_t kMost = 64;
-    std::int32_t count = 0;
-    std::int32_t cell[kMost + 8];
-    std::int32_t i[kMost];
-    std::int32_t j[kMost];
-
-    /// Up to a multiple of eight: with the first one.
-    void fill_up() {
-        for (std::int32_t k = count; k < count + 8; ++k) {
-            cell[k] = cell[0];
+/// As `list_groups`, of fewer than eight columns. All of them are listed.
+inline std::int32_t list_few(const CutRow& row, std::int32_t i, std::int32_t i1, CutList& list) {
+    for (; i <= i1; ++i) {
+        const std::uint8_t solid_nodes = row.cell_case[i];
+        if (is_cut(solid_nodes) && !(row.narrow && is_roomy(solid_nodes))) {
+            list.i[list.count] = i;
+            list.j[list.count] = row.j;
+            list.cell[list.count] = row.first + i;
+            ++list.count;
         }
     }
-};
+    return i;
+}
 
-/// Calls visit(list) for the cut ones of some cells, row by row, so many at a time, of which the
-/// case says `keep`.
-template <class Keep, class Visit>
-void list_cut(const GridShape& s, const NodeBox& cells, const std::uint8_t* cell_case, Keep keep,
+/// Calls visit(list) for the cut ones of some cells, row by row, so many at a time. `narrow`: but
+/// for those with one node in the solid.
+template <class Visit>
+void list_cut(const GridShape& s, const NodeBox& cells, const std::uint8_t* cell_case, bool narrow,
               Visit visit) {
+    const CutLoops& loops = cut_loops();
     CutList list;
     const auto flush = [&] {
         if (list.count > 0) {
@@ -41,36 +40,14 @@ void list_cut(const GridShape& s, const NodeBox& cells, const std::uint8_t* cell
             list.count = 0;
         }
     };
-    const auto look = [&](std::int32_t i, std::int32_t j) {
-        const std::int32_t c = s.index(i, j);
-        if (keep(cell_case[c])) {
-            list.cell[list.count] = c;
-            list.i[list.count] = i;
-            list.j[list.count] = j;
-            list.count += 1;
-        }
-    };
-    const std::int32_t width = cells.i1 + 1 - cells.i0;
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
-        const std::int32_t first = s.index(cells.i0, j);
-        for (std::int32_t k = 0; k < width; k += 8) {
-            if (list.count > CutList::kMost - 8) {
+        const std::int32_t first = s.index(0, j);
+        const CutRow row{cell_case + first, first, j, narrow};
+        for (std::int32_t i = cells.i0; i <= cells.i1;) {
+            i = cells.i0 + 7 <= cells.i1 ? loops.list(row, i, cells.i1, list)
+                                         : list_few(row, i, cells.i1, list);
+            if (!list.has_room()) {
                 flush();
-            }
-            if (width < 8) {
-                for (; k < width; ++k) {
-                    if (is_cut(cell_case[first + k])) {
-                        look(cells.i0 + k, j);
-                    }
-                }
-                break;
-            }
-            const std::int32_t at = minimum(k, width - 8);
-            EightCells cut = cut_of_eight(cell_case + first + at);
-            cut = cut >> static_cast<std::uint32_t>(8 * (k - at))
-                      << static_cast<std::uint32_t>(8 * (k - at));  // those not seen yet
-            for (; cut != 0; cut &= cut - 1U) {
-                look(cells.i0 + at + __builtin_ctzll(cut) / 8, j);
             }
         }
     }
@@ -85,8 +62,7 @@ constexpr bool is_saddle(std::uint8_t solid_nodes) {
 inline void close_sliver_groups(const GridShape& s, const NodeBox& cells, Walls<float>& walls) {
     const CutLoops& loops = cut_loops();
     const CutTask task = cut_task(s, walls);
-    const auto keep = [](std::uint8_t solid_nodes) { return !is_roomy(solid_nodes); };
-    list_cut(s, cells, walls.cell_case, keep, [&](const CutList& list) {
+    list_cut(s, cells, walls.cell_case, true, [&](const CutList& list) {
         float area[CutList::kMost + 8];
         for (std::int32_t k = 0; k < list.count; k += loops.lanes) {
             loops.areas(task, list.cell + k, area + k);
@@ -114,8 +90,7 @@ inline void add_all_shares(const RowsOfShares& shares, std::int32_t stride, floa
 inline void add_cut_groups(const GridShape& s, const NodeBox& cells, const NodeBox& around,
                            Walls<float>& walls) {
     const CutLoops& loops = cut_loops();
-    const auto keep = [](std::uint8_t) { return true; };
-    list_cut(s, around, walls.cell_case, keep, [&](const CutList& list) {
+    list_cut(s, around, walls.cell_case, false, [&](const CutList& list) {
         RowsOfShares shares[CutList::kMost + 8];
         for (std::int32_t k = 0; k < list.count; k += loops.lanes) {
             loops.shares(walls.distance, s.stride, list.cell + k, shares + k);

@@ -63,6 +63,75 @@ inline EightCells cut_of_eight(const std::uint8_t* cell_case) {
     return ((cases + 0x7F * kOnes) & ((cases ^ 0x0F * kOnes) + 0x7F * kOnes)) >> 7U & kOnes;
 }
 
+/// 1 for cut cells of which more than one node is in the solid.
+inline EightCells narrow_of_eight(const std::uint8_t* cell_case) {
+    constexpr EightCells kOnes = 0x0101010101010101U;
+    EightCells cases;
+    __builtin_memcpy(&cases, cell_case, sizeof cases);
+    // Without the lowest node of each, something is left. (Nothing is borrowed from a neighbour.)
+    const EightCells others = cases & ((cases | 0x80 * kOnes) - kOnes) & 0x0F * kOnes;
+    return (others + 0x7F * kOnes) >> 7U & cut_of_eight(cell_case);
+}
+
+/// Cells of which there are enough for all lanes.
+struct CutList {
+    static constexpr std::int32_t kMost = 64;
+    std::int32_t count = 0;
+    std::int32_t i[kMost + 8];
+    std::int32_t j[kMost + 8];
+    std::int32_t cell[kMost + 8];
+
+    bool has_room() const { return count <= kMost - 8; }
+    /// Up to a multiple of eight: with the first one.
+    void fill_up() {
+        for (std::int32_t k = count; k < count + 8; ++k) {
+            cell[k] = cell[0];
+        }
+    }
+};
+
+/// A row of cells.
+struct CutRow {
+    const std::uint8_t* cell_case;  ///< of column 0
+    std::int32_t first;             ///< number of the cell there
+    std::int32_t j;
+    bool narrow;  ///< only `narrow_of_eight` is asked for
+};
+
+/// Lists those of columns i … i1 of a row that are cut, as long as there is room. The row has eight
+/// columns at least up to i1. Returns the next column to look at.
+template <class L>
+inline std::int32_t list_groups(const CutRow& row, std::int32_t i, std::int32_t i1,
+                                CutList& list) {
+    for (; i <= i1 && list.has_room(); i += 8) {
+        const std::int32_t at = i < i1 - 7 ? i : i1 - 7;
+        const auto seen = static_cast<std::uint32_t>(8 * (i - at));
+        EightCells cut = row.narrow ? narrow_of_eight(row.cell_case + at)
+                                    : cut_of_eight(row.cell_case + at);
+        cut = cut >> seen << seen;
+        if (cut == 0) {
+            continue;
+        }
+        if constexpr (L::kLanes == 8) {
+            // A bit for each, the highest for the first.
+            L::store_set(static_cast<std::uint32_t>(cut * 0x8040201008040201U >> 56U), at,
+                         list.i + list.count);
+            L::store_whole(list.cell + list.count,
+                           L::load_whole(list.i + list.count) + row.first);
+            L::store_whole(list.j + list.count, typename L::Ints{} + row.j);
+            list.count += __builtin_popcountll(cut);
+        } else {
+            for (; cut != 0; cut &= cut - 1U) {
+                list.i[list.count] = at + __builtin_ctzll(cut) / 8;
+                list.j[list.count] = row.j;
+                list.cell[list.count] = row.first + list.i[list.count];
+                ++list.count;
+            }
+        }
+    }
+    return i;
+}
+
 /// What is around cells; of 16 bytes the first eight count.
 struct EightAround {
     using Bytes = std::uint8_t __attribute__((vector_size(16)));

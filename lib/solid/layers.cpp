@@ -20,6 +20,10 @@ NodeBox unite(const NodeBox& a, const NodeBox& b) {
     return {minimum(a.i0, b.i0), minimum(a.j0, b.j0), maximum(a.i1, b.i1), maximum(a.j1, b.j1)};
 }
 
+std::int32_t nodes_in(const NodeBox& box) {
+    return box.empty() ? 0 : (box.i1 - box.i0 + 1) * (box.j1 - box.j0 + 1);
+}
+
 template <class Real>
 GridShape stored_part(const Layers<Real>& layers) {
     return stored_part(layers.walls, layers.shape);
@@ -314,9 +318,14 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
             if (kHasThinWalls<Real> && layers.thin.used > 0) {
                 relink(layers.thin, layers.shape, table, slot);
             }
+            const NodeBox both = unite(body.left, body.drawn);
+            if (nodes_in(both) <= nodes_in(body.left) + nodes_in(body.drawn)) {
+                body.left = both;  // in one go
+            } else {
+                restore(layers, body.drawn);
+            }
             restore(layers, body.left);
-            restore(layers, body.drawn);
-            all = unite(all, unite(body.left, body.drawn));
+            all = unite(all, both);
         }
     }
     if (all.empty()) {

@@ -12,6 +12,7 @@ namespace weir {
 struct CutLoops {
     std::int32_t lanes;
     std::int32_t (*contour)(const CutTask& task, std::int32_t c, std::int32_t end);
+    std::int32_t (*list)(const CutRow& row, std::int32_t i, std::int32_t i1, CutList& list);
     AroundEight (*look_at_eight)(const CutTask& task, const AroundTask& around, std::int32_t c);
     void (*areas)(const CutTask& task, const std::int32_t* cell, float* area);
     void (*shares)(const float* distance, std::int32_t stride, const std::int32_t* cell,
@@ -19,8 +20,8 @@ struct CutLoops {
 };
 
 template <class L>
-inline constexpr CutLoops kCutLoops{L::kLanes, contour_groups<L>, look_at_eight<L>,
-                                    areas_of_group<L>, shares_of_group<L>};
+inline constexpr CutLoops kCutLoops{L::kLanes, contour_groups<L>, list_groups<L>,
+                                    look_at_eight<L>, areas_of_group<L>, shares_of_group<L>};
 
 #if WEIR_HAS_WIDE_LANES
 extern const CutLoops cuts_by_eight;
