@@ -21,25 +21,37 @@ inline constexpr std::int32_t kSolidPatch = 0x1000;
 inline constexpr std::int32_t kLeastOverfull = 8;
 inline constexpr std::int32_t kOverfull = 307;
 
-inline std::int16_t excess(std::int32_t stride, const PressureFields<SmallFixed>& f,
-                           std::int32_t c) {
-    const LevelOf<SmallFixed>* at = f.level + c;
-    const std::int32_t e = f.density[c].raw - 128;
-    // Three of four cells are deep.
-    if (at[0].raw >= 32 && at[-1].raw >= 32 && at[1].raw >= 32 && at[-stride].raw >= 32 &&
-        at[stride].raw >= 32) {
-        return static_cast<std::int16_t>(e);
-    }
-    const auto level = [&](std::int32_t step) { return static_cast<std::int32_t>(at[step].raw); };
-    const std::int32_t lowest =
-        minimum(minimum(level(-1), level(1)), minimum(level(-stride), level(stride)));
-    if (level(0) <= 0 || lowest <= 0) {
-        return static_cast<std::int16_t>(clamp(e - kSurfaceSlack, 0, kWindow));
-    }
-    const std::int32_t missing = maximum(32 - lowest, 0);
+/// Of a cell's excess where liquid is all around, the lowest so high.
+[[gnu::noinline]] inline std::int32_t below_surface(std::int32_t e, std::int32_t lowest) {
+    const std::int32_t missing = 32 - lowest;
     const std::int32_t full = e + ((missing * missing + 128) >> 8);
-    return static_cast<std::int16_t>(
-        missing == 0 ? e : full - clamp(full, -kSubsurfaceSlack, kSubsurfaceSlack));
+    return full - clamp(full, -kSubsurfaceSlack, kSubsurfaceSlack);
+}
+
+/// Of a row's cells, in place of their divergence.
+[[gnu::noinline]] inline void find_excess(const GridShape& s, const PressureFields<SmallFixed>& f,
+                                          std::int32_t row) {
+    const LevelOf<SmallFixed>* at = f.level + row;
+    const DensityOf<SmallFixed>* density = f.density + row;
+    VelocityOf<SmallFixed>* const excess = f.divergence + row;
+    const std::int32_t stride = s.stride;
+    std::int32_t left = at[-1].raw;
+    std::int32_t own = at[0].raw;
+    for (std::int32_t k = 0; k < s.nx; ++k, at = whole(at + 1)) {
+        const std::int32_t right = at[1].raw;
+        std::int32_t e = density[k].raw - 128;
+        // Most liquid cells are deep.
+        const std::int32_t lowest = own <= 0 ? own
+                                             : minimum(minimum<std::int32_t>(left, right),
+                                                       minimum<std::int32_t>(at[-stride].raw,
+                                                                             at[stride].raw));
+        if (lowest < 32) {
+            e = lowest <= 0 ? clamp(e - kSurfaceSlack, 0, kWindow) : below_surface(e, lowest);
+        }
+        excess[k].raw = static_cast<std::int16_t>(e);
+        left = own;
+        own = right;
+    }
 }
 
 template <bool Solids>
@@ -135,9 +147,7 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
     const std::int32_t speed = clamp(gain_per_s.raw >> 8, 0, 1 << 17);  // of two substeps
     const Part cells = work.take(s.ny, s.nx);
     for (std::int32_t j = cells.first; j < cells.end; ++j) {
-        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
-            fields.divergence[c].raw = packed::excess(s.stride, fields, c);
-        }
+        packed::find_excess(s, fields, s.index(0, j));
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
