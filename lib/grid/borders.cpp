@@ -19,6 +19,13 @@ void fold_along(Mass* mass, Real* momentum, const Line& inside, const Line& ghos
             if (mass[from].raw == 0) {
                 continue;  // nor has it momentum
             }
+            if (!wall.no_slip) {
+                mass[to].raw = short_of(mass[to].raw + mass[from].raw);
+                momentum[to] += momentum[from];
+                mass[from].raw = 0;
+                momentum[from].raw = 0;
+                continue;
+            }
         }
         const Real image =
             wall.no_slip ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
