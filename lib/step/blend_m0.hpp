@@ -5,11 +5,9 @@
 #include "math/packed_arithmetic.hpp"
 #include "step/places_packed.hpp"
 
-#if defined(__ARM_ARCH_6M__)
-
 namespace weir::packed {
 
-/// A face's neighbours and what is told of it, in bytes from the face.
+/// What there is of a face and around it, in bytes from where it will be blended.
 struct FacesAround {
     std::ptrdiff_t now;
     std::ptrdiff_t was;
@@ -18,6 +16,12 @@ struct FacesAround {
     std::ptrdiff_t diagonal;  ///< of the cell behind it
     std::ptrdiff_t before;    ///< of that before it
 };
+
+}  // namespace weir::packed
+
+#if defined(__ARM_ARCH_6M__)
+
+namespace weir::packed {
 
 /// Whether the diagonal in `d` is that of a cell `amid`; if not: on to 4.
 #define WEIR_AMID(d)                 \

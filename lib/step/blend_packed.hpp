@@ -42,58 +42,56 @@ inline std::int16_t blended(std::int32_t now, std::int32_t before, std::int32_t 
 
 /// A row of faces of a kind, ascending: what stood in it is kept for the row above.
 struct BlendRow {
-    using Speed = VelocityOf<SmallFixed>;
-    const Speed* now;
     Speed* field;
-    const Speed* lower;     ///< what stood in the row below
-    Speed* was;             ///< room for what stands here
-    const Speed* diagonal;  ///< of the cells behind the faces
-    const Speed* before;    ///< of those before them; null: no face has liquid all around
-    std::int32_t stride;
     std::int32_t count;
     std::int32_t share;
+    bool sharp;  ///< some of them may have nothing but liquid around
 };
 
 /// What stands beside the tank's wall is not sharpened.
-inline void blend_last(const BlendRow& row, std::int32_t here) {
-    row.field[row.count].raw = blended(row.now[row.count].raw, here, here, row.share);
+inline void blend_last(const FacesAround& at, const BlendRow& row, std::int32_t here) {
+    Speed* const last = row.field + row.count;
+    last->raw = blended(further(last, at.now)->raw, here, here, row.share);
 }
 
 template <bool Sharp>
-void blend_row(const BlendRow& row) {
+void blend_row(const FacesAround& at, const BlendRow& row) {
 #if defined(__ARM_ARCH_6M__)
     if (Sharp) {
-        const auto from_face = [&](const Speed* other) { return bytes_between(row.field, other); };
-        blend_last(row, blend_faces({from_face(row.now), from_face(row.was), from_face(row.lower),
-                                     row.stride * kSpeedBytes, from_face(row.diagonal),
-                                     from_face(row.before)},
-                                    row.field, row.field + row.count, row.share));
+        blend_last(at, row, blend_faces(at, row.field, row.field + row.count, row.share));
         return;
     }
 #endif
     std::int32_t left = row.field[-1].raw;
     std::int32_t here = row.field[0].raw;
-    for (std::int32_t k = 0; k < row.count; ++k) {
-        const std::int32_t right = row.field[k + 1].raw;
-        const std::int32_t now = row.now[k].raw;
-        if ((now | here | row.diagonal[k].raw) == 0) {  // a third of them are in the air
-            row.was[k].raw = 0;
+    Speed* const end = row.field + row.count;
+    for (Speed* face = row.field; face != end; face = whole(face + 1)) {
+        const std::int32_t right = face[1].raw;
+        const std::int32_t now = further(face, at.now)->raw;
+        const Speed diagonal = *further(face, at.diagonal);
+        if ((now | here | diagonal.raw) == 0) {  // a third of them are in the air
+            further(face, at.was)->raw = 0;
             left = here;
             here = right;
             continue;
         }
         std::int32_t sharp = here;
-        if (Sharp && amid(row.diagonal[k]) && amid(row.before[k])) {
-            sharp = sharpened(here, left, right, row.lower[k].raw, row.field[k + row.stride].raw);
+        if (Sharp && amid(diagonal) && amid(*further(face, at.before))) {
+            sharp = sharpened(here, left, right, further(face, at.lower)->raw,
+                              further(face, at.upper)->raw);
         }
-        row.was[k].raw = static_cast<std::int16_t>(here);
+        further(face, at.was)->raw = static_cast<std::int16_t>(here);
         if ((now | here | sharp) != 0) {
-            row.field[k].raw = blended(now, here, sharp, row.share);
+            face->raw = blended(now, here, sharp, row.share);
         }
         left = here;
         here = right;
     }
-    blend_last(row, here);
+    blend_last(at, row, here);
+}
+
+inline void blend(const FacesAround& at, const BlendRow& row) {
+    row.sharp ? blend_row<true>(at, row) : blend_row<false>(at, row);
 }
 
 /// What `extend_velocity` is told where a share of a velocity is kept.
@@ -116,24 +114,27 @@ inline void blend_packed(const Borders<SmallFixed>& borders, SmallFixed flip_rat
     const std::int32_t share = (1 << 14) - (flip_ratio.raw >> 2);
     const Part rows = work.take(s.ny + 1, 2 * s.nx);
     VelocityOf<SmallFixed>* diagonal = fields.inverse_diagonal;
+    const std::ptrdiff_t row = s.stride * packed::kSpeedBytes;
+    const std::ptrdiff_t to_was = packed::bytes_between(grid.mass_u, fields.divergence);
+    const std::ptrdiff_t on_u = packed::bytes_between(grid.mass_u, diagonal);
+    const std::ptrdiff_t on_v = packed::bytes_between(grid.mass_v, diagonal);
+    packed::FacesAround of_u{packed::bytes_between(grid.mass_u, grid.u), to_was, -row, row, on_u,
+                             on_u - packed::kSpeedBytes};
+    // What stood there takes the place of diagonals that no row above looks at.
+    packed::FacesAround of_v{packed::bytes_between(grid.mass_v, grid.v), on_v - row, -row, row,
+                             on_v, on_v - row};
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const std::int32_t c = s.index(0, j);
-        const std::int32_t below = c - s.stride;
         const bool inside = j < s.ny;
+        const bool on_seam = j == 0 && borders.wrap_y;
         // The cells before the first face of a row stand for what is beyond the tank.
         diagonal[c - 1] = borders.wrap_x ? diagonal[c + s.nx - 1] : VelocityOf<SmallFixed>(0);
-        const auto run = [&](const packed::BlendRow& row, bool sharp) {
-            sharp ? packed::blend_row<true>(row) : packed::blend_row<false>(row);
-        };
-        run({grid.u + c, grid.mass_u + c, j > 0 ? fields.divergence + below : grid.mass_u + below,
-             fields.divergence + c, diagonal + c, diagonal + c - 1, s.stride, s.nx, share},
-            inside);
-        // What stood there takes the place of diagonals that no row above looks at.
-        const bool on_seam = j == 0 && borders.wrap_y;
-        run({grid.v + c, grid.mass_v + c, j > 0 ? diagonal + below - s.stride : grid.mass_v + below,
-             diagonal + below, diagonal + c,
-             on_seam ? diagonal + s.index(0, s.ny - 1) : diagonal + below, s.stride, s.nx, share},
-            inside && (j > 0 || on_seam));
+        // Below the lowest row stands what stood there.
+        of_u.lower = j > 0 ? to_was - row : -row;
+        of_v.lower = j > 0 ? on_v - 2 * row : -row;
+        of_v.before = on_v + (on_seam ? (s.ny - 1) * row : -row);
+        packed::blend(of_u, {grid.mass_u + c, s.nx, share, inside});
+        packed::blend(of_v, {grid.mass_v + c, s.nx, share, inside && (j > 0 || on_seam)});
     }
     if (work.once(s.border())) {
         extend_velocity(packed::slower(borders, SmallFixed(1) - flip_ratio), s, grid.mass_u,
