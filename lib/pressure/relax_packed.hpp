@@ -203,25 +203,36 @@ template <bool Solids, class Real>
 /// A residual of so little, raw, moves no velocity by a unit, nor does a column of 32 of them.
 inline constexpr std::int32_t kExactRaw = 8;
 
-/// A sum of up to 2^16 products in two halves: a small chip adds 64 bits out of its memory.
-struct SumOfHalves {
+/// A sum of up to 2^16 products of 32 bits.
+#if defined(__ARM_ARCH_6M__)
+/// In two halves: this processor adds 64 bits out of its memory.
+struct SumOfProducts {
     std::int32_t high = 0;
     std::uint32_t low = 0;
 
-    void add(std::int32_t product) {
+    void add(std::int32_t a, std::int32_t b) {
+        const std::int32_t product = a * b;
         add_aside(high, product >> 16);
         add_aside<std::uint32_t>(low, static_cast<std::uint16_t>(product));
     }
     std::int64_t whole() const { return std::int64_t{high} * 0x10000 + low; }
 };
+#else
+struct SumOfProducts {
+    std::int64_t sum = 0;
+
+    void add(std::int32_t a, std::int32_t b) { sum += std::int64_t{a} * b; }
+    std::int64_t whole() const { return sum; }
+};
+#endif
 
 /// Sums pᵀb and pᵀAp over the cells of a row, in the same unit and as fine as 32-bit products
 /// allow: eighths are asked for. Notes whether a residual is worth a sweep.
 template <bool Solids, class Real>
 void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, std::int32_t stride,
                   std::int32_t first, std::int32_t end, Solve<Real>& solve) {
-    SumOfHalves wanted;
-    SumOfHalves there;
+    SumOfProducts wanted;
+    SumOfProducts there;
     std::uint32_t off = solve.off;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + first;
     const std::ptrdiff_t to_divergence = fields.divergence - fields.inverse_diagonal;
@@ -245,8 +256,8 @@ void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, 
         const std::int32_t flow = diagonal[to_divergence].raw;
         off |= static_cast<std::uint32_t>(pull) +
                static_cast<std::uint32_t>(flow * 512 + kExactRaw);
-        wanted.add(p * flow);
-        there.add(p * short_of(rounded_shift(saturated<25>(pull), 9)));
+        wanted.add(p, flow);
+        there.add(p, short_of(rounded_shift(saturated<25>(pull), 9)));
     }
     solve.off = off;
     solve.wanted.raw -= wanted.whole();
