@@ -66,9 +66,8 @@ void gather_freely(Simulation<Real>& simulation, const Transfer<Real>& transfer,
                    StepReport& report) {
     Findings<TransferResult<Real>> found{};
     const Part part = work.take(simulation.gathered, 1);
-    // What hits the tank's walls is summed in its order. Packed worlds have scratch for one thread.
-    const bool one_by_one = transfer.tank != nullptr || Stored<Real>::coarse;
-    const Work alone = one_by_one ? Work() : work;
+    // What hits the tank's walls is summed in its order.
+    const Work alone = transfer.tank != nullptr ? Work() : work;
     alone.share(part, kCellsAParticle, kBlock<Real>, [&](const Part& piece, std::int32_t n) {
         Particles<Real> some =
             simulation.particles.part(piece.first, piece.end - piece.first);
@@ -216,8 +215,11 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
         transfer.particle_mass = simulation.layers.walls.particle_mass;
     }
     transfer.settling = plan.settling;
+    const bool freely = !Solids || !simulation.layers.walls.active;
     if constexpr (Stored<Real>::coarse) {
-        lend_scratch(simulation.pressure, simulation.layers.shape, transfer);
+        if (!WEIR_PARALLEL || !freely) {  // there is none for a second thread
+            lend_scratch(simulation.pressure, simulation.layers.shape, transfer);
+        }
     }
     prepare_gather(simulation.grid, work);
     if (work.once(1)) {
@@ -226,7 +228,7 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
         simulation.gathered = simulation.particles.count;
         report.particles_stuck = 0;
     }
-    if (!Solids || !simulation.layers.walls.active) {
+    if (freely) {
         gather_freely(simulation, transfer, work, report);
         clock.charge(Stage::grid_to_particle);
         return;
