@@ -60,8 +60,7 @@ inline std::int32_t neighbours_in_open(const Real* at, std::int32_t stride) {
 inline std::int32_t less_diagonal(std::int32_t from, std::int32_t diagonal,
                                   std::int32_t pressure) {
     const std::int32_t high = (pressure >> 14) * diagonal;
-    constexpr std::int32_t kMuch = 1 << 22;
-    if (static_cast<std::uint32_t>(high + kMuch) >= 2U * kMuch) {
+    if (__builtin_expect(static_cast<std::uint32_t>((high >> 22) + 1) > 1U, 0)) {
         return less_much(from, diagonal, pressure);
     }
     return from - (high * 128 + (((pressure & 0x3FFF) * diagonal) >> 7));
@@ -115,10 +114,11 @@ inline constexpr Inverses kInverses;
 
 /// ω / n in 256ths without a division: of a diagonal rounded up to a 32nd of 2048, or an eighth.
 inline std::int32_t coarse_factor(std::int32_t step, std::int32_t diagonal) {
-    if (diagonal > 2048) {
+    if (__builtin_expect(diagonal > 2048, 0)) {
         return (step * kInverses.of[minimum(((diagonal >> 3) + 31) >> 5, 64)]) >> 19;
     }
-    return minimum((step * kInverses.of[(diagonal + 31) >> 5]) >> 16, 511);
+    const std::int32_t factor = (step * kInverses.of[(diagonal + 31) >> 5]) >> 16;
+    return __builtin_expect(factor > 511, 0) ? 511 : factor;
 }
 
 /// What a row's cells are relaxed with. (One place for all of it: five arguments are a call's price
