@@ -116,6 +116,13 @@ inline bool is_near(const Walls<Real>& walls, const GridShape& shape, std::int32
     return (word >> (static_cast<std::uint32_t>(column) % 32U) & 1U) != 0;
 }
 
+/// The marks of a row's first 32 cells, and behind them those of the next ones.
+template <class Real>
+inline const std::uint32_t* first_near(const GridShape& shape, const Walls<Real>& walls,
+                                       std::int32_t j) {
+    return walls.near + (shape.j0 + j) * near_words(shape) + shape.i0 / 32;
+}
+
 /// Calls visit(i, j) for every cell of some rows that is marked, row by row. Where there is none,
 /// 32 cells cost one look. A part of the tank begins at a multiple of as many.
 template <class Real, class Visit>

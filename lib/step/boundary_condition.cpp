@@ -196,20 +196,26 @@ struct BothMirrors {
 
     template <bool OnU>
     void add(const MirrorTask& task, MirrorFaces& faces, std::int32_t i, std::int32_t j) {
-        const FaceAxis<float>& axis = OnU ? u.axis : v.axis;
-        const std::int32_t face = axis.s.index(i, j);
-        if (axis.open()[face] > 0.0F || axis.distance(face) < kDeepestMirror<float>) {
-            return;  // `is_mirrored`, where nothing sticks
-        }
-        if (is_unread(axis, fields, face)) {
-            return;
-        }
-        faces.face[faces.count] = face;
+        faces.face[faces.count] = task.s.index(i, j);
         faces.column[faces.count] = i;
         if (++faces.count == task.at_once) {
             in_lanes<OnU>(task, faces, j);
             faces.count = 0;
         }
+    }
+
+    template <bool OnU>
+    void add_all(const MirrorTask& task, MirrorFaces& faces, std::int32_t from, std::uint32_t which,
+                 std::int32_t j) {
+        for (; which != 0; which &= which - 1U) {
+            add<OnU>(task, faces, from + __builtin_ctz(which), j);
+        }
+    }
+
+    static FacesToMirror look_at_eight(const MirrorTask& task, std::int32_t first) {
+        const WideFaces* wide = wide_faces();
+        return wide != nullptr ? wide->faces_to_mirror(task, first)
+                               : faces_to_mirror<FourLanes>(task, first);
     }
 
     void row_in_lanes(std::int32_t j) {
@@ -225,17 +231,26 @@ struct BothMirrors {
                               within_tank(s, Vec2<float>{__builtin_inff(), __builtin_inff()}),
                               was.goes_along,
                               was.all_count,
-                              mirrors_at_once()};
+                              mirrors_at_once(),
+                              walls.open_u,
+                              walls.open_v,
+                              fields.density,
+                              walls.thin != nullptr};
         MirrorFaces on_u;
         MirrorFaces on_v;
-        for_each_near(now.shape, walls, {j, j + 1}, [&](std::int32_t i, std::int32_t) {
-            if (i > 0) {
-                add<true>(task, on_u, i, j);
+        const std::uint32_t* near = first_near(s, walls, j);
+        for (std::int32_t i = 0; i < s.nx; i += 8) {
+            const std::uint32_t marked = near[i / 32] >> (i % 32) & 0xFFU;
+            if (marked != 0) {
+                // Some of those before once more, that none is beyond the row.
+                const std::int32_t from = minimum(i, s.nx - 8);
+                FacesToMirror faces = look_at_eight(task, s.index(from, j));
+                faces.u &= marked << (i - from);
+                faces.v &= marked << (i - from);
+                add_all<true>(task, on_u, from, i > 0 ? faces.u : faces.u & ~1U, j);
+                add_all<false>(task, on_v, from, j > 0 ? faces.v : 0U, j);
             }
-            if (j > 0) {
-                add<false>(task, on_v, i, j);
-            }
-        });
+        }
         if (on_u.count > 0) {
             in_lanes<true>(task, on_u, j);
         }
@@ -248,7 +263,7 @@ struct BothMirrors {
     void row(std::int32_t j) {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
-            if (!walls.sticking) {
+            if (!walls.sticking && now.shape.nx >= 8) {
                 row_in_lanes(j);
                 return;
             }

@@ -62,6 +62,7 @@ struct FacesWith {
     }
 
     static constexpr WideFaces kLoops{velocity, sharpen, blend,  bend, extrapolate,
+                                      faces_to_mirror<EightLanes>,
                                       find,     mirror,  unpack, pack};
 };
 

@@ -24,7 +24,44 @@ struct MirrorTask {
     float goes_along;      ///< as `Velocity` has it
     bool all_count;        ///< the same
     std::int32_t at_once;  ///< so many faces
+    const float* open_u;
+    const float* open_v;
+    const float* density;
+    bool thin;  ///< there are thin walls, which hide who reads a face
 };
+
+/// Of eight cells, whose left and lower faces are to be mirrored: a bit each.
+struct FacesToMirror {
+    std::uint32_t u;
+    std::uint32_t v;
+};
+
+/// As `is_mirrored`, where nothing sticks, and not `is_unread`.
+template <class L>
+inline FacesToMirror faces_to_mirror(const MirrorTask& task, std::int32_t first) {
+    using Ints = typename L::Ints;
+    const auto zero = L::all(0.0F);
+    const std::int32_t stride = task.s.stride;
+    FacesToMirror found{0, 0};
+    for (std::int32_t k = 0; k < 8; k += L::kLanes) {
+        const std::int32_t c = first + k;
+        const auto node = L::load(task.distance + c);
+        const auto wet = L::load(task.level + c) > zero;
+        const auto empty = reinterpret_cast<Ints>(L::load(task.density + c)) == 0;
+        const auto on = [&](const float* open, std::int32_t other, std::int32_t before) {
+            const auto distance = L::all(0.5F) * (node + L::load(task.distance + c + other));
+            const auto closed = ~((L::load(open + c) > zero) |
+                                  (distance < L::all(kDeepestMirror<float>)));
+            const auto read = wet | (L::load(task.level + c - before) > zero) |
+                              ~(empty | (reinterpret_cast<Ints>(
+                                             L::load(task.density + c - before)) == 0));
+            return L::bits_of(task.thin ? closed : closed & read) << static_cast<std::uint32_t>(k);
+        };
+        found.u |= on(task.open_u, stride, 1);
+        found.v |= on(task.open_v, 1, stride);
+    }
+    return found;
+}
 
 /// Faces of a row that are to be mirrored together.
 inline constexpr std::int32_t kMostMirrors = 8;

@@ -7,6 +7,7 @@ namespace weir {
 
 struct BendTask;
 struct ExtrapolateTask;
+struct FacesToMirror;
 struct MirrorChanges;
 struct MirrorFaces;
 struct MirrorTask;
@@ -25,6 +26,7 @@ struct WideFaces {
     std::int32_t (*bend_faces)(const BendTask& task, std::int32_t row, std::int32_t face,
                                std::int32_t end);
     bool (*extrapolate_faces)(const ExtrapolateTask& task);
+    FacesToMirror (*faces_to_mirror)(const MirrorTask& task, std::int32_t first);
     void (*find_mirrors)(const MirrorTask& task, bool on_u, const MirrorFaces& faces,
                          std::int32_t j, Mirrors& found);
     void (*mirror_faces)(const MirrorTask& task, bool on_u, const std::int32_t* face,
