@@ -266,9 +266,23 @@ Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<R
 }
 
 template <class Real>
+[[gnu::noinline, gnu::cold]] bool is_inside_in_window(const GridShape& shape,
+                                                      const Walls<Real>& walls, Vec2<Real> x) {
+    if constexpr (kHasWindow<Real>) {
+        const auto i = static_cast<std::int32_t>(x.x);
+        const auto j = static_cast<std::int32_t>(x.y);
+        if (!is_stored(walls, shape, i, j)) {
+            const PictureBeyond<Real> drawn(shape, walls, i, j, 1);
+            return is_inside_in(drawn.shape(), drawn.walls(), x);
+        }
+    }
+    return is_inside_in(shape, walls, x);
+}
+
+template <class Real>
 bool is_inside(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
     return all_stored(walls) ? is_inside_in(shape, walls, x)
-                             : standing_in_window(shape, walls, x).inside;
+                             : is_inside_in_window(shape, walls, x);
 }
 
 }  // namespace weir

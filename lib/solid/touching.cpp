@@ -100,13 +100,32 @@ struct Union {
     }
 };
 
+/// Whether a node is inside, but not so deep that no edge is near.
+template <class Real>
+bool is_shallow(Real inside) {
+    return inside <= Real(0) && inside > -kDeepest<Real>;
+}
+
+/// Whether there is one in a block: in most of a tank there is none, and no slot is asked.
+template <class Real>
+bool any_shallow(const NodeBox& block, const NodeField<Real>& field) {
+    for (std::int32_t j = block.j0; j <= block.j1; ++j) {
+        for (std::int32_t i = block.i0; i <= block.i1; ++i) {
+            if (is_shallow<Real>(field.distance[field.origin + j * field.stride + i])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 template <class Real>
 void deepen_block(const Union<Real>& bodies, const NodeBox& block, const NodeField<Real>& field) {
     for (std::int32_t j = block.j0; j <= block.j1; ++j) {
         for (std::int32_t i = block.i0; i <= block.i1; ++i) {
             const std::int32_t node = field.origin + j * field.stride + i;
             const Real inside = field.distance[node];
-            if (inside > Real(0) || inside <= -kDeepest<Real>) {
+            if (!is_shallow(inside)) {
                 continue;
             }
             std::int32_t drawn = 0;
@@ -132,7 +151,7 @@ void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& tab
         for (std::int32_t i = box.i0; i <= box.i1; i += kBlock) {
             const NodeBox block{i, j, minimum(i + kBlock - 1, box.i1),
                                 minimum(j + kBlock - 1, box.j1)};
-            if (bodies.list(block)) {
+            if (any_shallow(block, field) && bodies.list(block)) {
                 deepen_block(bodies, block, field);
             }
         }
