@@ -138,10 +138,10 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
     if (work.once(1)) {
-        overfull = maximum(fields.drifted - 1, 0);
-        fields.drifted = fields.drifted == 0 ? 1 : 0;
+        overfull = maximum(fields.turn - 1, 0);
+        fields.turn = fields.turn == 0 ? 1 : 0;
     }
-    if (fields.drifted == 0 && !work.foreseeing()) {
+    if (fields.turn == 0 && !work.foreseeing()) {
         return;
     }
     const std::int32_t speed = clamp(gain_per_s.raw >> 8, 0, 1 << 17);  // of two substeps
@@ -157,7 +157,7 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
             packed::average<Solids>(s, walls, patch, fields, overfull);
     });
     if (work.once(big.border())) {
-        fields.drifted = static_cast<std::uint16_t>(minimum(overfull + 1, 0xFFFF));
+        fields.turn = static_cast<std::uint16_t>(minimum(overfull + 1, 0xFFFF));
         mirror_cells(borders, big, fields.coarse.correction);
     }
     for_each_patch(s, big, work, [&](const Patch& patch) {

@@ -16,6 +16,7 @@
 #include "step/momentum_ledger.hpp"
 #include "step/occupied.hpp"
 #include "step/particle_to_grid.hpp"
+#include "step/quiet_surface.hpp"
 #include "step/regions.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thin_transfer.hpp"
@@ -307,6 +308,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     fill_borders<Solids>(simulation, work);
     clock.charge(Stage::pressure);
 
+    if constexpr (!Stored<Real>::coarse) {
+        quiet_surface(thin, grid, simulation.pressure, simulation.particles, work);
+    }
     blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
     if (settings.volume_gain > Real(0) && !plan.settling) {

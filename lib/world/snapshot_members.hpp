@@ -79,7 +79,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             contacts, gathered, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, drifted, last_dt, change, sound_speed, cell_weight,
+                            on_surface, leaps, turn, last_dt, change, sound_speed, cell_weight,
                             solve, elasticity, second_liquid] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
@@ -95,9 +95,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(change, Real(0), Real(1));
     stream.member(sound_speed, Real(0), elasticity != nullptr ? settings.sound_speed : Real(0));
     stream.member(on_surface, false, true);
-    if constexpr (Stored<Real>::coarse) {
-        stream.member(drifted, 0, 0xFFFF);
-    }
+    stream.member(turn, 0, Stored<Real>::coarse ? 0xFFFF : 3);
     stream.member(still_s, 0.0F, def.sleep.after_s);
     any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);

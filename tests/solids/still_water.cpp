@@ -131,7 +131,7 @@ Still still(const Vessel& vessel, double depth, const SurfaceOf& surface_of) {
 
 constexpr int kStartsAtRest = 4;
 
-/// still_of(start): of one start. The energy's target is one for 32 cells and more.
+/// still_of(start): of one start.
 template <class StillOf>
 void report_rest(Report& report, const std::string& name, int depth, const StillOf& still_of) {
     double error = 0.0;
@@ -145,11 +145,7 @@ void report_rest(Report& report, const std::string& name, int depth, const Still
     }
     report.at_most(name + ".pressure_l2", 100.0 * error, "%",
                    depth <= 16 ? 1.5 : (depth <= 32 ? 0.5 : 0.1));
-    if (depth < 32) {
-        report.figure(name + ".kinetic_energy", soon, "of mgh/2");
-    } else {
-        report.at_most(name + ".kinetic_energy", soon, "of mgh/2", 1e-5);
-    }
+    report.at_most(name + ".kinetic_energy", soon, "of mgh/2", 1e-5);
     report.figure(name + ".kinetic_energy_settled", settled, "of mgh/2");
 }
 

@@ -1,0 +1,202 @@
+#include "step/quiet_surface.hpp"
+
+#include <cstring>
+
+namespace weir {
+
+namespace {
+
+/// Every so many substeps a share of PIC is added; the most, where all is at rest.
+constexpr std::uint16_t kEvery = 4;
+template <class Real>
+constexpr Real kMostShare = Real(0.5);
+
+/// Nothing gets faster than by this factor: what pulls at few alone may give energy.
+template <class Real>
+constexpr Real kFaster = Real(1.25);
+
+/// Least slope of a surface that leans.
+template <class Real>
+constexpr Real kLeastSlope = Real(0.125);
+
+/// A cell is one of the surface that is nearer to its centre, cells.
+template <class Real>
+constexpr Real kNearest = Real(1);
+
+/// Work between pieces that threads write particles for.
+constexpr std::int32_t kGrain = 64;
+
+template <class Real>
+struct Quieting {
+    const ThinWalls<Real>* thin;
+    const StaggeredGrid<Real>& grid;
+    const PressureFields<Real>& fields;
+    VelocityOf<Real>* share;  ///< of each cell, in rows that are marked
+
+    std::int32_t mark_of(std::int32_t j) const { return grid.shape.index(-1, j); }
+
+    bool leans(std::int32_t c) const {
+        const LevelOf<Real>* level = fields.level;
+        const auto rise = [&](std::int32_t step) {
+            return absolute(Real(level[c + step]) - Real(level[c - step]));
+        };
+        const Real along_x = rise(1);
+        const Real along_y = rise(grid.shape.stride);
+        return minimum(along_x, along_y) > kLeastSlope<Real> * maximum(along_x, along_y);
+    }
+
+    bool beside_thin_wall(std::int32_t c) const {
+        return thin != nullptr && (thin->mark[c] & kNear) != 0;
+    }
+
+    /// Less for what is faster, 0 from what gravity gives in the step on.
+    Real share_of(std::int32_t c) const {
+        const Real most = fields.cell_weight;
+        const auto mean = [&](const VelocityOf<Real>* before, std::int32_t step) {
+            return Real(0.5) * (Real(before[c]) + Real(before[c + step]));
+        };
+        const Real u = mean(grid.mass_u, 1);
+        const Real v = mean(grid.mass_v, grid.shape.stride);
+        if (!(absolute(u) < most) || !(absolute(v) < most)) {
+            return Real(0);
+        }
+        const Real x = u / most;
+        const Real y = v / most;
+        return maximum(Real(0), kMostShare<Real> * (Real(1) - (x * x + y * y)));
+    }
+
+    /// The next cell of the surface, or `end`. In a loop of its own: few cells are.
+    static const LevelOf<Real>* next_near(const LevelOf<Real>* at, const LevelOf<Real>* end) {
+        while (at < end && !(magnitude_key(Real(*at)) < magnitude_key(kNearest<Real>))) {
+            ++at;
+        }
+        return at;
+    }
+
+    /// Shares of a row's cells, if any has one.
+    void weigh_row(std::int32_t j) const {
+        const GridShape& s = grid.shape;
+        const std::int32_t row = s.index(0, j);
+        const LevelOf<Real>* const end = fields.level + row + s.nx;
+        VelocityOf<Real>& mark = share[mark_of(j)];
+        mark = Real(0);
+        for (const auto* at = next_near(fields.level + row, end); at < end;
+             at = next_near(at + 1, end)) {
+            weigh(static_cast<std::int32_t>(at - fields.level), row, mark);
+        }
+    }
+
+    void clear(std::int32_t row) const {
+        std::memset(static_cast<void*>(share + row), 0,
+                    static_cast<std::size_t>(grid.shape.nx) * sizeof *share);
+    }
+
+    [[gnu::noinline]] void weigh(std::int32_t c, std::int32_t row, VelocityOf<Real>& mark) const {
+        const Real its = leans(c) && !beside_thin_wall(c) ? share_of(c) : Real(0);
+        if (its > Real(0)) {
+            if (!(Real(mark) > Real(0))) {
+                clear(row);
+                mark = Real(1);
+            }
+            share[c] = its;
+        }
+    }
+
+    /// From the first row with a mark to the end of the last one all cells have a share, if of 0.
+    /// Kept where no cell is: 0 and 0 without any.
+    VelocityOf<Real>& first_row() const { return share[grid.shape.index(-1, -1)]; }
+    VelocityOf<Real>& end_row() const { return share[grid.shape.index(-1, grid.shape.ny)]; }
+
+    void find_rows() const {
+        const GridShape& s = grid.shape;
+        const auto marked = [&](std::int32_t j) { return Real(share[mark_of(j)]) > Real(0); };
+        Part rows{0, s.ny};
+        while (!rows.empty() && !marked(rows.first)) {
+            ++rows.first;
+        }
+        while (!rows.empty() && !marked(rows.end - 1)) {
+            --rows.end;
+        }
+        for (std::int32_t j = rows.first; j < rows.end; ++j) {
+            if (!marked(j)) {
+                clear(s.index(0, j));
+            }
+        }
+        first_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.first);
+        end_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.end);
+    }
+
+    bool any() const { return Real(end_row()) > Real(0); }
+
+    /// Towards the grid's velocity before, or as near as allowed.
+    static Real drawn(Real velocity, Real mean, Real its) {
+        const Real most = kFaster<Real> * absolute(velocity);
+        return velocity + its * (maximum(Real(0) - most, minimum(mean, most)) - velocity);
+    }
+
+    [[gnu::noinline]] void quiet(Real its, const Vec2<Real>& x,
+                                 Vec2<VelocityOf<Real>>& velocity) const {
+        const std::int32_t stride = grid.shape.stride;
+        velocity.x = drawn(velocity.x, interpolate(grid.mass_u, stride, stencil_u(grid.shape, x)),
+                           its);
+        velocity.y = drawn(velocity.y, interpolate(grid.mass_v, stride, stencil_v(grid.shape, x)),
+                           its);
+    }
+
+    void quiet_some(const Part& some, Particles<Real>& particles) const {
+        const auto first = bound_key(Real(first_row()));
+        const auto end = bound_key(Real(end_row()));
+        const VelocityOf<Real>* const first_share = share + grid.shape.stride + 1;
+        for (std::int32_t k = some.first; k < some.end; ++k) {
+            const Vec2<PositionOf<Real>>& x = particles.position[k];
+            const auto y = bound_key(Real(x.y));
+            if (first <= y && y < end) {
+                const Real its = first_share[static_cast<std::int32_t>(Real(x.y)) *
+                                                 grid.shape.stride +
+                                             static_cast<std::int32_t>(Real(x.x))];
+                if (is_positive(its)) {
+                    quiet(its, Vec2<Real>(x), particles.velocity[k]);
+                }
+            }
+        }
+    }
+};
+
+}  // namespace
+
+template <class Real>
+void quiet_surface(const ThinWalls<Real>* thin, const StaggeredGrid<Real>& grid,
+                   PressureFields<Real>& fields, Particles<Real>& particles, Work work) {
+    const bool asked =
+        fields.cell_weight > Real(0) && !fields.on_surface && !(fields.sound_speed > Real(0));
+    if (!asked && !work.foreseeing()) {
+        return;
+    }
+    if (work.once(1)) {
+        fields.turn = static_cast<std::uint16_t>((fields.turn + 1) % kEvery);
+    }
+    if (fields.turn != 0 && !work.foreseeing()) {
+        return;
+    }
+    const GridShape& s = grid.shape;
+    const Quieting<Real> quieting{thin, grid, fields, fields.divergence};
+    work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+        for (std::int32_t j = rows.first; j < rows.end; ++j) {
+            quieting.weigh_row(j);
+        }
+    });
+    if (work.once(s.ny)) {
+        quieting.find_rows();
+    }
+    const bool some = work.foreseeing() || quieting.any();
+    work.share(work.take(some ? particles.count : 0, 1), 1, kGrain,
+               [&](const Part& part, std::int32_t) { quieting.quiet_some(part, particles); });
+}
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template void quiet_surface(const ThinWalls<Real>*, const StaggeredGrid<Real>&,         \
+                                PressureFields<Real>&, Particles<Real>&, Work);
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir
