@@ -28,7 +28,6 @@ constexpr std::int32_t kGrain = 64;
 
 template <class Real>
 struct Quieting {
-    const ThinWalls<Real>* thin;
     const StaggeredGrid<Real>& grid;
     const PressureFields<Real>& fields;
     VelocityOf<Real>* share;  ///< of each cell, in rows that are marked
@@ -43,10 +42,6 @@ struct Quieting {
         const Real along_x = rise(1);
         const Real along_y = rise(grid.shape.stride);
         return minimum(along_x, along_y) > kLeastSlope<Real> * maximum(along_x, along_y);
-    }
-
-    bool beside_thin_wall(std::int32_t c) const {
-        return thin != nullptr && (thin->mark[c] & kNear) != 0;
     }
 
     /// Less for what is faster, 0 from what gravity gives in the step on.
@@ -92,7 +87,7 @@ struct Quieting {
     }
 
     [[gnu::noinline]] void weigh(std::int32_t c, std::int32_t row, VelocityOf<Real>& mark) const {
-        const Real its = leans(c) && !beside_thin_wall(c) ? share_of(c) : Real(0);
+        const Real its = leans(c) ? share_of(c) : Real(0);
         if (its > Real(0)) {
             if (!(Real(mark) > Real(0))) {
                 clear(row);
@@ -165,8 +160,8 @@ struct Quieting {
 }  // namespace
 
 template <class Real>
-void quiet_surface(const ThinWalls<Real>* thin, const StaggeredGrid<Real>& grid,
-                   PressureFields<Real>& fields, Particles<Real>& particles, Work work) {
+void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
+                   Particles<Real>& particles, Work work) {
     const bool asked =
         fields.cell_weight > Real(0) && !fields.on_surface && !(fields.sound_speed > Real(0));
     if (!asked && !work.foreseeing()) {
@@ -179,7 +174,7 @@ void quiet_surface(const ThinWalls<Real>* thin, const StaggeredGrid<Real>& grid,
         return;
     }
     const GridShape& s = grid.shape;
-    const Quieting<Real> quieting{thin, grid, fields, fields.divergence};
+    const Quieting<Real> quieting{grid, fields, fields.divergence};
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         for (std::int32_t j = rows.first; j < rows.end; ++j) {
             quieting.weigh_row(j);
@@ -193,9 +188,9 @@ void quiet_surface(const ThinWalls<Real>* thin, const StaggeredGrid<Real>& grid,
                [&](const Part& part, std::int32_t) { quieting.quiet_some(part, particles); });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template void quiet_surface(const ThinWalls<Real>*, const StaggeredGrid<Real>&,         \
-                                PressureFields<Real>&, Particles<Real>&, Work);
+#define WEIR_INSTANTIATE(Real)                                                     \
+    template void quiet_surface(const StaggeredGrid<Real>&, PressureFields<Real>&, \
+                                Particles<Real>&, Work);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

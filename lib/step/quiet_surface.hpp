@@ -3,7 +3,6 @@
 
 #include "fluid/particles.hpp"
 #include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
 
 namespace weir {
 
@@ -12,14 +11,14 @@ namespace weir {
 /// against what gravity gives in a substep, gets more of PIC every fourth substep:
 ///     v += s (I(u before) − v),   s = ½ (1 − |ū|² / (g dt)²),
 /// in cells within one of the surface, if that leans by an eighth or more; nothing gets more than a
-/// quarter faster.
-/// Waves on a level surface and all that is fast keep their bits. Not without weight, with surface
-/// tension or in compressible liquid, nor within two cells of a thin wall.
+/// quarter faster. Waves on a level surface and all that is fast keep their bits. Not without weight,
+/// with surface tension or in compressible liquid; nor is it asked for where there are thin walls:
+/// what has been stirred beside them would come to rest before it is lifted again.
 ///
 /// Needs the velocities before the step on all faces that particles read. `fields.divergence` is
 /// overwritten. Order: any. Cost: all levels, and all particles if any cell is such a one.
 template <class Real>
-void quiet_surface(const ThinWalls<Real>* thin, const StaggeredGrid<Real>& grid,
-                   PressureFields<Real>& fields, Particles<Real>& particles, Work work = {});
+void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
+                   Particles<Real>& particles, Work work = {});
 
 }  // namespace weir

@@ -132,6 +132,16 @@ void fill_borders(Simulation<Real>& simulation, Work work) {
     }
 }
 
+/// Packed worlds do without, and those with thin walls.
+template <class Real>
+void quiet_leaning(Simulation<Real>& simulation, Work work) {
+    if constexpr (!Stored<Real>::coarse) {
+        if (simulation.layers.walls.thin == nullptr) {
+            quiet_surface(simulation.grid, simulation.pressure, simulation.particles, work);
+        }
+    }
+}
+
 /// How often `hide_beyond` looks at each particle.
 constexpr std::int32_t kLooksBeyond = 3;
 
@@ -308,9 +318,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     fill_borders<Solids>(simulation, work);
     clock.charge(Stage::pressure);
 
-    if constexpr (!Stored<Real>::coarse) {
-        quiet_surface(thin, grid, simulation.pressure, simulation.particles, work);
-    }
+    quiet_leaning(simulation, work);
     blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
     if (settings.volume_gain > Real(0) && !plan.settling) {

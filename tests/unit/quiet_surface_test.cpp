@@ -54,7 +54,7 @@ struct Surface {
         particles.velocity = &velocity;
         particles.count = particles.capacity = 1;
         for (int substep = 0; substep < 4; ++substep) {
-            quiet_surface<Real>(nullptr, grid, fields, particles);
+            quiet_surface<Real>(grid, fields, particles);
         }
         return convert<double>(velocity);
     }
