@@ -75,48 +75,28 @@ struct EdgeRow {
 
 /// An edge and the nodes within `far` of it.
 template <class Real>
-struct NearEdge {
-    EdgeRow<Real> measured;
-    bool steep;  ///< else nodes are asked from `left` to `right` in every row
-    Real run;    ///< to the right, for a row more
-    Real reach;  ///< to the left and to the right of where the edge is in a row
-    Real left;
-    Real right;
-    Span rows;
-};
-
-/// Of an edge that has a length.
-template <class Real>
-NearEdge<Real> near_edge(Vec2<Real> from, Vec2<Real> to, Real size, Real far,
-                         const NodeBox& box) {
-    const Vec2<Real> edge = to - from;
-    const EdgeRow<Real> measured{from, edge, {edge.x / size, edge.y / size}, size};
-    const bool steep = absolute(measured.along.y) > kFlat<Real>;
-    return {measured,
-            steep,
-            steep ? measured.along.x / measured.along.y : Real(0),
-            steep ? far / absolute(measured.along.y) : Real(0),
-            minimum(from.x, to.x) - far,
-            maximum(from.x, to.x) + far,
-            whole_numbers(minimum(from.y, to.y) - far, maximum(from.y, to.y) + far, box.j0,
-                          box.j1)};
-}
-
-template <class Real>
 void measure_edge(Vec2<Real> from, Vec2<Real> to, Real far, const Sheet<Real>& sheet) {
-    const Real size = length(to - from);
+    const Vec2<Real> edge = to - from;
+    const Real size = length(edge);
     if (!(size > Real(0))) {
         return;
     }
+    const EdgeRow<Real> measured{from, edge, {edge.x / size, edge.y / size}, size};
+    const bool steep = absolute(measured.along.y) > kFlat<Real>;
+    const Real run = steep ? measured.along.x / measured.along.y : Real(0);
+    const Real reach = steep ? far / absolute(measured.along.y) : Real(0);
+    const Real left = minimum(from.x, to.x) - far;
+    const Real right = maximum(from.x, to.x) + far;
     const NodeBox& box = sheet.box;
-    const NearEdge<Real> near = near_edge(from, to, size, far, box);
-    for (std::int32_t j = near.rows.first; j <= near.rows.last; ++j) {
+    const Span rows = whole_numbers(minimum(from.y, to.y) - far, maximum(from.y, to.y) + far,
+                                    box.j0, box.j1);
+    for (std::int32_t j = rows.first; j <= rows.last; ++j) {
         const Real y = static_cast<Real>(j);
-        const Real middle = from.x + (y - from.y) * near.run;
-        const Span nodes = whole_numbers(
-            near.steep ? maximum(near.left, middle - near.reach) : near.left,
-            near.steep ? minimum(near.right, middle + near.reach) : near.right, box.i0, box.i1);
-        near.measured.measure(sheet.row(j), nodes, y);
+        const Real middle = from.x + (y - from.y) * run;
+        const Span nodes = whole_numbers(steep ? maximum(left, middle - reach) : left,
+                                         steep ? minimum(right, middle + reach) : right,
+                                         box.i0, box.i1);
+        measured.measure(sheet.row(j), nodes, y);
     }
 }
 

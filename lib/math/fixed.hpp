@@ -55,7 +55,7 @@ inline std::uint32_t magnitude(std::int32_t a) {
 /// of 32 by 16 bits (Knuth, The Art of Computer Programming vol. 2, 4.3.1, algorithm D).
 std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor);
 
-/// All 64 bits.
+/// a · b, all 64 bits.
 #if defined(__ARM_ARCH_6M__)
 std::int64_t wide_product(std::int32_t a, std::int32_t b);
 #else
@@ -63,7 +63,6 @@ constexpr std::int64_t wide_product(std::int32_t a, std::int32_t b) {
     return static_cast<std::int64_t>(a) * b;
 }
 #endif
-
 
 /// a · 2^shift / b.
 std::int32_t quotient(std::int32_t a, std::int32_t b, int shift);

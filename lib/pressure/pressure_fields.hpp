@@ -39,6 +39,9 @@ struct Solve {
     Product<Real> there{};       ///< pᵀAp, but for its diagonal at first
 };
 
+/// Substeps from one in which leaning surfaces are quieted to the next.
+inline constexpr std::uint16_t kQuietEvery = 4;
+
 template <class Real>
 struct PressureFields {
     Real* pressure = nullptr;          ///< dt · p / ρ (the first liquid's), cells²/s; 0 in air
@@ -52,7 +55,7 @@ struct PressureFields {
     /// density. Liquids that overturned gained 0.9 % in energy by it.
     bool leaps = true;
     /// Packed worlds drift every other substep: 1 and the cells that the last one found overfull;
-    /// 0: it had none. Others quiet leaning surfaces every fourth: substeps since.
+    /// 0: it had none. Others: substeps since leaning surfaces were quieted.
     std::uint16_t turn = 0;
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most 1: less if gravity has become weaker since it was

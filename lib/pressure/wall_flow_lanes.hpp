@@ -23,7 +23,7 @@ struct BodiesAtFaces {
                               ? L::shorts(walls.nearest + c)
                               : L::shorts(walls.nearest + c + to_other);
         any = slot != static_cast<std::int32_t>(kNoBody);
-        at = (any ? slot : slot - slot) * static_cast<std::int32_t>(sizeof(Body<float>) / 4);
+        at = (any ? slot : typename L::Ints{}) * static_cast<std::int32_t>(sizeof(Body<float>) / 4);
     }
 
     /// One of a body's numbers.

@@ -113,7 +113,7 @@ void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_p
 template <class Real>
 void note_movable(BodyTable<Real>& table);
 
-/// Whether viscous liquid sticks to a body.
+/// Whether viscous liquid would stick to any body.
 template <class Real>
 bool any_without_slip(const BodyTable<Real>& table);
 

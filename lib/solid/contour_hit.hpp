@@ -245,44 +245,33 @@ Standing<Real> standing_in(const GridShape& shape, const Walls<Real>& walls, Vec
     return at;
 }
 
-template <class Real>
-[[gnu::noinline, gnu::cold]] Standing<Real> standing_in_window(const GridShape& shape,
-                                                               const Walls<Real>& walls,
-                                                               Vec2<Real> x) {
+/// ask(shape, walls) where all that is asked for is stored, or drawn for it.
+template <class Real, class Ask>
+[[gnu::noinline, gnu::cold]] auto in_window(const GridShape& shape, const Walls<Real>& walls,
+                                            Vec2<Real> x, const Ask& ask) {
     if constexpr (kHasWindow<Real>) {
         const auto i = static_cast<std::int32_t>(x.x);
         const auto j = static_cast<std::int32_t>(x.y);
         if (!is_stored(walls, shape, i, j)) {
             const PictureBeyond<Real> drawn(shape, walls, i, j, 1);
-            return standing_in(drawn.shape(), drawn.walls(), x);
+            return ask(drawn.shape(), drawn.walls());
         }
     }
-    return standing_in(shape, walls, x);
+    return ask(shape, walls);
 }
 
 template <class Real>
 Standing<Real> standing(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
-    return all_stored(walls) ? standing_in(shape, walls, x) : standing_in_window(shape, walls, x);
-}
-
-template <class Real>
-[[gnu::noinline, gnu::cold]] bool is_inside_in_window(const GridShape& shape,
-                                                      const Walls<Real>& walls, Vec2<Real> x) {
-    if constexpr (kHasWindow<Real>) {
-        const auto i = static_cast<std::int32_t>(x.x);
-        const auto j = static_cast<std::int32_t>(x.y);
-        if (!is_stored(walls, shape, i, j)) {
-            const PictureBeyond<Real> drawn(shape, walls, i, j, 1);
-            return is_inside_in(drawn.shape(), drawn.walls(), x);
-        }
-    }
-    return is_inside_in(shape, walls, x);
+    const auto ask = [x](const GridShape& s, const Walls<Real>& w) { return standing_in(s, w, x); };
+    return all_stored(walls) ? ask(shape, walls) : in_window(shape, walls, x, ask);
 }
 
 template <class Real>
 bool is_inside(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x) {
-    return all_stored(walls) ? is_inside_in(shape, walls, x)
-                             : is_inside_in_window(shape, walls, x);
+    const auto ask = [x](const GridShape& s, const Walls<Real>& w) {
+        return is_inside_in(s, w, x);
+    };
+    return all_stored(walls) ? ask(shape, walls) : in_window(shape, walls, x, ask);
 }
 
 }  // namespace weir

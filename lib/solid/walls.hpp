@@ -43,7 +43,7 @@ struct Walls {
     bool binary = false;                ///< Contour::mid_edge
     bool sticking = false;              ///< the liquid is viscous, and a body without slip
     std::int16_t bodies = 0;            ///< slots
-    bool any_sticking = false;          ///< there is a body without slip
+    bool any_sticking = false;          ///< to a body without slip, if the liquid is viscous
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
     SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes (`nearest_at`)
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell

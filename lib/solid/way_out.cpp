@@ -36,7 +36,7 @@ void look_into(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std
             }
             const auto is_inside = [&] {
                 return Whole ? is_inside_in(s, walls, place)
-                             : standing_in_window(s, walls, place).inside;
+                             : standing(s, walls, place).inside;
             };
             if (which == kCellOutside || !is_inside()) {
                 nearest = {place, square, true};

@@ -5,20 +5,6 @@
 #include "math/packed_arithmetic.hpp"
 #include "step/places_packed.hpp"
 
-namespace weir::packed {
-
-/// What there is of a face and around it, in bytes from where it will be blended.
-struct FacesAround {
-    std::ptrdiff_t now;
-    std::ptrdiff_t was;
-    std::ptrdiff_t lower;
-    std::ptrdiff_t upper;
-    std::ptrdiff_t diagonal;  ///< of the cell behind it
-    std::ptrdiff_t before;    ///< of that before it
-};
-
-}  // namespace weir::packed
-
 #if defined(__ARM_ARCH_6M__)
 
 namespace weir::packed {

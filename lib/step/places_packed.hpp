@@ -23,6 +23,16 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "x stands first");
 template <bool OnU>
 inline constexpr std::uint32_t kHalf = OnU ? 128U << 16U : 128U;
 
+/// What there is of a face and around it, in bytes from where it will be blended.
+struct FacesAround {
+    std::ptrdiff_t now;
+    std::ptrdiff_t was;
+    std::ptrdiff_t lower;
+    std::ptrdiff_t upper;
+    std::ptrdiff_t diagonal;  ///< of the cell behind it
+    std::ptrdiff_t before;    ///< of that before it
+};
+
 /// What the four faces around a point get, 256ths that add up to 256.
 struct Weights {
     std::int32_t lower_left;

@@ -6,8 +6,7 @@ namespace weir {
 
 namespace {
 
-/// Every so many substeps a share of PIC is added; the most, where all is at rest.
-constexpr std::uint16_t kEvery = 4;
+/// Of PIC, where all is at rest.
 template <class Real>
 constexpr Real kMostShare = Real(0.5);
 
@@ -19,11 +18,11 @@ constexpr Real kFaster = Real(1.25);
 template <class Real>
 constexpr Real kLeastSlope = Real(0.125);
 
-/// A cell is one of the surface that is nearer to its centre, cells.
+/// Cells whose centre is nearer to the surface are asked, cells.
 template <class Real>
 constexpr Real kNearest = Real(1);
 
-/// Work between pieces that threads write particles for.
+/// Pieces for threads are whole multiples of so many particles.
 constexpr std::int32_t kGrain = 64;
 
 template <class Real>
@@ -33,6 +32,8 @@ struct Quieting {
     VelocityOf<Real>* share;  ///< of each cell, in rows that are marked
 
     std::int32_t mark_of(std::int32_t j) const { return grid.shape.index(-1, j); }
+
+    bool marked(std::int32_t j) const { return Real(share[mark_of(j)]) > Real(0); }
 
     bool leans(std::int32_t c) const {
         const LevelOf<Real>* level = fields.level;
@@ -104,7 +105,6 @@ struct Quieting {
 
     void find_rows() const {
         const GridShape& s = grid.shape;
-        const auto marked = [&](std::int32_t j) { return Real(share[mark_of(j)]) > Real(0); };
         Part rows{0, s.ny};
         while (!rows.empty() && !marked(rows.first)) {
             ++rows.first;
@@ -112,13 +112,17 @@ struct Quieting {
         while (!rows.empty() && !marked(rows.end - 1)) {
             --rows.end;
         }
-        for (std::int32_t j = rows.first; j < rows.end; ++j) {
-            if (!marked(j)) {
-                clear(s.index(0, j));
-            }
-        }
         first_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.first);
         end_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.end);
+    }
+
+    /// A row between them that has no mark has no shares.
+    void clear_unmarked(std::int32_t j) const {
+        const GridShape& s = grid.shape;
+        const auto row = static_cast<Real>(s.j0 + j);
+        if (!marked(j) && row >= Real(first_row()) && row < Real(end_row())) {
+            clear(s.index(0, j));
+        }
     }
 
     bool any() const { return Real(end_row()) > Real(0); }
@@ -168,7 +172,7 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
         return;
     }
     if (work.once(1)) {
-        fields.turn = static_cast<std::uint16_t>((fields.turn + 1) % kEvery);
+        fields.turn = static_cast<std::uint16_t>((fields.turn + 1) % kQuietEvery);
     }
     if (fields.turn != 0 && !work.foreseeing()) {
         return;
@@ -184,6 +188,11 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
         quieting.find_rows();
     }
     const bool some = work.foreseeing() || quieting.any();
+    work.share(work.take(some ? s.ny : 0, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+        for (std::int32_t j = rows.first; j < rows.end; ++j) {
+            quieting.clear_unmarked(j);
+        }
+    });
     work.share(work.take(some ? particles.count : 0, 1), 1, kGrain,
                [&](const Part& part, std::int32_t) { quieting.quiet_some(part, particles); });
 }

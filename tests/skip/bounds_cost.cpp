@@ -42,7 +42,7 @@ struct Table {
     }
 };
 constexpr Table kWithoutSolids = {{0, 61, 28, 44, 38, 170, 0}};
-constexpr Table kWithSolids = {{950, 61, 31, 55, 54, 1390, 0}};
+constexpr Table kWithSolids = {{950, 61, 31, 55, 54, 1400, 0}};
 
 bool g_within = true;
 

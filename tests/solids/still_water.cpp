@@ -135,16 +135,19 @@ constexpr int kStartsAtRest = 4;
 template <class StillOf>
 void report_rest(Report& report, const std::string& name, int depth, const StillOf& still_of) {
     double error = 0.0;
+    double error_soon = 0.0;
     double soon = 0.0;
     double settled = 0.0;
     for (int start = 0; start < kStartsAtRest; ++start) {
         const Still one = still_of(start);
         error += one.settled.pressure_error / kStartsAtRest;
+        error_soon += one.soon.pressure_error / kStartsAtRest;
         soon += one.soon.energy / kStartsAtRest;
         settled += one.settled.energy / kStartsAtRest;
     }
     report.at_most(name + ".pressure_l2", 100.0 * error, "%",
                    depth <= 16 ? 1.5 : (depth <= 32 ? 0.5 : 0.1));
+    report.figure(name + ".pressure_l2_soon", 100.0 * error_soon, "%");
     report.at_most(name + ".kinetic_energy", soon, "of mgh/2", 1e-5);
     report.figure(name + ".kinetic_energy_settled", settled, "of mgh/2");
 }
