@@ -55,7 +55,8 @@ struct PressureFields {
     /// density. Liquids that overturned gained 0.9 % in energy by it.
     bool leaps = true;
     /// Packed worlds drift every other substep: 1 and the cells that the last one found overfull;
-    /// 0: it had none. Others: substeps since leaning surfaces were quieted.
+    /// 0: it had none. Others: substeps since leaning surfaces were quieted, kQuietEvery if there
+    /// was none.
     std::uint16_t turn = 0;
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most 1: less if gravity has become weaker since it was

@@ -103,7 +103,8 @@ struct Quieting {
     VelocityOf<Real>& first_row() const { return share[grid.shape.index(-1, -1)]; }
     VelocityOf<Real>& end_row() const { return share[grid.shape.index(-1, grid.shape.ny)]; }
 
-    void find_rows() const {
+    /// Whether there are any.
+    bool find_rows() const {
         const GridShape& s = grid.shape;
         Part rows{0, s.ny};
         while (!rows.empty() && !marked(rows.first)) {
@@ -114,6 +115,7 @@ struct Quieting {
         }
         first_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.first);
         end_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.end);
+        return !rows.empty();
     }
 
     /// A row between them that has no mark has no shares.
@@ -124,8 +126,6 @@ struct Quieting {
             clear(s.index(0, j));
         }
     }
-
-    bool any() const { return Real(end_row()) > Real(0); }
 
     /// Towards the grid's velocity before, or as near as allowed.
     static Real drawn(Real velocity, Real mean, Real its) {
@@ -143,6 +143,9 @@ struct Quieting {
     }
 
     void quiet_some(const Part& some, Particles<Real>& particles) const {
+        if (some.empty()) {
+            return;
+        }
         const auto first = bound_key(Real(first_row()));
         const auto end = bound_key(Real(end_row()));
         const VelocityOf<Real>* const first_share = share + grid.shape.stride + 1;
@@ -174,7 +177,7 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
     if (work.once(1)) {
         fields.turn = static_cast<std::uint16_t>((fields.turn + 1) % kQuietEvery);
     }
-    if (fields.turn != 0 && !work.foreseeing()) {
+    if (fields.turn % kQuietEvery != 0 && !work.foreseeing()) {
         return;
     }
     const GridShape& s = grid.shape;
@@ -185,9 +188,9 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
         }
     });
     if (work.once(s.ny)) {
-        quieting.find_rows();
+        fields.turn = quieting.find_rows() ? 0 : kQuietEvery;
     }
-    const bool some = work.foreseeing() || quieting.any();
+    const bool some = work.foreseeing() || fields.turn == 0;
     work.share(work.take(some ? s.ny : 0, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         for (std::int32_t j = rows.first; j < rows.end; ++j) {
             quieting.clear_unmarked(j);

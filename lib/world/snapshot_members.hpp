@@ -95,7 +95,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(change, Real(0), Real(1));
     stream.member(sound_speed, Real(0), elasticity != nullptr ? settings.sound_speed : Real(0));
     stream.member(on_surface, false, true);
-    stream.member(turn, 0, Stored<Real>::coarse ? 0xFFFF : kQuietEvery - 1);
+    stream.member(turn, 0, Stored<Real>::coarse ? 0xFFFF : kQuietEvery);
     stream.member(still_s, 0.0F, def.sleep.after_s);
     any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);
