@@ -185,26 +185,21 @@ struct EightLanes {
     }
     static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
     static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
-    static Ints bytes(const std::uint8_t* from) {
-        using Bytes = std::uint8_t __attribute__((vector_size(8)));
-        Bytes lanes;
+    static Ints bytes(const std::uint8_t* from) { return widened(from); }
+    static void store_bytes(std::uint8_t* to, Ints lanes) { store_narrowed(to, lanes); }
+    static Ints shorts(const std::uint16_t* from) { return widened(from); }
+    static void store_shorts(std::uint16_t* to, Ints lanes) { store_narrowed(to, lanes); }
+    template <class Small>
+    static Ints widened(const Small* from) {
+        typedef Small Few __attribute__((vector_size(8 * sizeof(Small))));
+        Few lanes;
         __builtin_memcpy(&lanes, from, sizeof lanes);
         return __builtin_convertvector(lanes, Ints);
     }
-    static void store_bytes(std::uint8_t* to, Ints lanes) {
-        using Bytes = std::uint8_t __attribute__((vector_size(8)));
-        const auto some = __builtin_convertvector(lanes, Bytes);
-        __builtin_memcpy(to, &some, sizeof some);
-    }
-    static Ints shorts(const std::uint16_t* from) {
-        using Unsigned = std::uint16_t __attribute__((vector_size(16)));
-        Unsigned lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return __builtin_convertvector(lanes, Ints);
-    }
-    static void store_shorts(std::uint16_t* to, Ints lanes) {
-        using Unsigned = std::uint16_t __attribute__((vector_size(16)));
-        const auto some = __builtin_convertvector(lanes, Unsigned);
+    template <class Small>
+    static void store_narrowed(Small* to, Ints lanes) {
+        typedef Small Few __attribute__((vector_size(8 * sizeof(Small))));
+        const auto some = __builtin_convertvector(lanes, Few);
         __builtin_memcpy(to, &some, sizeof some);
     }
     static Shorts pairs_of_shorts(std::int32_t first, std::int32_t second) {

@@ -153,26 +153,21 @@ struct FourLanes {
     static void store_whole(std::int32_t* to, Ints lanes) {
         __builtin_memcpy(to, &lanes, sizeof lanes);
     }
-    static Ints bytes(const std::uint8_t* from) {
-        using Bytes = std::uint8_t __attribute__((vector_size(4)));
-        Bytes lanes;
+    static Ints bytes(const std::uint8_t* from) { return widened(from); }
+    static void store_bytes(std::uint8_t* to, Ints lanes) { store_narrowed(to, lanes); }
+    static Ints shorts(const std::uint16_t* from) { return widened(from); }
+    static void store_shorts(std::uint16_t* to, Ints lanes) { store_narrowed(to, lanes); }
+    template <class Small>
+    static Ints widened(const Small* from) {
+        typedef Small Few __attribute__((vector_size(4 * sizeof(Small))));
+        Few lanes;
         __builtin_memcpy(&lanes, from, sizeof lanes);
         return __builtin_convertvector(lanes, Ints);
     }
-    static void store_bytes(std::uint8_t* to, Ints lanes) {
-        using Bytes = std::uint8_t __attribute__((vector_size(4)));
-        const auto some = __builtin_convertvector(lanes, Bytes);
-        __builtin_memcpy(to, &some, sizeof some);
-    }
-    static Ints shorts(const std::uint16_t* from) {
-        using Unsigned = std::uint16_t __attribute__((vector_size(8)));
-        Unsigned lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return __builtin_convertvector(lanes, Ints);
-    }
-    static void store_shorts(std::uint16_t* to, Ints lanes) {
-        using Unsigned = std::uint16_t __attribute__((vector_size(8)));
-        const auto some = __builtin_convertvector(lanes, Unsigned);
+    template <class Small>
+    static void store_narrowed(Small* to, Ints lanes) {
+        typedef Small Few __attribute__((vector_size(4 * sizeof(Small))));
+        const auto some = __builtin_convertvector(lanes, Few);
         __builtin_memcpy(to, &some, sizeof some);
     }
     /// Two numbers again and again.

@@ -120,8 +120,6 @@ template <class Real>
 constexpr Real kOwnShare = Real(0.375);
 template <class Real>
 constexpr Real kSideShare = Real(0.125);
-template <class Real>
-constexpr Real kCornerShare = Real(0.03125);
 
 /// The same over the open areas of the nine cells around one. At the tank's walls the cells are
 /// mirrored, as masses are.

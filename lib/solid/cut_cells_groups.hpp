@@ -135,7 +135,8 @@ inline std::int32_t look_around_eights(const GridShape& s, std::int32_t j, std::
     const CutLoops& loops = cut_loops();
     const CutTask task = cut_task(s, walls);
     const AroundTask around{j > 0 ? -s.stride : 0, j + 1 < s.ny ? s.stride : 0,
-                            kDeepestMirror<float>, kBoundLayer<float>, walls.full_density};
+                            kDeepestMirror<float>, kBoundLayer<float>, kCornerShare<float>,
+                            walls.full_density};
     const std::int32_t last = minimum(i1, s.nx - 2);
     std::int32_t i = i0;
     for (; i <= last && last - 7 >= i0; i += 8) {

@@ -206,6 +206,7 @@ struct AroundTask {
     std::int32_t above;
     float deepest;  ///< of mirrored faces
     float beside;   ///< where the liquid may stick
+    float corner;   ///< share of a cell at a corner in a cell's density
     float* full_density;
 };
 struct AroundEight {
@@ -221,7 +222,7 @@ inline AroundEight look_at_eight(const CutTask& task, const AroundTask& around, 
     __builtin_memcpy(in_32nds, &eight, sizeof in_32nds);
     for (std::int32_t k = 0; k < 8; k += L::kLanes) {
         L::store(around.full_density + c + k,
-                 L::all(0.03125F) * L::floats(L::bytes(in_32nds + k)));
+                 L::all(around.corner) * L::floats(L::bytes(in_32nds + k)));
     }
     const std::uint32_t near = bits_of_eight(cells.near);
     if (near == 0) {

@@ -11,6 +11,10 @@ namespace weir {
 template <class Real>
 inline constexpr Real kSliver = Real(0.02);
 
+/// Of a cell's density, what another over a corner of it adds if it is full.
+template <class Real>
+inline constexpr Real kCornerShare = Real(0.03125);
+
 template <class Real>
 struct Corners {
     Real distance[4];

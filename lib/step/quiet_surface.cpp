@@ -1,7 +1,5 @@
 #include "step/quiet_surface.hpp"
 
-#include <cstring>
-
 namespace weir {
 
 namespace {
@@ -72,34 +70,30 @@ struct Quieting {
     /// Shares of a row's cells, if any has one.
     void weigh_row(std::int32_t j) const {
         const GridShape& s = grid.shape;
-        const std::int32_t row = s.index(0, j);
-        const LevelOf<Real>* const end = fields.level + row + s.nx;
-        VelocityOf<Real>& mark = share[mark_of(j)];
-        mark = Real(0);
-        for (const auto* at = next_near(fields.level + row, end); at < end;
-             at = next_near(at + 1, end)) {
-            weigh(static_cast<std::int32_t>(at - fields.level), row, mark);
+        const LevelOf<Real>* const first = fields.level + s.index(0, j);
+        const LevelOf<Real>* const end = first + s.nx;
+        share[mark_of(j)] = Real(0);
+        for (const auto* at = next_near(first, end); at < end; at = next_near(at + 1, end)) {
+            weigh(static_cast<std::int32_t>(at - fields.level), j);
         }
     }
 
-    void clear(std::int32_t row) const {
-        std::memset(static_cast<void*>(share + row), 0,
-                    static_cast<std::size_t>(grid.shape.nx) * sizeof *share);
-    }
+    /// With the row's mark, which stands before its cells.
+    void clear(std::int32_t j) const { clear_rows(grid.shape, {j + 1, j + 2}, share); }
 
-    [[gnu::noinline]] void weigh(std::int32_t c, std::int32_t row, VelocityOf<Real>& mark) const {
+    [[gnu::noinline]] void weigh(std::int32_t c, std::int32_t j) const {
         const Real its = leans(c) ? share_of(c) : Real(0);
         if (its > Real(0)) {
-            if (!(Real(mark) > Real(0))) {
-                clear(row);
-                mark = Real(1);
+            if (!marked(j)) {
+                clear(j);
+                share[mark_of(j)] = Real(1);
             }
             share[c] = its;
         }
     }
 
     /// From the first row with a mark to the end of the last one all cells have a share, if of 0.
-    /// Kept where no cell is: 0 and 0 without any.
+    /// Kept where no cell is.
     VelocityOf<Real>& first_row() const { return share[grid.shape.index(-1, -1)]; }
     VelocityOf<Real>& end_row() const { return share[grid.shape.index(-1, grid.shape.ny)]; }
 
@@ -113,17 +107,16 @@ struct Quieting {
         while (!rows.empty() && !marked(rows.end - 1)) {
             --rows.end;
         }
-        first_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.first);
-        end_row() = static_cast<Real>(rows.empty() ? 0 : s.j0 + rows.end);
+        first_row() = static_cast<Real>(s.j0 + rows.first);
+        end_row() = static_cast<Real>(s.j0 + rows.end);
         return !rows.empty();
     }
 
     /// A row between them that has no mark has no shares.
     void clear_unmarked(std::int32_t j) const {
-        const GridShape& s = grid.shape;
-        const auto row = static_cast<Real>(s.j0 + j);
+        const auto row = static_cast<Real>(grid.shape.j0 + j);
         if (!marked(j) && row >= Real(first_row()) && row < Real(end_row())) {
-            clear(s.index(0, j));
+            clear(j);
         }
     }
 

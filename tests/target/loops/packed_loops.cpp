@@ -48,9 +48,7 @@ struct Fields {
     Speed mass_u[kEntries];
     Real v[kEntries];
     Speed mass_v[kEntries];
-    Real pressure[kEntries];
     weir::LevelOf<Real> level[kEntries];
-    weir::DensityOf<Real> density[kEntries];
     weir::Vec2<Place> position[kParticles];
     weir::Vec2<Speed> velocity[kParticles];
     std::uint32_t ways[kParticles];
@@ -72,9 +70,6 @@ weir::StaggeredGrid<Real> grid() {
 
 weir::PressureFields<Real> pressure() {
     weir::PressureFields<Real> fields;
-    fields.pressure = g_fields.pressure;
-    fields.level = g_fields.level;
-    fields.density = g_fields.density;
     fields.divergence = grid().u + kEntries;
     fields.inverse_diagonal = grid().v + kEntries;
     return fields;
