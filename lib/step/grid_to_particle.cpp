@@ -5,6 +5,7 @@
 #include "step/depth_bits.hpp"
 #include "step/face_lanes.hpp"
 #include "step/tank_walls.hpp"
+#include "step/transfer_fpu.hpp"
 #include "step/transfer_lanes.hpp"
 #include "step/transfer_packed.hpp"
 
@@ -291,6 +292,36 @@ TransferResult<Real> gather(const StaggeredGrid<Real>& grid, const Transfer<Real
     return result;
 }
 
+#if WEIR_HAS_FPU_LOOPS
+
+TransferResult<float> gather_with_fpu(const StaggeredGrid<float>& grid,
+                                      const Transfer<float>& transfer,
+                                      Particles<float>& particles) {
+    const GridShape& s = grid.shape;
+    const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
+    const Clear<float> clear(size, transfer);
+    const fpu::Faces faces(grid);
+    const fpu::GatherTask task{transfer.dt_s, transfer.flip_ratio, clear.limit, clear.near,
+                               clear.right - clear.low, clear.top - clear.low};
+    std::uint32_t fastest = 0;
+    TransferResult<float> result;
+    const Vec2<float>* const end = particles.position + particles.count;
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        fpu::Found found;
+        const Vec2<float>* stopped =
+            fpu::gather(faces, task, particles.position + k, particles.velocity + k, end, fastest,
+                        found);
+        k = static_cast<std::int32_t>(stopped - particles.position);
+        if (stopped != end) {
+            advect_rare(size, transfer, found.along, found.velocity, k, particles, result);
+        }
+    }
+    result.max_speed = maximum(result.max_speed, magnitude_of_key(fastest));
+    return result;
+}
+
+#endif
+
 }  // namespace
 
 template <class Real>
@@ -313,6 +344,8 @@ TransferResult<Real> grid_to_particle(const StaggeredGrid<Real>& grid,
     }
     if constexpr (Stored<Real>::coarse) {
         return gather_packed(grid, transfer, particles);
+    } else if constexpr (kHasFpuLoops<Real>) {
+        return gather_with_fpu(grid, transfer, particles);
     } else {
         return gather(grid, transfer, particles);
     }

@@ -2,6 +2,7 @@
 
 #include "step/scatter.hpp"
 #include "step/thin_transfer.hpp"
+#include "step/transfer_fpu.hpp"
 #include "step/transfer_lanes.hpp"
 #include "step/transfer_packed.hpp"
 
@@ -64,11 +65,15 @@ std::int32_t scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<
                            grid);
         return 0;
     }
-    for (std::int32_t k = part.first; k < part.end; ++k) {
-        const Vec2<Real> x = particles.position[k];
-        const Vec2<Real> v = particles.velocity[k];
-        scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
-        scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
+    if constexpr (kHasFpuLoops<Real>) {
+        scatter_with_fpu(particles.part(part.first, part.end - part.first), grid);
+    } else {
+        for (std::int32_t k = part.first; k < part.end; ++k) {
+            const Vec2<Real> x = particles.position[k];
+            const Vec2<Real> v = particles.velocity[k];
+            scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
+            scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
+        }
     }
     return 0;
 }

@@ -1,5 +1,7 @@
 // Loops of packed worlds that some processors have their own code for, on numbers of all sizes that
 // their formats hold: one hash on every machine, which is that of the plain loops.
+#include "numbers.hpp"
+
 #include "base/hash.hpp"
 #include "fluid/particles.hpp"
 #include "port/port.hpp"
@@ -19,28 +21,6 @@ constexpr std::int32_t kColumns = 10;
 constexpr std::int32_t kRows = 7;
 constexpr std::int32_t kEntries = (kColumns + 2) * (kRows + 2);
 constexpr std::int32_t kParticles = 60;
-
-/// Of all sizes up to so many bits (xorshift, Marsaglia 2003).
-class Numbers {
-public:
-    std::uint32_t word() {
-        state_ ^= state_ << 13U;
-        state_ ^= state_ >> 17U;
-        state_ ^= state_ << 5U;
-        return state_;
-    }
-    std::int32_t size(std::uint32_t bits) {
-        const std::uint32_t mask = (1U << (1U + word() % bits)) - 1U;
-        return static_cast<std::int32_t>(word() & mask);
-    }
-    std::int32_t either(std::uint32_t bits) {
-        const std::int32_t value = size(bits);
-        return word() % 2U == 0 ? value : -1 - value;
-    }
-
-private:
-    std::uint32_t state_ = 2463534242U;
-};
 
 /// Fields as they lie in a world: velocities and, behind them, scratch, in place of momenta.
 struct Fields {

@@ -1,0 +1,117 @@
+// Loops of worlds in float that some processors have their own code for: one hash on every machine,
+// which is that of the plain loops.
+#include "numbers.hpp"
+
+#include "base/hash.hpp"
+#include "fluid/particles.hpp"
+#include "port/port.hpp"
+#include "port/print.hpp"
+#include "step/grid_to_particle.hpp"
+#include "step/particle_to_grid.hpp"
+
+namespace {
+
+constexpr std::int32_t kRounds = 400;
+constexpr std::int32_t kColumns = 10;
+constexpr std::int32_t kRows = 7;
+constexpr std::int32_t kEntries = (kColumns + 2) * (kRows + 2);
+constexpr std::int32_t kParticles = 60;
+
+/// Fields as they lie in a world.
+struct Fields {
+    float u[kEntries];
+    float mass_u[kEntries];
+    float v[kEntries];
+    float mass_v[kEntries];
+    weir::Vec2<float> position[kParticles];
+    weir::Vec2<float> velocity[kParticles];
+};
+
+Fields g_fields;
+Numbers g_numbers;
+weir::Hash g_hash;
+
+/// Of all sizes up to `most`.
+float number(float most) { return most * static_cast<float>(g_numbers.either(24)) / 16777216.0F; }
+
+weir::StaggeredGrid<float> grid() {
+    weir::StaggeredGrid<float> grid;
+    grid.shape = {kColumns, kRows, kColumns + 2, 0, 0};
+    grid.u = g_fields.u;
+    grid.v = g_fields.v;
+    grid.mass_u = g_fields.mass_u;
+    grid.mass_v = g_fields.mass_v;
+    return grid;
+}
+
+template <std::size_t Count>
+void add_to_hash(const float (&numbers)[Count]) {
+    for (const float one : numbers) {
+        g_hash.add(one);
+    }
+}
+template <std::size_t Count>
+void add_to_hash(const weir::Vec2<float> (&pairs)[Count]) {
+    for (const weir::Vec2<float>& one : pairs) {
+        g_hash.add(one.x);
+        g_hash.add(one.y);
+    }
+}
+
+/// Some at the walls, where half of them lead out of the tank.
+weir::Particles<float> particles() {
+    const auto within = [](std::int32_t cells) {
+        const float size = static_cast<float>(cells);
+        const float at = size * static_cast<float>(g_numbers.word() >> 8U) / 16777216.0F;
+        return weir::clamp(at, weir::kWallGap<float>, size - weir::kWallGap<float>);
+    };
+    for (std::int32_t k = 0; k < kParticles; ++k) {
+        g_fields.position[k] = {within(kColumns), within(kRows)};
+        g_fields.velocity[k] = {number(60.0F), number(60.0F)};
+    }
+    return {g_fields.position, g_fields.velocity, kParticles, kParticles, nullptr};
+}
+
+void scatter() {
+    weir::StaggeredGrid<float> to = grid();
+    weir::particle_to_grid<float>(particles(), {}, 1.0F, to, nullptr, {});
+    add_to_hash(g_fields.u);
+    add_to_hash(g_fields.v);
+    add_to_hash(g_fields.mass_u);
+    add_to_hash(g_fields.mass_v);
+}
+
+/// Some of the particles are too fast, for the tank or for those who count.
+void gather() {
+    for (std::int32_t k = 0; k < kEntries; ++k) {
+        g_fields.u[k] = number(50.0F);
+        g_fields.v[k] = number(50.0F);
+        g_fields.mass_u[k] = number(10.0F);
+        g_fields.mass_v[k] = number(10.0F);
+    }
+    weir::Transfer<float> transfer{0.01F + number(0.01F), 0.97F, 60.0F};
+    transfer.near = 40.0F;
+    weir::Particles<float> moved = particles();
+    const weir::TransferResult<float> result = weir::grid_to_particle(grid(), transfer, moved);
+    g_hash.add(result.far + 256 * result.slowed);
+    g_hash.add(result.max_speed);
+    add_to_hash(g_fields.position);
+    add_to_hash(g_fields.velocity);
+}
+
+void tell(const char* what) { port::print(what, " ", port::hex(g_hash.value()), "\n"); }
+
+}  // namespace
+
+int main() {
+    port::init();
+    for (std::int32_t round = 0; round < kRounds; ++round) {
+        scatter();
+    }
+    tell("scatter");
+    for (std::int32_t round = 0; round < kRounds; ++round) {
+        gather();
+    }
+    tell("gather");
+    port::exit(0);
+}
