@@ -7,6 +7,7 @@
 #include "pressure/coarse_sweep_lanes.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
+#include "pressure/relax_fpu.hpp"
 
 namespace weir {
 
@@ -141,7 +142,8 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
             const Real held = fields.pressure[c];
             const Real residual =
                 (weights.weighted(fields.pressure, c, inverse) - fields.divergence[c]) -
-                (inverse == Real(0.25) ? Real(4) * held : held / absolute(inverse));
+                (bound_key(inverse) == bound_key(Real(0.25)) ? Real(4) * held
+                                                             : held / absolute(inverse));
             const Real beside = to.of_beside[x] * residual;
             const Real above = to.of_above[y] * residual;
             own += residual - (beside + above);
@@ -223,6 +225,10 @@ void add_corrections(const GridShape& s, const Part& rows, PressureFields<Real>&
 template <class Real>
 void relax(const Part& rows, std::int32_t colour, Real omega, CoarseGrid<Real>& coarse) {
     const GridShape& s = coarse.shape;
+    if constexpr (kHasFpuLoops<Real>) {
+        relax_coarse(coarse, (rows.first + colour) & 1, rows.first, rows.end - rows.first, omega);
+        return;
+    }
     Real* p = coarse.correction;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const std::int32_t end = s.index(s.nx, j);

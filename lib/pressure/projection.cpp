@@ -5,6 +5,7 @@
 #include "pressure/equation_of_state.hpp"
 #include "pressure/project.hpp"
 #include "pressure/project_packed.hpp"
+#include "pressure/relax_fpu.hpp"
 #include "pressure/relax_lanes.hpp"
 #include "pressure/relax_packed.hpp"
 #include "pressure/start.hpp"
@@ -110,6 +111,10 @@ template <bool Solids, bool Mixed, class Real>
 template <bool Solids, bool Mixed, class Real>
 void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
            PressureFields<Real>& fields) {
+    if constexpr (kHasFpuLoops<Real> && !Solids && !Mixed) {
+        relax_rows(weights.grid.shape, rows.low, rows.high, colour, kRelaxation<Real>, fields);
+        return;
+    }
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {
         relax_down(weights, (j + colour) & 1, j, 1, fields);
     }

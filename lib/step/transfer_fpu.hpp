@@ -7,22 +7,11 @@
 #include <cstdint>
 
 #include "fluid/particles.hpp"
-
-#if defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M' && defined(__ARM_FP) && \
-    (__ARM_FP & 4)
-#define WEIR_HAS_FPU_LOOPS 1
-#else
-#define WEIR_HAS_FPU_LOOPS 0
-#endif
-
-namespace weir {
-
-template <class Real>
-inline constexpr bool kHasFpuLoops = false;
+#include "math/fpu.hpp"
 
 #if WEIR_HAS_FPU_LOOPS
-template <>
-inline constexpr bool kHasFpuLoops<float> = true;
+
+namespace weir {
 
 namespace fpu {
 
@@ -244,6 +233,6 @@ inline void scatter_with_fpu(const Particles<float>& particles, const StaggeredG
     }
 }
 
-#endif
-
 }  // namespace weir
+
+#endif

@@ -6,6 +6,8 @@
 #include "fluid/particles.hpp"
 #include "port/port.hpp"
 #include "port/print.hpp"
+#include "pressure/projection.hpp"
+#include "solid/walls.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/particle_to_grid.hpp"
 
@@ -16,6 +18,8 @@ constexpr std::int32_t kColumns = 10;
 constexpr std::int32_t kRows = 7;
 constexpr std::int32_t kEntries = (kColumns + 2) * (kRows + 2);
 constexpr std::int32_t kParticles = 60;
+constexpr std::int32_t kCoarseColumns = weir::coarse_cells(kColumns);
+constexpr std::int32_t kCoarseEntries = (kCoarseColumns + 2) * (weir::coarse_cells(kRows) + 2);
 
 /// Fields as they lie in a world.
 struct Fields {
@@ -23,6 +27,12 @@ struct Fields {
     float mass_u[kEntries];
     float v[kEntries];
     float mass_v[kEntries];
+    float pressure[kEntries];
+    float divergence[kEntries];
+    float inverse_diagonal[kEntries];
+    float density[kEntries];
+    float level[kEntries];
+    float coarse[weir::kCoarseFields][kCoarseEntries];
     weir::Vec2<float> position[kParticles];
     weir::Vec2<float> velocity[kParticles];
 };
@@ -99,6 +109,62 @@ void gather() {
     add_to_hash(g_fields.velocity);
 }
 
+weir::PressureFields<float> pressure() {
+    weir::PressureFields<float> fields;
+    fields.pressure = g_fields.pressure;
+    fields.divergence = g_fields.divergence;
+    fields.inverse_diagonal = g_fields.inverse_diagonal;
+    fields.density = g_fields.density;
+    fields.level = g_fields.level;
+    weir::CoarseGrid<float>& coarse = fields.coarse;
+    coarse.shape.stride = kCoarseColumns + 2;
+    coarse.correction = g_fields.coarse[0];
+    coarse.residual = g_fields.coarse[1];
+    coarse.inverse_diagonal = g_fields.coarse[2];
+    coarse.weight_u = coarse.reach_u = g_fields.coarse[3];
+    coarse.weight_v = coarse.reach_v = g_fields.coarse[4];
+    coarse.centre_x = g_fields.coarse[5];
+    coarse.centre_y = g_fields.coarse[6];
+    return fields;
+}
+
+/// In tanks of all sizes that fit, two thirds full.
+void project() {
+    weir::StaggeredGrid<float> to = grid();
+    weir::PressureFields<float> fields = pressure();
+    to.shape.nx = 1 + static_cast<std::int32_t>(g_numbers.word() % kColumns);
+    to.shape.ny = 1 + static_cast<std::int32_t>(g_numbers.word() % kRows);
+    fields.coarse.shape.nx = weir::coarse_cells(to.shape.nx);
+    fields.coarse.shape.ny = weir::coarse_cells(to.shape.ny);
+    for (std::int32_t k = 0; k < kEntries; ++k) {
+        g_fields.u[k] = number(50.0F);
+        g_fields.v[k] = number(50.0F);
+        g_fields.mass_u[k] = number(10.0F);
+        g_fields.mass_v[k] = number(10.0F);
+        g_fields.pressure[k] = number(5.0F);
+        g_fields.density[k] = 1.0F + number(0.5F);
+        g_fields.level[k] = -1.55F;
+    }
+    for (std::int32_t j = 0; j < to.shape.ny; ++j) {
+        for (std::int32_t i = 0; i < to.shape.nx; ++i) {
+            const bool wet = g_numbers.word() % 3U != 0;
+            g_fields.level[to.shape.index(i, j)] = (wet ? 0.8F : -0.8F) + number(0.7F);
+        }
+    }
+    fields.last_dt = 0.01F;
+    fields.cell_weight = 0.1F;
+    weir::projection_in_open<float>({}, {}, 0.01F, 1 + static_cast<std::int32_t>(
+                                    g_numbers.word() % 4U), to, fields, {});
+    for (std::int32_t j = 0; j < to.shape.ny; ++j) {
+        for (std::int32_t i = 0; i < to.shape.nx; ++i) {
+            const std::int32_t c = to.shape.index(i, j);
+            g_hash.add(g_fields.pressure[c]);
+            g_hash.add(g_fields.u[c]);
+            g_hash.add(g_fields.v[c]);
+        }
+    }
+}
+
 void tell(const char* what) { port::print(what, " ", port::hex(g_hash.value()), "\n"); }
 
 }  // namespace
@@ -113,5 +179,9 @@ int main() {
         gather();
     }
     tell("gather");
+    for (std::int32_t round = 0; round < kRounds; ++round) {
+        project();
+    }
+    tell("project");
     port::exit(0);
 }
