@@ -157,6 +157,8 @@ std::int32_t quotient(std::int32_t a, std::int32_t b, int shift) {
     return negative ? -limited : limited;
 }
 
+#if defined(__ARM_ARCH_6M__)
+// Bit by bit: no division on this processor.
 Root root_below(std::uint32_t value) {
     std::uint32_t root = 0;
     for (std::uint32_t bit = 1U << 30U; bit != 0; bit >>= 2U) {
@@ -169,6 +171,20 @@ Root root_below(std::uint32_t value) {
     }
     return {root, value};
 }
+#else
+// By Newton's steps from the tangent at the largest number, which lies above: so does each of
+// them, rounded down, until the last one is it or one more.
+Root root_below(std::uint32_t value) {
+    const auto zeros = static_cast<unsigned>(__builtin_clz(value | 1U)) & ~1U;
+    const std::uint32_t scaled = value << zeros;
+    std::uint32_t root = (scaled >> 17U) + (1U << 15U);
+    for (std::int32_t step = 0; step < 4; ++step) {
+        root = (root + scaled / root) >> 1U;
+    }
+    root = (root - (root * root > scaled ? 1U : 0U)) >> zeros / 2U;
+    return {root, value - root * root};
+}
+#endif
 
 // The root of the upper half is half of the bits, a division by it gives the others, or one too
 // many (Zimmermann, Karatsuba Square Root, INRIA 1999).

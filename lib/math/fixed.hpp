@@ -18,6 +18,15 @@ inline constexpr std::int32_t kLeastRaw = -0x7FFFFFFF - 1;
 
 namespace fixed {
 
+#if defined(__ARM_FEATURE_DSP)
+/// In one instruction.
+[[gnu::always_inline]] inline std::int32_t add(std::int32_t a, std::int32_t b) {
+    return __builtin_arm_qadd(a, b);
+}
+[[gnu::always_inline]] inline std::int32_t subtract(std::int32_t a, std::int32_t b) {
+    return __builtin_arm_qsub(a, b);
+}
+#else
 inline std::int32_t add(std::int32_t a, std::int32_t b) {
     std::int32_t sum = 0;
     return __builtin_add_overflow(a, b, &sum) ? (a < 0 ? kLeastRaw : kMostRaw) : sum;
@@ -27,6 +36,7 @@ inline std::int32_t subtract(std::int32_t a, std::int32_t b) {
     return __builtin_sub_overflow(a, b, &difference) ? (a < 0 ? kLeastRaw : kMostRaw)
                                                      : difference;
 }
+#endif
 constexpr std::int32_t saturate(std::int64_t value) {
     const auto low = static_cast<std::int32_t>(value);
     if (static_cast<std::int64_t>(low) == value) {
@@ -67,7 +77,7 @@ constexpr std::int64_t wide_product(std::int32_t a, std::int32_t b) {
 /// a · 2^shift / b.
 std::int32_t quotient(std::int32_t a, std::int32_t b, int shift);
 
-/// Root rounded down, bit by bit, and what its square leaves.
+/// Root rounded down, and what its square leaves.
 struct Root {
     std::uint32_t root;
     std::uint32_t rest;

@@ -64,6 +64,17 @@ TEST(FixedPoint, MirroredNumbersGiveMirroredResults) {
     }
 }
 
+TEST(FixedPoint, RootsAreRoundedDown) {
+    for (std::uint32_t root = 0; root <= 0xFFFFU; ++root) {
+        const std::uint32_t most = root * root + 2U * root;
+        for (const std::uint32_t value : {root * root, root * root + root, most}) {
+            const fixed::Root found = fixed::root_below(value);
+            ASSERT_EQ(found.root, root) << value;
+            ASSERT_EQ(found.rest, value - root * root) << value;
+        }
+    }
+}
+
 TEST(FixedPoint, RootsAreTheNearest) {
     std::mt19937 random(9);
     for (int k = 0; k < 200'000; ++k) {
