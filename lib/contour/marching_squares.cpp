@@ -67,6 +67,22 @@ const CaseLines& lines_of(std::uint8_t solid_nodes, bool joined) {
     return joined && solid_nodes == 10 ? kJoined10 : kCases[solid_nodes];
 }
 
+/// Of two numbers above 0 one over the other, which is no smaller. Those of packed worlds are
+/// 256ths: one division of 32 bits.
+template <class Real>
+Real share_of(Real part, Real whole) {
+    return part / whole;
+}
+template <>
+inline SmallFixed share_of(SmallFixed part, SmallFixed whole) {
+    if (((part.raw | whole.raw) & ~0xFFFF00) != 0) {
+        return part / whole;
+    }
+    const auto divisor = static_cast<std::uint32_t>(whole.raw >> 8);
+    const auto size = (static_cast<std::uint32_t>(part.raw) << 8U) + divisor / 2U;
+    return SmallFixed::of_raw(static_cast<std::int32_t>(size / divisor));
+}
+
 /// Where the contour crosses an edge whose nodes are on different sides: one distance is positive
 /// and the other is not, so the divisor is never 0 and the quotient never beyond 0 … 1.
 template <class Real>
@@ -141,23 +157,28 @@ ContourLine<Real> contour_line(const Real distance[4], Crossing crossing) {
             unit(out_of_line(distance, crossing, from))};
 }
 
+/// Open part of an edge of a cell.
+template <class Real>
+Real open_part(const Real distance[4], Edge edge) {
+    return open_fraction(distance[kEdgeNodes[edge].low], distance[kEdgeNodes[edge].high]);
+}
+
 /// Open area where every line cuts off a corner: triangles of solid off a full cell, or, with
 /// three solid nodes or joined solids, triangles of liquid alone.
 template <class Real>
-Real corner_area(const Real open[4], std::uint32_t solid_nodes, bool joined) {
+Real corner_area(const Real distance[4], std::uint32_t solid_nodes) {
     const bool saddle = solid_nodes == 5 || solid_nodes == 10;
     const bool one_solid = (solid_nodes & (solid_nodes - 1U)) == 0;
-    const bool open_corners = saddle ? joined : !one_solid;
+    const bool open_corners = saddle ? solids_joined(distance) : !one_solid;
     Real area = open_corners ? Real(0) : Real(1);
     for (std::uint32_t node = 0; node < 4; ++node) {
-        const bool solid = ((solid_nodes >> node) & 1U) != 0;
-        const Real across = open[kNodeEdges[node].horizontal];
-        const Real up = open[kNodeEdges[node].vertical];
-        if (open_corners && !solid) {
-            area = area + Real(0.5) * (across * up);
-        } else if (!open_corners && solid) {
-            area = area - Real(0.5) * ((Real(1) - across) * (Real(1) - up));
+        if ((((solid_nodes >> node) & 1U) != 0) == open_corners) {
+            continue;
         }
+        const Real across = open_part(distance, kNodeEdges[node].horizontal);
+        const Real up = open_part(distance, kNodeEdges[node].vertical);
+        area = open_corners ? area + Real(0.5) * (across * up)
+                            : area - Real(0.5) * ((Real(1) - across) * (Real(1) - up));
     }
     return area;
 }
@@ -239,10 +260,11 @@ Vec2<Real> about_centre(Vec2<Real> p) {
 
 template <class Real>
 std::uint8_t contour_case(const Real distance[4]) {
-    const auto bit = [&](std::uint32_t node) {
-        return (distance[node] <= Real(0) ? 1U : 0U) << node;
-    };
-    return static_cast<std::uint8_t>((bit(0) | bit(1)) | (bit(2) | bit(3)));
+    std::uint32_t solid_nodes = 0;
+    for (std::uint32_t node = 0; node < 4; ++node) {
+        solid_nodes |= (distance[node] <= Real(0) ? 1U : 0U) << node;
+    }
+    return static_cast<std::uint8_t>(solid_nodes);
 }
 
 template <class Real>
@@ -289,26 +311,23 @@ Real open_fraction(Real distance_0, Real distance_1) {
     }
     const Real outside = solid_0 ? distance_1 : distance_0;
     const Real inside = solid_0 ? distance_0 : distance_1;
-    return outside / (outside - inside);
+    return share_of(outside, outside - inside);
 }
 
 template <class Real>
 Real open_area(const Real distance[4]) {
-    Real open[4];
-    for (std::int32_t edge = 0; edge < 4; ++edge) {
-        const EdgeNodes nodes = kEdgeNodes[edge];
-        open[edge] = open_fraction(distance[nodes.low], distance[nodes.high]);
-    }
-    const Real half = Real(0.5);
+    const auto half_of = [&](Edge one, Edge other) {
+        return Real(0.5) * (open_part(distance, one) + open_part(distance, other));
+    };
     const std::uint8_t solid_nodes = contour_case(distance);
     switch (solid_nodes) {
         case 0: return Real(1);
         case 15: return Real(0);
         case 3:
-        case 12: return half * (open[kLeft] + open[kRight]);
+        case 12: return half_of(kLeft, kRight);
         case 6:
-        case 9: return half * (open[kBottom] + open[kTop]);
-        default: return corner_area(open, solid_nodes, solids_joined(distance));
+        case 9: return half_of(kBottom, kTop);
+        default: return corner_area(distance, solid_nodes);
     }
 }
 

@@ -6,10 +6,36 @@ namespace weir {
 
 namespace {
 
-/// The cells around a box of nodes, and `more` beyond them.
-NodeBox cells_around(const GridShape& shape, const NodeBox& nodes, std::int32_t more) {
-    return {maximum(0, nodes.i0 - 1 - more), maximum(0, nodes.j0 - 1 - more),
-            minimum(shape.nx - 1, nodes.i1 + more), minimum(shape.ny - 1, nodes.j1 + more)};
+NodeBox within(const GridShape& shape, const NodeBox& cells) {
+    return common(cells, {0, 0, shape.nx - 1, shape.ny - 1});
+}
+NodeBox cells_around(const GridShape& shape, const NodeBox& nodes) {
+    return within(shape, {nodes.i0 - 1, nodes.j0 - 1, nodes.i1, nodes.j1});
+}
+NodeBox with_those_beside(const GridShape& shape, const NodeBox& cells) {
+    return within(shape, {cells.i0 - 1, cells.j0 - 1, cells.i1 + 1, cells.j1 + 1});
+}
+
+/// Of some cells a box of those that have a node in a solid, or had one when they were last looked
+/// at. Nothing depends on how far the nodes of others are from it.
+template <class Real>
+NodeBox touched_cells(const GridShape& s, const NodeBox& cells, const Walls<Real>& walls) {
+    NodeBox found{cells.i1 + 1, cells.j1 + 1, cells.i0 - 1, cells.j0 - 1};
+    const auto add = [&](std::int32_t i, std::int32_t j, std::int32_t more) {
+        found = {minimum(found.i0, i - more), minimum(found.j0, j - more), maximum(found.i1, i),
+                 maximum(found.j1, j)};
+    };
+    for (std::int32_t j = cells.j0; j <= cells.j1 + 1; ++j) {
+        std::int32_t c = s.index(cells.i0, j);
+        for (std::int32_t i = cells.i0; i <= cells.i1 + 1; ++i, ++c) {
+            if (!is_positive(Real(walls.distance[c]))) {
+                add(i, j, 1);
+            } else if (walls.cell_case[c] != kOpen) {
+                add(i, j, 0);
+            }
+        }
+    }
+    return common(found, cells);
 }
 
 /// Cases of the cells whose nodes changed, and the faces around them.
@@ -115,33 +141,26 @@ void close_slivers(const GridShape& s, const NodeBox& cells, const VelocityOf<Re
     }
 }
 
-/// The kernel with which particles reach a cell's density, over the whole of a cell by another.
-template <class Real>
-constexpr Real kOwnShare = Real(0.375);
-template <class Real>
-constexpr Real kSideShare = Real(0.125);
-
-/// The same over the open areas of the nine cells around one. At the tank's walls the cells are
-/// mirrored, as masses are.
+/// The kernel with which particles reach a cell's density over the open areas of the nine cells
+/// around one, in packed worlds: so many 32nds of areas that are known to 1/128, exactly. At the
+/// tank's walls the cells are mirrored, as masses are.
 template <class Real>
 Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const VelocityOf<Real>* area) {
-    const std::int32_t left = maximum(0, i - 1);
-    const std::int32_t right = minimum(s.nx - 1, i + 1);
-    const std::int32_t low = maximum(0, j - 1);
-    const std::int32_t high = minimum(s.ny - 1, j + 1);
-    const auto at = [&](std::int32_t column, std::int32_t row) -> Real {
-        return area[s.index(column, row)];
-    };
-    const Real sides = (at(left, j) + at(right, j)) + (at(i, low) + at(i, high));
-    const Real corners = (at(left, low) + at(right, low)) + (at(left, high) + at(right, high));
-    return kOwnShare<Real> * at(i, j) + (kSideShare<Real> * sides + kCornerShare<Real> * corners);
+    const VelocityOf<Real>* own = area + s.index(i, j);
+    const VelocityOf<Real>* low = own - (j > 0 ? s.stride : 0);
+    const VelocityOf<Real>* high = own + (j + 1 < s.ny ? s.stride : 0);
+    const std::int32_t left = i > 0 ? -1 : 0;
+    const std::int32_t right = i + 1 < s.nx ? 1 : 0;
+    const std::int32_t sides = (own[left].raw + own[right].raw) + (low[0].raw + high[0].raw);
+    const std::int32_t corners = (low[left].raw + low[right].raw) +
+                                 (high[left].raw + high[right].raw);
+    return Real::of_raw(16 * (12 * own[0].raw + 4 * sides + corners));
 }
 
 /// Cut cells in and around some cells add theirs to them.
 template <class Real>
 void add_cut_cells(const GridShape& s, const NodeBox& cells, Walls<Real>& walls) {
-    const NodeBox around{maximum(0, cells.i0 - 1), maximum(0, cells.j0 - 1),
-                         minimum(s.nx - 1, cells.i1 + 1), minimum(s.ny - 1, cells.j1 + 1)};
+    const NodeBox around = with_those_beside(s, cells);
 #if WEIR_HAS_LANES
     if constexpr (kHasLanes<Real>) {
         add_cut_groups(s, cells, around, walls);
@@ -173,18 +192,19 @@ Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t
         const std::int32_t sides = (left.own + right.own) + middle.ends;
         return kCornerShare<Real> *
                static_cast<Real>(12 * middle.own + 4 * sides + (left.ends + right.ends));
+    } else {
+        return kernel_over<Real>(s, i, j, area);
     }
-    return kernel_over<Real>(s, i, j, area);
 }
 
 /// Whether the mirror writes the face between two nodes: it is closed and not too deep, or the
 /// liquid may stick near it.
 template <class Real>
 bool is_mirrored(const Walls<Real>& walls, Real open, std::int32_t a, std::int32_t b) {
-    const Real distance = Real(0.5) * (Real(walls.distance[a]) + Real(walls.distance[b]));
-    return open > Real(0) ? walls.any_sticking && distance < kBoundLayer<Real> &&
-                                sticking_body(walls, a, b) != kNoBody
-                          : !(distance < kDeepestMirror<Real>);
+    const Real twice = Real(walls.distance[a]) + Real(walls.distance[b]);
+    return is_positive(open) ? walls.any_sticking && twice < Real(2) * kBoundLayer<Real> &&
+                                   sticking_body(walls, a, b) != kNoBody
+                             : !(twice < Real(2) * kDeepestMirror<Real>);
 }
 
 /// What is around cells i0 … i1 of a row.
@@ -245,14 +265,22 @@ void look_around(const GridShape& s, const NodeBox& cells, const VelocityOf<Real
 template <class Real>
 void update_cut_cells(const GridShape& shape, const NodeBox& nodes, const Rim& rim, bool thin,
                       VelocityOf<Real>* scratch, Walls<Real>& walls) {
-    // Changed nodes reach the faces around them, the slivers beside those, and by the density
+    // Thin walls and those that liquid sticks to are felt further away; lanes are done sooner with
+    // all cells than with looking at them.
+    const bool all = kHasLanes<Real> || thin || walls.any_sticking;
+    const NodeBox around = cells_around(shape, nodes);
+    const NodeBox cells = all ? around : touched_cells(shape, around, walls);
+    if (cells.empty()) {
+        return;
+    }
+    // Changed cells reach the faces around them, the slivers beside those, and by the density
     // kernel one cell more, for which areas are wanted one further still.
-    const NodeBox inner = cells_around(shape, nodes, 1);
-    contour_matrix(shape, cells_around(shape, nodes, 0), walls);
+    const NodeBox inner = with_those_beside(shape, cells);
+    contour_matrix(shape, cells, walls);
     if constexpr (kExactShares<Real>) {
         close_lone_slivers(shape, inner, walls);
     } else {
-        open_areas(shape, cells_around(shape, nodes, 2), walls, scratch);
+        open_areas(shape, with_those_beside(shape, inner), walls, scratch);
         close_slivers(shape, inner, scratch, walls);
     }
     const NodeBox asked{maximum(inner.i0, rim.left), maximum(inner.j0, rim.below), inner.i1,

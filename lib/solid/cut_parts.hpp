@@ -72,15 +72,23 @@ struct Hats {
 
 template <class Real>
 Shares<Real> kernel_shares(const Hats<Real>& hats) {
-    const auto wide = [](Real t, Real moment, std::int32_t k) {
-        return k == 1 ? t : Real(0.5) * t + (k == 0 ? -moment : moment);
+    const auto wide = [](Real t, Real moment) {
+        const Real half = Real(0.5) * t;
+        return Vec2<Real>{half - moment, half + moment};
     };
     Shares<Real> shares;
+    Vec2<Real> up[3];
+    for (std::int32_t column = 0; column < 3; ++column) {
+        up[column] = wide(hats.tx[column], hats.y_tx[column]);
+    }
     for (std::int32_t row = 0; row < 3; ++row) {
-        for (std::int32_t column = 0; column < 3; ++column) {
-            shares.of[row][column] = Real(0.25) * (wide(hats.ty[row], hats.x_ty[row], column) +
-                                                   wide(hats.tx[column], hats.y_tx[column], row));
-        }
+        const Vec2<Real> across = wide(hats.ty[row], hats.x_ty[row]);
+        const auto up_of = [&](std::int32_t column) {
+            return row == 1 ? hats.tx[column] : row == 0 ? up[column].x : up[column].y;
+        };
+        shares.of[row][0] = Real(0.25) * (across.x + up_of(0));
+        shares.of[row][1] = Real(0.25) * (hats.ty[row] + up_of(1));
+        shares.of[row][2] = Real(0.25) * (across.y + up_of(2));
     }
     return shares;
 }
@@ -89,13 +97,25 @@ Shares<Real> kernel_shares(const Hats<Real>& hats) {
 template <class Real>
 void add_within(const GridShape& s, const NodeBox& cells, std::int32_t i, std::int32_t j,
                 const Shares<Real>& shares, Walls<Real>& walls) {
+    const auto within = [](std::int32_t at, std::int32_t first, std::int32_t last) {
+        return first <= at && at <= last;
+    };
+    std::int32_t column[3];
+    std::int32_t first = 0;
+    std::int32_t end = 0;
+    for (std::int32_t x = 0; x < 3; ++x) {
+        column[x] = clamp(i + x - 1, 0, s.nx - 1);
+        if (within(column[x], cells.i0, cells.i1)) {
+            first = end == 0 ? x : first;
+            end = x + 1;
+        }
+    }
     for (std::int32_t y = 0; y < 3; ++y) {
         const std::int32_t row = clamp(j + y - 1, 0, s.ny - 1);
-        for (std::int32_t x = 0; row >= cells.j0 && row <= cells.j1 && x < 3; ++x) {
-            const std::int32_t column = clamp(i + x - 1, 0, s.nx - 1);
-            if (column >= cells.i0 && column <= cells.i1) {
-                ShareOf<Real>& full = walls.full_density[s.index(column, row)];
-                full = Real(full) + shares.of[y][x];
+        if (within(row, cells.j0, cells.j1)) {
+            ShareOf<Real>* full = walls.full_density + s.index(0, row);
+            for (std::int32_t x = first; x < end; ++x) {
+                full[column[x]] = Real(full[column[x]]) + shares.of[y][x];
             }
         }
     }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "fewer_lanes.hpp"
+#include "solid/cut_cells.hpp"
 #include "solid/cut_cells_groups.hpp"
 #include "test_world.hpp"
 #include "world/world_state.hpp"
@@ -119,6 +121,107 @@ TEST(CutCells, LiquidOnAThinFloorIsNoDenserThanAbove) {
         EXPECT_LT(worst_row_on_floor(off, 6.5F), 0.06) << off;
         EXPECT_LT(worst_row_on_floor(off, 6.7F), 0.09) << off;
     }
+}
+
+/// The contour of a small tank: two that are to be the same.
+template <class Real>
+struct Picture {
+    GridShape shape{21, 13, 23};
+    std::vector<DistanceOf<Real>> distance = field<DistanceOf<Real>>(Real(1.5));
+    std::vector<std::uint8_t> cell_case = field<std::uint8_t>(std::uint8_t{0});
+    std::vector<ShareOf<Real>> open_u = field<ShareOf<Real>>(Real(1));
+    std::vector<ShareOf<Real>> open_v = open_u;
+    std::vector<ShareOf<Real>> full = open_u;
+    std::vector<VelocityOf<Real>> scratch = field<VelocityOf<Real>>(Real(0));
+    std::vector<std::uint32_t> near = std::vector<std::uint32_t>(13, 0);
+
+    template <class Number, class Value>
+    std::vector<Number> field(Value value) const {
+        Number number{};
+        number = value;
+        return std::vector<Number>(static_cast<std::size_t>(shape.size()) + 16, number);
+    }
+    void update(const NodeBox& nodes) {
+        Walls<Real> walls;
+        walls.distance = distance.data();
+        walls.cell_case = cell_case.data();
+        walls.open_u = open_u.data();
+        walls.open_v = open_v.data();
+        walls.full_density = full.data();
+        walls.near = near.data();
+        update_cut_cells(shape, nodes, {}, false, scratch.data(), walls);
+    }
+};
+
+template <class Real>
+class CutCellsOf : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
+TYPED_TEST_SUITE(CutCellsOf, Scalars, );
+
+/// Blots come and go. All cells are looked at if all seem to have been solid.
+TYPED_TEST(CutCellsOf, WhatIsTouchedAloneIsUpdated) {
+    using Real = TypeParam;
+    Picture<Real> step_by_step;
+    Picture<Real> anew;
+    const GridShape& s = step_by_step.shape;
+    std::mt19937 random(5);
+    const auto dice = [&](std::int32_t most) {
+        return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(most + 1));
+    };
+    for (int trial = 0; trial < 600; ++trial) {
+        const NodeBox box{dice(s.nx), dice(s.ny), dice(s.nx), dice(s.ny)};
+        const bool wiped = random() % 2 == 0;
+        const double x = dice(s.nx) + 0.01 * dice(99);
+        const double y = dice(s.ny) + 0.01 * dice(99);
+        const double radius = 0.03 * dice(99);
+        for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+            for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+                const double distance = std::hypot(i - x, j - y) - radius;
+                const Real now = Real(wiped ? 1.5 : std::clamp(distance, -1.5, 1.5));
+                const auto c = static_cast<std::size_t>(s.index(i, j));
+                if (wiped || now < Real(step_by_step.distance[c])) {
+                    step_by_step.distance[c] = now;
+                    anew.distance[c] = now;
+                }
+            }
+        }
+        step_by_step.update(box);
+        std::fill(anew.cell_case.begin(), anew.cell_case.end(), kSolid);
+        anew.update({0, 0, s.nx, s.ny});
+        ASSERT_EQ(step_by_step.near, anew.near) << trial;
+        for (std::int32_t j = 0; j <= s.ny; ++j) {
+            for (std::int32_t i = 0; i <= s.nx; ++i) {
+                const auto c = static_cast<std::size_t>(s.index(i, j));
+                const auto same = [&](const std::vector<ShareOf<Real>>& a,
+                                      const std::vector<ShareOf<Real>>& b) {
+                    return Real(a[c]) == Real(b[c]);
+                };
+                const bool in_row = i < s.nx;
+                const bool in_column = j < s.ny;
+                ASSERT_TRUE(!in_column || same(step_by_step.open_u, anew.open_u)) << trial;
+                ASSERT_TRUE(!in_row || same(step_by_step.open_v, anew.open_v)) << trial;
+                ASSERT_TRUE(!in_row || !in_column ||
+                            (same(step_by_step.full, anew.full) &&
+                             step_by_step.cell_case[c] == anew.cell_case[c]))
+                    << trial << ' ' << i << ' ' << j;
+            }
+        }
+    }
+}
+
+/// Distances of packed worlds are divided in 32 bits.
+TEST(CutCells, PackedSharesAreThoseOfRoomyNumbers) {
+    for (std::int32_t outside = 1; outside <= 0x180; ++outside) {
+        for (std::int32_t inside = 0; inside >= -0x180; --inside) {
+            const Fixed out = Fixed::of_raw(256 * outside);
+            const Fixed in = Fixed::of_raw(256 * inside);
+            ASSERT_EQ(open_fraction(SmallFixed::of_raw(out.raw), SmallFixed::of_raw(in.raw)).raw,
+                      open_fraction(out, in).raw)
+                << outside << ' ' << inside;
+        }
+    }
+    const SmallFixed most = SmallFixed::most();
+    EXPECT_EQ(open_fraction(SmallFixed(), most).raw, open_fraction(Fixed(), Fixed::most()).raw);
 }
 
 #if WEIR_HAS_LANES
