@@ -133,16 +133,17 @@ inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, cons
         const std::uint32_t* row = walls.near + (shape.j0 + j) * words + shape.i0 / 32;
         for (std::int32_t k = 0; 32 * k < shape.nx; ++k) {
             std::uint32_t left = row[k];
-            if constexpr (kHasLanes<Real>) {  // those count zeros in one instruction
-                for (; left != 0; left &= left - 1U) {
-                    visit(32 * k + __builtin_ctz(left), j);
-                }
-            }
+#if defined(__ARM_ARCH_6M__)  // others count zeros in an instruction or two
             for (std::int32_t i = 32 * k; left != 0; left >>= 1U, ++i) {
                 if ((left & 1U) != 0) {
                     visit(i, j);
                 }
             }
+#else
+            for (; left != 0; left &= left - 1U) {
+                visit(32 * k + __builtin_ctz(left), j);
+            }
+#endif
         }
     }
 }

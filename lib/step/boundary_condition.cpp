@@ -35,16 +35,19 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& fiel
                              std::int32_t j) {
     const std::int32_t face = axis.s.index(i, j);
     const VelocityOf<Real> own = (axis.is_u ? field.velocity.u : field.velocity.v)[face];
+    if (!wants_image(axis, field.fields, face)) {
+        return own;
+    }
     if constexpr (Stored<Real>::coarse) {
         packed::Mirror mirror;
-        if (!packed::is_image(axis, field.fields, i, j, mirror)) {
+        if (!packed::find_mirror(axis, field.fields, i, j, mirror)) {
             return own;
         }
         return field.was ? packed::MirrorTask{axis, field.velocity}.speed_before(mirror, face)
                          : packed::MirrorTask{axis, field.velocity}.speed_now(mirror, face);
     } else {
         Mirror<Real> mirror;
-        return is_image(axis, field.fields, i, j, mirror)
+        return find_mirror(axis, field.fields, i, j, mirror)
                    ? axis.of(field.was ? before(field.velocity, mirror)
                                        : mirrored(field.velocity, mirror))
                    : own;
@@ -122,8 +125,13 @@ struct BothMirrors {
     BothFields<Real> v;
 
     void face(BothFields<Real>& of, std::int32_t i, std::int32_t j) {
+        if (wants_image(of.axis, fields, of.axis.s.index(i, j))) {
+            mirror(of, i, j);
+        }
+    }
+    [[gnu::noinline]] void mirror(BothFields<Real>& of, std::int32_t i, std::int32_t j) {
         Mirror<Real> mirror;
-        if (is_image(of.axis, fields, i, j, mirror)) {
+        if (find_mirror(of.axis, fields, i, j, mirror)) {
             of.hold(i, j, of.axis.of(mirrored(now, mirror)), of.axis.of(before(was, mirror)));
         }
     }

@@ -56,17 +56,16 @@ struct Edge {
 };
 
 template <class Real>
-Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& edge,
-                       Real distance, Vec2<Real> normal) {
-    Mirror<Real> mirror{};
+void mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& edge, Real distance,
+               Vec2<Real> normal, Mirror<Real>& mirror) {
     const Vec2<Real> face = edge.centre;
     mirror.face = edge.a;
     mirror.is_u = edge.b - edge.a != 1;
     mirror.normal = normal;
     mirror.wall = walls.moving ? wall_velocity(walls, edge.a, edge.b, face) : Vec2<Real>{};
     const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
-    if (slot != kNoBody) {
-        mirror.sticks = true;
+    mirror.sticks = slot != kNoBody;
+    if (mirror.sticks) {
         const Body<Real>& body = walls.body[slot];
         const Vec2<Real> on_wall = face - distance * mirror.normal;
         mirror.wall = surface_velocity(body.surface, velocity_at(body, on_wall), mirror.normal);
@@ -75,7 +74,6 @@ Mirror<Real> mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<
     const Real reach = maximum(depth, kLeastReach<Real>);
     mirror.point = within_tank(s, face + (depth + reach) * mirror.normal);
     mirror.ratio = minimum(depth, kLeastReach<Real>);  // depth / reach: that least is 1
-    return mirror;
 }
 
 /// Whether the point's cell or one around it holds liquid.
@@ -219,31 +217,38 @@ bool from_other_side(const FaceAxis<Real>& axis, const Edge<Real>& edge, Vec2<Re
     if (distance > Real(0) || !(distance > Real(-1))) {
         return false;
     }
-    mirror = mirror_of(s, axis.walls, edge, distance, Real(-1) * normal);
+    mirror_of(s, axis.walls, edge, distance, Real(-1) * normal, mirror);
     return true;
 }
 
-/// Where a face takes its velocity from. False: it keeps its own.
+/// Whether a face is to take its velocity from elsewhere: a look at most of them.
 template <class Real>
-bool is_image(const FaceAxis<Real>& axis, const PressureFields<Real>& fields, std::int32_t i,
-              std::int32_t j, Mirror<Real>& mirror) {
-    const std::int32_t face = axis.s.index(i, j);
-    const std::int32_t other = face + axis.other_node();
-    const Real distance = axis.distance(face);
+[[gnu::always_inline]] inline bool wants_image(const FaceAxis<Real>& axis,
+                                               const PressureFields<Real>& fields,
+                                               std::int32_t face) {
     const Real open = axis.open()[face];
-    if (!is_mirrored<Real>(axis.walls, open, distance, face, other) ||
-        (!(open > Real(0)) && is_unread(axis, fields, face))) {
+    if (is_positive(open) && !axis.walls.sticking) {
         return false;
     }
-    const Edge<Real> edge{axis.centre(i, j), face, other};
+    return (is_positive(open) || !is_unread(axis, fields, face)) &&
+           is_mirrored<Real>(axis.walls, open, axis.distance(face), face,
+                             face + axis.other_node());
+}
+
+/// Where such a face takes its velocity from. False: it keeps its own.
+template <class Real>
+bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& fields, std::int32_t i,
+                 std::int32_t j, Mirror<Real>& mirror) {
+    const std::int32_t face = axis.s.index(i, j);
+    const Edge<Real> edge{axis.centre(i, j), face, face + axis.other_node()};
     const Vec2<Real> normal = axis.normal(face);
-    mirror = mirror_of(axis.s, axis.walls, edge, distance, normal);
+    mirror_of(axis.s, axis.walls, edge, axis.distance(face), normal, mirror);
     if (!near_liquid(axis.s, fields.level, mirror.point) &&
         !(from_other_side(axis, edge, normal, mirror) &&
           near_liquid(axis.s, fields.level, mirror.point))) {
         return false;
     }
-    mirror.open = open > Real(0);
+    mirror.open = axis.open()[face] > Real(0);
     mirror.at_u = stencil_u(axis.s, mirror.point);
     mirror.at_v = stencil_v(axis.s, mirror.point);
     return true;

@@ -201,33 +201,21 @@ inline std::int32_t other_side(const FaceAxis<Real>& axis, const FacePlace& from
     return outside || distance > 0 || distance <= -512 ? 1 : distance;
 }
 
-/// `weir::is_image`.
-inline bool find_mirror(const FaceAxis<Real>& axis, const LevelOf<Real>* level, std::int32_t i,
-                        std::int32_t j, Mirror& mirror) {
+/// `weir::find_mirror`.
+inline bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
+                        std::int32_t i, std::int32_t j, Mirror& mirror) {
     const std::int32_t face = axis.s.index(i, j);
-    const std::int32_t other = face + axis.other_node();
-    const std::int32_t distance = axis.walls.distance[face].raw + axis.walls.distance[other].raw;
-    const Real open = axis.open()[face];
-    if (!is_mirrored<Real>(axis.walls, open, Real::of_raw(128 * distance), face, other)) {
-        return false;
-    }
-    mirror.open = open > Real(0);
+    const std::int32_t distance =
+        axis.walls.distance[face].raw + axis.walls.distance[face + axis.other_node()].raw;
+    mirror.open = axis.open()[face].raw != 0;
     const FacePlace from(axis, i, j);
     const Whole normal = normal_at(axis, face);
-    if (mirror_of(axis, level, from, face, distance, normal, mirror)) {
+    if (mirror_of(axis, fields.level, from, face, distance, normal, mirror)) {
         return true;
     }
     const std::int32_t beyond = other_side(axis, from, normal);
     return beyond <= 0 &&
-           mirror_of(axis, level, from, face, beyond, {-normal.x, -normal.y}, mirror);
-}
-
-/// Whether a face is an image that somebody reads.
-inline bool is_image(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
-                     std::int32_t i, std::int32_t j, Mirror& mirror) {
-    const std::int32_t face = axis.s.index(i, j);
-    return (axis.open()[face].raw != 0 || !is_unread(axis, fields, face)) &&
-           find_mirror(axis, fields.level, i, j, mirror);
+           mirror_of(axis, fields.level, from, face, beyond, {-normal.x, -normal.y}, mirror);
 }
 
 /// Both fields of a packed world in one look at each face. What is computed is held one behind the
@@ -269,13 +257,13 @@ public:
 
 private:
     bool hold(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j) {
+        const std::int32_t face = axis.s.index(i, j);
         Mirror mirror;
-        if (!is_image(axis, fields_, i, j, mirror)) {
+        if (!wants_image(axis, fields_, face) || !find_mirror(axis, fields_, i, j, mirror)) {
             return false;
         }
         held_ += 2;
         if (held_ <= end_) {
-            const std::int32_t face = axis.s.index(i, j);
             held_[-2] = MirrorTask{axis, now_}.speed_now(mirror, face);
             held_[-1] = MirrorTask{axis, was_}.speed_before(mirror, face);
         }
