@@ -11,11 +11,11 @@ struct Bits {
 };
 
 template <class Whole>
-void copy_column(void* field, const Line& to, const Line& from) {
+void copy_column(void* field, const Line to, const Line from) {
     auto* const bits = static_cast<typename Bits<Whole>::Type*>(field);
     auto* at = bits + to.first;
     const auto* other = bits + from.first;
-    for (std::int32_t k = 0; k < to.count; ++k, at += to.step, other += from.step) {
+    for (std::int32_t left = to.count; left > 0; --left, at += to.step, other += from.step) {
         *at = *other;
     }
 }

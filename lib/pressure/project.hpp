@@ -33,6 +33,28 @@ template <class Real>
     velocity[face] = was - rise;
 }
 
+/// The same of faces along an axis: those before the cells from `c` to `end`, of which `back` lies
+/// before each. `open` null: no solids.
+template <class Real, class Light>
+inline void project_faces(VelocityOf<Real>* velocity, std::int32_t c, std::int32_t end,
+                          std::int32_t back, const ShareOf<Real>* open, const Light& light,
+                          const PressureFields<Real>& fields) {
+    const LevelOf<Real>* level = fields.level;
+    const Real* p = fields.pressure;
+    const auto wide = [&] {
+        return open == nullptr || bound_key(Real(open[c])) == bound_key(Real(1));
+    };
+    for (; c < end; ++c) {
+        const bool wet = is_positive<Real>(level[c]);
+        const bool wet_before = is_positive<Real>(level[c - back]);
+        if (wet && wet_before && wide()) {
+            velocity[c] -= light(c) * (p[c] - p[c - back]);
+        } else if (wet || wet_before) {
+            accelerate(velocity, c, c - back, light(c), open, fields);
+        }
+    }
+}
+
 /// The same of a row of cells and the faces before them.
 template <bool Solids, bool Mixed, class Real>
 void project_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j, Part columns,
@@ -41,34 +63,13 @@ void project_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j
     const Walls<Real>& walls = weights.walls;
     const ShareOf<Real>* open_u = Solids ? walls.open_u : nullptr;
     const ShareOf<Real>* open_v = Solids ? walls.open_v : nullptr;
-    const bool has_lower = weights.has_lower(j);
-    const LevelOf<Real>* level = fields.level + s.index(0, j);
-    const Real* p = fields.pressure + s.index(0, j);
-    VelocityOf<Real>* u = grid.u + s.index(0, j);
-    VelocityOf<Real>* v = grid.v + s.index(0, j);
-    const auto wide = [](const ShareOf<Real>* open, std::int32_t face) {
-        return !Solids || bound_key(Real(open[face])) == bound_key(Real(1));
-    };
-    bool wet_before = is_positive<Real>(level[columns.first - 1]);
-    for (std::int32_t i = columns.first; i < columns.end; ++i) {
-        const std::int32_t c = s.index(i, j);
-        const bool wet = is_positive<Real>(level[i]);
-        if (weights.has_left(i)) {
-            if (wet && wet_before && wide(open_u, c)) {
-                u[i] -= weights.light_u(c) * (p[i] - p[i - 1]);
-            } else if (wet || wet_before) {
-                accelerate(grid.u, c, c - 1, weights.light_u(c), open_u, fields);
-            }
-        }
-        wet_before = wet;
-        if (has_lower) {
-            const bool wet_below = is_positive<Real>(level[i - s.stride]);
-            if (wet && wet_below && wide(open_v, c)) {
-                v[i] -= weights.light_v(c) * (p[i] - p[i - s.stride]);
-            } else if (wet || wet_below) {
-                accelerate(grid.v, c, c - s.stride, weights.light_v(c), open_v, fields);
-            }
-        }
+    const std::int32_t first = columns.first + (weights.has_left(columns.first) ? 0 : 1);
+    const std::int32_t end = s.index(columns.end, j);
+    project_faces<Real>(grid.u, s.index(first, j), end, 1, open_u,
+                        [&](std::int32_t c) { return weights.light_u(c); }, fields);
+    if (weights.has_lower(j)) {
+        project_faces<Real>(grid.v, s.index(columns.first, j), end, s.stride, open_v,
+                            [&](std::int32_t c) { return weights.light_v(c); }, fields);
     }
 }
 

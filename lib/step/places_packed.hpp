@@ -72,6 +72,13 @@ inline std::int32_t base_of(std::uint32_t at, std::int32_t row) {
     return static_cast<std::int32_t>(at >> 24U) * row + low_byte(at >> 8U) * kSpeedBytes;
 }
 
+/// The same as a place.
+template <class Number>
+inline Number* first_face(Number* first, std::uint32_t at, std::int32_t row) {
+    Number* in_row = whole(further(first, static_cast<std::int32_t>(at >> 24U) * row));
+    return further(in_row, low_byte(at >> 8U) * kSpeedBytes);
+}
+
 /// Particles with numbers from below 0 up to 0, told by the bytes to the end of the arrays: a
 /// single register leads through both of them and says where they end.
 struct Strip {

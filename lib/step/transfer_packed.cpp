@@ -4,56 +4,13 @@
 #include "step/places_packed.hpp"
 #include "step/tank_walls.hpp"
 #include "step/transfer_m0.hpp"
+#include "step/weights_packed.hpp"
 
 namespace weir {
 
 namespace {
 
 using namespace packed;
-
-#if !defined(__ARM_ARCH_6M__)
-/// Mass of 32 particles: 8 times what a full cell's faces hold.
-constexpr std::uint32_t kFull = 0x2000;
-
-#if !defined(__ARM_FEATURE_UNALIGNED) || !defined(__ARMEL__)
-/// Of a mass, which is not negative. (Of signed numbers a Cortex-M0 loads none at a fixed place.)
-inline std::uint32_t raw_of(const Speed& mass) {
-    return reinterpret_cast<const std::uint16_t&>(mass.raw);
-}
-#endif
-
-/// Adds to the masses of four faces. False: one of them is full.
-inline bool add_masses(Speed* low, Speed* high, const Weights& w) {
-#if defined(__ARM_FEATURE_UNALIGNED) && defined(__ARMEL__)
-    // Two in a word: they are not negative, and the sums have room.
-    std::uint32_t lower = 0;
-    std::uint32_t upper = 0;
-    __builtin_memcpy(&lower, low, sizeof lower);
-    __builtin_memcpy(&upper, high, sizeof upper);
-    if (((lower | upper) & (0x10000U - kFull) * 0x10001U) != 0) {
-        return false;
-    }
-    lower += static_cast<std::uint32_t>(w.lower_left + w.lower_right * 0x10000);
-    upper += static_cast<std::uint32_t>(w.upper_left + w.upper_right * 0x10000);
-    __builtin_memcpy(static_cast<void*>(low), &lower, sizeof lower);
-    __builtin_memcpy(static_cast<void*>(high), &upper, sizeof upper);
-#else
-    // Looked at and read again: to keep four wants more registers than there are.
-    const auto add = [](Speed& mass, std::int32_t more) {
-        mass.raw = static_cast<std::int16_t>(static_cast<std::int32_t>(raw_of(mass)) + more);
-    };
-    const std::uint32_t lower = raw_of(low[0]) | raw_of(low[1]);
-    if ((lower | raw_of(high[0]) | raw_of(high[1])) >= kept(kFull)) {
-        return false;
-    }
-    add(low[0], w.lower_left);
-    add(low[1], w.lower_right);
-    add(high[0], w.upper_left);
-    add(high[1], w.upper_right);
-#endif
-    return true;
-}
-#endif
 
 /// One component of all particles to its faces, `mass` and `momentum` from the first of which.
 /// Both in one loop want more registers than there are. @return how often faces were full.
@@ -81,17 +38,15 @@ template <bool OnU>
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
         const std::uint32_t at = strip.word(k) + half;
-        Speed* m = further(mass, base_of(at, row));
-        const Weights w = weights_of(at);
+        Speed* m = first_face(mass, at, row);
+        const auto w = weights_at(at);
         if (!add_masses(m, further(m, row), w)) {
             ++refused;
             continue;
         }
         const Speed velocity = OnU ? strip.velocity(k).x : strip.velocity(k).y;
-        const std::int32_t v = velocity.raw * 4;  // 512ths
         Real* p = reinterpret_cast<Real*>(2 * reinterpret_cast<std::uintptr_t>(m) + to_momentum);
-        add_two(p, w.lower_left * v, w.lower_right * v);
-        add_two(further(p, 2 * row), w.upper_left * v, w.upper_right * v);
+        add_momenta(p, further(p, 2 * row), w, velocity.raw);
     }
 #endif
     return refused;
@@ -132,7 +87,13 @@ inline Pace pace_of(const Clock& clock) {
     return clock.scale << (24 - clock.shift);
 }
 inline std::int32_t way_of(Pace pace, std::int32_t along) {
+#if defined(__ARM_FEATURE_SIMD32)
+    std::int32_t way;
+    __asm__("smmul %0, %1, %2" : "=r"(way) : "r"((along + 128) & ~255), "r"(pace));
+    return way;
+#else
     return static_cast<std::int32_t>((std::int64_t{(along + 128) & ~255} * pace) >> 32);
+#endif
 }
 #endif
 
@@ -148,30 +109,6 @@ struct Gather {
 /// Halves of the lowest ones.
 constexpr std::uint32_t kGap = Place(kWallGap<Real>).raw;
 constexpr std::uint32_t kLowest = (kGap + 1U) / 2U * 0x10001U;
-
-/// Of a field in 128ths, 2^−15.
-inline std::int32_t weighed(const Speed* low, std::int32_t row, const Weights& w) {
-#if defined(__ARM_FEATURE_SIMD32)
-    const Speed* high = further(low, row);
-    // Two of 16 bits at a time.
-    const auto pair = [](std::int32_t left, std::int32_t right) { return left + right * 0x10000; };
-    const auto velocities = [](const Speed* at) {
-        std::int32_t two = 0;
-        __builtin_memcpy(&two, at, sizeof two);
-        return two;
-    };
-    const std::int32_t below =
-        __builtin_arm_smuad(velocities(low), pair(w.lower_left, w.lower_right));
-    return __builtin_arm_smlad(velocities(high), pair(w.upper_left, w.upper_right), below);
-#else
-    std::int32_t sum = w.lower_left * low[0].raw;
-    sum += w.lower_right * low[1].raw;
-    const Speed* high = whole(further(low, row));
-    sum += w.upper_left * high[0].raw;
-    sum += w.upper_right * high[1].raw;
-    return sum;
-#endif
-}
 
 /// Of what the velocity was a share, and what the faces give. @return its square.
 inline std::int32_t change(std::int16_t& own, std::int32_t flip, std::int32_t gained) {
@@ -267,6 +204,7 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
     const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
     const Speed* first = whole(gather.grid.u + 1);
     const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.u, gather.grid.mass_u));
+    const std::ptrdiff_t to_upper = whole(to_gained + row);
     const Pace pace = gather.pace;
     const std::int32_t flip = gather.flip;
     const std::uint32_t half = kept(kHalf<true>);
@@ -275,11 +213,13 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
         const std::uint32_t at = strip.word(k) + half;
-        const Weights w = weights_of(at);
-        const Speed* along = further(first, base_of(at, row));
-        put_word(way + k, static_cast<std::uint32_t>(moves(pace, weighed(along, row, w))));
+        const auto w = weights_at(at);
+        const Speed* along = first_face(first, at, row);
+        const std::int32_t carried = weighed(along, further(along, row), w);
+        put_word(way + k, static_cast<std::uint32_t>(moves(pace, carried)));
+        const Speed* gained = further(along, to_gained);
         fastest = maximum(fastest, change(strip.velocity(k).x.raw, flip,
-                                          weighed(further(along, to_gained), row, w)));
+                                          weighed(gained, further(along, to_upper), w)));
     }
     return fastest;
 #endif
@@ -314,19 +254,22 @@ template <bool Keeps>
 #else
     const Speed* first = whole(further(gather.grid.v, row));
     const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.v, gather.grid.mass_v));
+    const std::ptrdiff_t to_upper = whole(to_gained + row);
     const Pace pace = gather.pace;
     const std::int32_t flip = gather.flip;
+    const std::uint32_t high = gather.high;
     const Strip strip(particles);
     char* way = whole(static_cast<char*>(ways) + particles.count * Strip::kStep);
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
         const std::uint32_t from = strip.word(k);
         const std::uint32_t at = from + kHalf<false>;
-        const Weights w = weights_of(at);
-        const Speed* along = further(first, base_of(at, row));
-        const std::int32_t way_y = moves(pace, weighed(along, row, w));
+        const auto w = weights_at(at);
+        const Speed* along = first_face(first, at, row);
+        const std::int32_t way_y = moves(pace, weighed(along, further(along, row), w));
+        const Speed* gained = further(along, to_gained);
         fastest = maximum(fastest, change(strip.velocity(k).y.raw, flip,
-                                          weighed(further(along, to_gained), row, w)));
+                                          weighed(gained, further(along, to_upper), w)));
         // Both axes in a word. Halves leave a bit that tells which of them is out of its bounds.
         const std::uint32_t way_x = word_at(way + k);
         if (Keeps) {
@@ -335,7 +278,7 @@ template <bool Keeps>
         const std::uint32_t both = way_x + static_cast<std::uint32_t>(way_y) * 0x10000U;
         const std::uint32_t to = from + both;
         const std::uint32_t half = (to >> 1U) & kHalves;
-        const std::uint32_t out = (half - kLowest) | (gather.high - half);
+        const std::uint32_t out = (half - kLowest) | (high - half);
         if (((both + kOneCell) & kFarBits) == 0 && (out & ~kHalves) == 0) {
             put_word(strip.places + k, to);
         } else {

@@ -61,12 +61,24 @@ void* memset(void* to, int value, std::size_t bytes) {
   if (aligned(out, out)) {
     const Word pattern = byte * Word{0x01010101u};
     auto* out_word = reinterpret_cast<AliasWord*>(out);
-    for (; bytes >= 4 * sizeof(Word); bytes -= 4 * sizeof(Word), out_word += 4) {
-      out_word[0] = pattern;
-      out_word[1] = pattern;
-      out_word[2] = pattern;
-      out_word[3] = pattern;
-    }
+    // One store for four words, which compilers do not make of words that are alike.
+    register Word a __asm__("r3") = pattern;
+    register Word b __asm__("r4") = pattern;
+    register Word c __asm__("r5") = pattern;
+    register Word d __asm__("r6") = pattern;
+    __asm__ volatile(
+        ".syntax unified\n\t"
+        "b 1f\n"
+        "0:\n\t"
+        "stmia %[out]!, {%[a], %[b], %[c], %[d]}\n"
+        "1:\n\t"
+        "subs %[bytes], %[bytes], #16\n\t"
+        "bhs 0b\n\t"
+        "adds %[bytes], %[bytes], #16\n\t"
+        : [out] "+l"(out_word), [bytes] "+l"(bytes), [a] "+l"(a), [b] "+l"(b), [c] "+l"(c),
+          [d] "+l"(d)
+        :
+        : "cc", "memory");
     for (; bytes >= sizeof(Word); bytes -= sizeof(Word)) *out_word++ = pattern;
     out = reinterpret_cast<unsigned char*>(out_word);
   }
