@@ -53,8 +53,10 @@ constexpr std::int64_t shifted(std::int64_t value, int shift) {
 /// No product of 64 bits on this processor: out of four of 32, and not inlined.
 std::int32_t multiply(std::int32_t a, std::int32_t b, int shift);
 #else
+/// The sign is known before the product is, to which a processor can add it.
 inline std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
-    return saturate(shifted(static_cast<std::int64_t>(a) * b, shift));
+    const std::int32_t half = (1 << (shift - 1)) + ((a ^ b) >> 31);
+    return saturate((static_cast<std::int64_t>(a) * b + half) >> shift);
 }
 #endif
 inline std::uint32_t magnitude(std::int32_t a) {
