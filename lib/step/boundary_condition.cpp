@@ -43,8 +43,10 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& fiel
         if (!packed::find_mirror(axis, field.fields, i, j, mirror)) {
             return own;
         }
-        return field.was ? packed::MirrorTask{axis, field.velocity}.speed_before(mirror, face)
-                         : packed::MirrorTask{axis, field.velocity}.speed_now(mirror, face);
+        const packed::MirrorFaces faces(mirror, axis.s.stride);
+        const packed::MirrorTask task{axis, field.velocity};
+        return field.was ? task.speed_before(mirror, faces, face)
+                         : task.speed_now(mirror, faces, face);
     } else {
         Mirror<Real> mirror;
         return find_mirror(axis, field.fields, i, j, mirror)

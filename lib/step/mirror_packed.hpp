@@ -29,6 +29,35 @@ inline Whole relative_to(Whole wall, Whole v) {
     return {saturated<17>(v.x - wall.x), saturated<17>(v.y - wall.y)};
 }
 
+/// Faces of a component around a place, and their weights.
+struct StencilAt {
+    std::int32_t first;  ///< the lower left one, in bytes
+    Weights w;
+
+    std::int32_t of(const Speed* field, std::int32_t stride) const {
+        const Speed* low = further(field, first);
+        const Speed* high = low + stride;
+        return rounded_shift((w.lower_left * low[0].raw + w.lower_right * low[1].raw) +
+                             (w.upper_left * high[0].raw + w.upper_right * high[1].raw), 7);
+    }
+};
+template <bool OnU>
+inline StencilAt stencil_at(std::uint32_t place, std::int32_t stride) {
+    const std::uint32_t from = place + kHalf<OnU>;
+    return {base_of(from, stride * kSpeedBytes) + (OnU ? 1 : stride) * kSpeedBytes,
+            weights_of(from)};
+}
+
+/// Faces around a mirror's place, the same ones of each field.
+struct MirrorFaces {
+    StencilAt u;
+    StencilAt v;
+
+    MirrorFaces(const Mirror& mirror, std::int32_t stride)
+        : u(stencil_at<true>(mirror.place, stride)),
+          v(stencil_at<false>(mirror.place, stride)) {}
+};
+
 /// One of the fields that are mirrored, on the faces of one component.
 struct MirrorTask {
     const FaceAxis<Real>& axis;
@@ -40,18 +69,8 @@ struct MirrorTask {
         return rounded_shift(length * of(mirror.normal), 14);
     }
 
-    template <bool OnU>
-    std::int32_t at(const Speed* field, std::uint32_t place) const {
-        const std::int32_t row = axis.s.stride * kSpeedBytes;
-        const std::uint32_t from = place + kHalf<OnU>;
-        const Weights w = weights_of(from);
-        const Speed* low = further(field + (OnU ? 1 : axis.s.stride), base_of(from, row));
-        const Speed* high = further(low, row);
-        return rounded_shift((w.lower_left * low[0].raw + w.lower_right * low[1].raw) +
-                             (w.upper_left * high[0].raw + w.upper_right * high[1].raw), 7);
-    }
-    Whole at_mirror(const Mirror& mirror) const {
-        return {at<true>(grid.u, mirror.place), at<false>(grid.v, mirror.place)};
+    Whole at_mirror(const MirrorFaces& faces) const {
+        return {faces.u.of(grid.u, axis.s.stride), faces.v.of(grid.v, axis.s.stride)};
     }
     /// The face's own component, and the mean of the other's four faces around it.
     Whole at_face(std::int32_t face) const {
@@ -73,8 +92,7 @@ struct MirrorTask {
     }
 
     /// `weir::mirrored`, 256ths.
-    std::int32_t mirrored(const Mirror& mirror, std::int32_t face) const {
-        const Whole liquid = at_mirror(mirror);
+    std::int32_t mirrored(const Mirror& mirror, Whole liquid, std::int32_t face) const {
         const Whole relative = relative_to(mirror.wall, liquid);
         const std::int32_t towards = along(relative, mirror.normal);
         if (mirror.sticks) {
@@ -89,16 +107,16 @@ struct MirrorTask {
     static Speed speed_of(std::int32_t image) {
         return Speed::of_raw(short_of(rounded_shift(image, 1)));
     }
-    Speed speed_now(const Mirror& mirror, std::int32_t face) const {
-        return speed_of(mirrored(mirror, face));
+    Speed speed_now(const Mirror& mirror, const MirrorFaces& faces, std::int32_t face) const {
+        return speed_of(mirrored(mirror, at_mirror(faces), face));
     }
-    Speed speed_before(const Mirror& mirror, std::int32_t face) const {
-        return speed_of(before(mirror, face));
+    Speed speed_before(const Mirror& mirror, const MirrorFaces& faces, std::int32_t face) const {
+        return speed_of(before(mirror, at_mirror(faces), face));
     }
 
     /// `weir::before`, 256ths. Faces that no particle reaches count as they are.
-    std::int32_t before(const Mirror& mirror, std::int32_t face) const {
-        const Whole relative = relative_to(mirror.wall, at_mirror(mirror));
+    std::int32_t before(const Mirror& mirror, Whole liquid, std::int32_t face) const {
+        const Whole relative = relative_to(mirror.wall, liquid);
         if (mirror.sticks) {
             return stuck(mirror, relative, own_towards(mirror, face));
         }
@@ -264,8 +282,9 @@ private:
         }
         held_ += 2;
         if (held_ <= end_) {
-            held_[-2] = MirrorTask{axis, now_}.speed_now(mirror, face);
-            held_[-1] = MirrorTask{axis, was_}.speed_before(mirror, face);
+            const MirrorFaces faces(mirror, axis.s.stride);
+            held_[-2] = MirrorTask{axis, now_}.speed_now(mirror, faces, face);
+            held_[-1] = MirrorTask{axis, was_}.speed_before(mirror, faces, face);
         }
         return true;
     }
