@@ -316,6 +316,33 @@ inline void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& f
     }
 }
 
+/// Block by block, without lanes.
+template <class Real>
+void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t first,
+                   std::int32_t count) {
+    const GridShape& s = scene.shape;
+    const Walls<Real>& walls = scene.walls;
+    const Vec2<Real>* position = scene.particles.position + first;
+    const bool one_by_one = walls.thin != nullptr || flight.beyond ||
+                            (flight.far && !all_stored(walls));
+    for (std::int32_t n = count; n > 0;) {
+        n = one_by_one   ? n - 1
+            : flight.far ? last_past_wall(s, walls.cell_case, flight.before, position, n)
+                         : last_near_wall(s, walls.cell_case, position, n);
+        if (n < 0) {
+            return;
+        }
+        const Vec2<Real> x = position[n];
+        const Vec2<Real> before = flight.before[n];
+        const bool far = flight.far && is_far(before, x);
+        const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, far);
+        if ((case_at(s, walls, x) != kCellOutside || far || thin) &&
+            !meet(scene, first + n, before, far, thin)) {
+            remove(scene, first + n, flight.mark_removed);
+        }
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -325,31 +352,17 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
     Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s, flight.beyond};
     if constexpr (Stored<Real>::coarse) {  // those have no thin walls, and no windows
         collide_packed(scene, flight, first, count);
-        return;
-    }
-    const bool all = flight.far || walls.thin != nullptr || flight.beyond;
+    } else {
 #if WEIR_HAS_LANES
-    if constexpr (kHasLanes<Real>) {
-        if (!all && maximum(shape.stride, shape.ny) < 0x8000) {
-            collide_in_lanes(scene, flight, first, count);
-            return;
+        if constexpr (kHasLanes<Real>) {
+            if (!flight.far && walls.thin == nullptr && !flight.beyond &&
+                maximum(shape.stride, shape.ny) < 0x8000) {
+                collide_in_lanes(scene, flight, first, count);
+                return;
+            }
         }
-    }
 #endif
-    for (std::int32_t n = count; n > 0;) {
-        n = all ? n - 1 : last_near_wall(shape, walls.cell_case, particles.position + first, n);
-        if (n < 0) {
-            return;
-        }
-        const std::int32_t k = first + n;
-        const Vec2<Real> x = particles.position[k];
-        const Vec2<Real> before = flight.before[n];
-        const bool far = flight.far && is_far(before, x);
-        const bool thin = walls.thin != nullptr && near_thin(shape, *walls.thin, x, far);
-        if ((case_at(shape, walls, x) != kCellOutside || far || thin) &&
-            !meet(scene, k, before, far, thin)) {
-            remove(scene, k, flight.mark_removed);
-        }
+        collide_plain(scene, flight, first, count);
     }
 }
 

@@ -11,6 +11,46 @@ bool is_far(Vec2<Real> before, Vec2<Real> x) {
     return absolute(x.x - before.x) > Real(1) || absolute(x.y - before.y) > Real(1);
 }
 
+/// Whether all cells that a path can touch are without solid: those between its ends, as
+/// `first_entry` comes by them.
+template <class Real>
+bool is_path_open(const GridShape& s, const std::uint8_t* cell_case, Vec2<Real> from,
+                  Vec2<Real> x) {
+    const Vec2<Real> to = from + Real(1) * (x - from);
+    const auto i0 = static_cast<std::int32_t>(minimum(from.x, to.x));
+    const auto i1 = static_cast<std::int32_t>(maximum(from.x, to.x));
+    const auto j0 = static_cast<std::int32_t>(minimum(from.y, to.y));
+    const auto j1 = static_cast<std::int32_t>(maximum(from.y, to.y));
+    for (std::int32_t j = j0; j <= j1; ++j) {
+        const std::uint8_t* row = cell_case + s.index(0, j);
+        for (std::int32_t i = i0; i <= i1; ++i) {
+            if (row[i] != kCellOutside) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// The last of some particles, some of which went far, that is in a cell with solid or may have
+/// passed one, or −1.
+template <class Real>
+[[gnu::noinline]] std::int32_t last_past_wall(const GridShape& s, const std::uint8_t* cell_case,
+                                              const Vec2<PositionOf<Real>>* before,
+                                              const Vec2<Real>* position, std::int32_t count) {
+    const std::uint8_t* origin = cell_case + s.index(0, 0);
+    while (--count >= 0) {
+        const Vec2<Real> from = before[count];
+        const Vec2<Real> x = position[count];
+        if (origin[static_cast<std::int32_t>(x.y) * s.stride + static_cast<std::int32_t>(x.x)] !=
+                kCellOutside ||
+            (is_far(from, x) && !is_path_open(s, cell_case, from, x))) {
+            break;
+        }
+    }
+    return count;
+}
+
 /// First place behind a contour on a path that begins in the open, and the last one before it.
 template <class Real>
 struct Entry {

@@ -55,12 +55,10 @@ inline bool is_path_open(const CasesAt& at, std::uint32_t from, std::uint32_t to
 }
 
 /// `weir::is_far`, told from words.
-inline bool goes_far(std::uint32_t from, std::uint32_t to) {
-    const auto beyond = [](std::uint32_t there, std::uint32_t here) {
-        return there - here + 256U > 512U;
-    };
-    return beyond(static_cast<std::uint16_t>(to), static_cast<std::uint16_t>(from)) ||
-           beyond(to >> 16U, from >> 16U);
+[[gnu::always_inline]] inline bool goes_far(std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
+    const std::uint32_t along_y = (to >> 16U) - (from >> 16U);
+    return along_x + 256U > 512U || along_y + 256U > 512U;
 }
 
 /// The same, or the last one that went far.

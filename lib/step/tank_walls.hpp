@@ -5,21 +5,28 @@
 
 namespace weir {
 
-/// What `limited` does to the few that are too fast or broken.
+/// What `limited` makes of the few that are too fast or broken.
 template <class Real>
-Vec2<Real> refused(Vec2<Real> v, Real limit, TransferResult<Real>& count) {
-    if (!is_finite(v)) {
-        ++count.reset;
-        return {};
-    }
-    ++count.slowed;
-    return {clamp(v.x, -limit, limit), clamp(v.y, -limit, limit)};
+Vec2<Real> refused(Vec2<Real> v, Real limit) {
+    return is_finite(v) ? Vec2<Real>{clamp(v.x, -limit, limit), clamp(v.y, -limit, limit)}
+                        : Vec2<Real>{};
 }
 
 /// Written so that a NaN is refused.
 template <class Real>
+inline bool is_within(Vec2<Real> v, Real limit) {
+    return absolute(v.x) <= limit && absolute(v.y) <= limit;
+}
+template <class Real>
+inline Vec2<Real> limited(Vec2<Real> v, Real limit) {
+    return is_within(v, limit) ? v : refused(v, limit);
+}
+template <class Real>
 inline Vec2<Real> limited(Vec2<Real> v, Real limit, TransferResult<Real>& count) {
-    return absolute(v.x) <= limit && absolute(v.y) <= limit ? v : refused(v, limit, count);
+    if (!is_within(v, limit)) {
+        ++(is_finite(v) ? count.slowed : count.reset);
+    }
+    return limited(v, limit);
 }
 
 /// A blow of speed `into` (> 0) against a tank's wall rubs along it (Coulomb).
@@ -112,10 +119,9 @@ template <class Real>
 inline void advect(Vec2<Real> size, const TankBlow<Real>& blow, Vec2<Real> along, Vec2<Real>& x,
                    Vec2<Real>& v, TransferResult<Real>& result) {
     const Transfer<Real>& transfer = blow.transfer;
-    TransferResult<Real> unused;
     v = limited(v, transfer.limit, result);
-    result.far += absolute(along.x) <= transfer.near && absolute(along.y) <= transfer.near ? 0 : 1;
-    x = x + transfer.dt_s * limited(along, transfer.limit, unused);
+    result.far += is_within(along, transfer.near) ? 0 : 1;
+    x = x + transfer.dt_s * limited(along, transfer.limit);
     meet_tank(size, blow, x, v);
     result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
 }

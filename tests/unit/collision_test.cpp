@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "contour/marching_squares.hpp"
 #include "math/vec2.hpp"
 #include "solid/collide.hpp"
+#include "solid/first_entry.hpp"
 #include "solid/layers.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
@@ -90,6 +92,33 @@ struct Stand {
 };
 
 const double kAngles[] = {0.0, 0.25 * kPi, 0.5 * kPi, 1.0, 2.2, kPi, 4.0, 5.5};
+
+/// Of who goes far, paths through open cells alone are not walked: nothing would be met on them.
+TEST(Collide, PathsThroughOpenCellsMeetNothing) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<float> anywhere(2.5F, 29.5F);
+    std::uniform_real_distribution<float> way(-2.0F, 2.0F);
+    const auto at_line = [&](float x) {  // on a line of the grid, and just before it
+        const float line = std::floor(x);
+        return random() % 4 != 0 ? x : random() % 2 == 0 ? line : std::nextafter(line, 0.0F);
+    };
+    std::int32_t open = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        const Stand stand(0.17 * trial, 0.0F);
+        for (int k = 0; k < 4000; ++k) {
+            const Vec2f from{at_line(anywhere(random)), at_line(anywhere(random))};
+            const Vec2f to{at_line(from.x + way(random)), at_line(from.y + way(random))};
+            if (is_path_open(stand.shape, stand.walls.cell_case, from, to)) {
+                ++open;
+                ASSERT_FALSE(is_inside(stand.shape, stand.walls, from));
+                ASSERT_FALSE(is_inside(stand.shape, stand.walls, to));
+                ASSERT_FALSE(first_entry(stand.shape, stand.walls, from, to).found);
+            }
+        }
+    }
+    EXPECT_GT(open, 40000);
+    EXPECT_LT(open, 120000);
+}
 
 TEST(Collide, RestitutionOneMirrors) {
     for (const double normal_angle : kAngles) {
