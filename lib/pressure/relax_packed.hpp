@@ -169,8 +169,12 @@ template <bool Solids, class Real>
     std::int32_t own = diagonal->raw;
     const auto next = [&] {
         here = whole(here + 2);
+#if defined(__thumb2__)  // which steps on as it loads
+        __asm__("ldrsh %0, [%1, #4]!" : "=r"(own), "+r"(diagonal) : "m"(diagonal[2]));
+#else
         diagonal = whole(diagonal + 2);
         own = diagonal->raw;
+#endif
     };
     for (;; next()) {
         while (own == 0) {

@@ -55,7 +55,7 @@ inline void blend_last(const FacesAround& at, const BlendRow& row, std::int32_t 
 }
 
 template <bool Sharp>
-void blend_row(const FacesAround& at, const BlendRow& row) {
+void blend_row(const FacesAround at, const BlendRow& row) {
 #if defined(__ARM_ARCH_6M__)
     if (Sharp) {
         blend_last(at, row, blend_faces(at, row.field, row.field + row.count, row.share));
