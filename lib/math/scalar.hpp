@@ -171,6 +171,15 @@ inline bool is_positive(Real value) {
     return bound_key(value) > bound_key(Real(0));
 }
 
+/// Of a number that is 0, either.
+template <class Real>
+inline bool have_unlike_signs(Real a, Real b) {
+    return (a < Real(0)) != (b < Real(0));
+}
+inline bool have_unlike_signs(float a, float b) {
+    return (bound_key(a) ^ bound_key(b)) < 0;
+}
+
 /// Of such keys, low ≤ key ≤ high, where low and high are not negative.
 template <class Key>
 inline bool is_between(Key key, Key low, Key high) {

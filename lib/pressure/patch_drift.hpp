@@ -171,6 +171,7 @@ template <bool Weighed, bool Solids, class Real>
     const VelocityOf<Real>* u = grid.u;
     const VelocityOf<Real>* v = grid.v;
     const Real speed = drift.speed;
+    const Vec2<Real> gravity = drift.weight;
     Real* way = ways.of;
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         Real lifted = Real(0);
@@ -195,11 +196,11 @@ template <bool Weighed, bool Solids, class Real>
             x,
             [&](std::int32_t face, std::int32_t) {
                 add(speed * ((here - e[face - 1]) + along_x), pressure - p[face - 1],
-                    drift.weight.x, u[face]);
+                    gravity.x, u[face]);
             },
             [&](std::int32_t face, std::int32_t y) {
                 add(speed * ((here - below) + drift.along_y[y]), pressure - pressure_below,
-                    drift.weight.y, v[face]);
+                    gravity.y, v[face]);
             },
             [&](std::int32_t c) {
                 below = here;
@@ -223,6 +224,10 @@ template <bool Pays, bool Solids, class Real>
 inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& ways, Real price,
                           StaggeredGrid<Real>& grid) {
     const Real* way = ways.of;
+    VelocityOf<Real>* const u = grid.u;
+    VelocityOf<Real>* const v = grid.v;
+    VelocityOf<Real>* const u_before = grid.mass_u;
+    VelocityOf<Real>* const v_before = grid.mass_v;
     const auto move = [&](VelocityOf<Real>& velocity, VelocityOf<Real>& before) {
         const Real now = velocity;
         if constexpr (Pays) {
@@ -233,8 +238,8 @@ inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& wa
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         drift.for_each_face(
             x,
-            [&](std::int32_t face, std::int32_t) { move(grid.u[face], grid.mass_u[face]); },
-            [&](std::int32_t face, std::int32_t) { move(grid.v[face], grid.mass_v[face]); },
+            [&](std::int32_t face, std::int32_t) { move(u[face], u_before[face]); },
+            [&](std::int32_t face, std::int32_t) { move(v[face], v_before[face]); },
             [](std::int32_t) {});
     }
 }

@@ -29,10 +29,10 @@ Real seen_mass(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin, std
             (sees.upper ? grid.mass_v[c + grid.shape.stride] : Real(0)));
 }
 
-/// Density and level of a cell whose faces hold so much mass.
+/// Density and level of a cell whose faces hold so much mass. `head`: `least_head`.
 template <class Real>
-inline void show_cell(Real mass, Real per_face, const CutDensity<Real>& cut, std::int32_t c,
-                      Part& slivers, const PressureFields<Real>& fields) {
+inline void show_cell(Real mass, Real per_face, const CutDensity<Real>& cut, Real head,
+                      std::int32_t c, Part& slivers, const PressureFields<Real>& fields) {
     if (!(mass > Real(0))) {
         fields.density[c] = Real(0);
         fields.level[c] = kEmptyLevel<Real>;
@@ -47,7 +47,9 @@ inline void show_cell(Real mass, Real per_face, const CutDensity<Real>& cut, std
         density = full < cut.least ? kNoRoom<Real> : density / full;
     }
     fields.density[c] = density;
-    fields.level[c] = level_of_density(density) - least_head(fields);
+    // Most cells are full, of which no more is to be told.
+    const bool full = bound_key(density) >= bound_key(Real(1));
+    fields.level[c] = (full ? Real(1.5) : level_of_density(density)) - head;
 }
 
 /// Cells c … end − 1 of a row.
@@ -58,12 +60,13 @@ template <class Real>
     const VelocityOf<Real>* lower = grid.mass_v + c;
     const VelocityOf<Real>* upper = lower + grid.shape.stride;
     const VelocityOf<Real>* right = grid.mass_u + c + 1;
+    const Real head = least_head(fields);
     Real left = right[-1];
     for (; c < end; ++c) {
         const Real next = *right++;
         const Real mass = (left + next) + (*lower++ + *upper++);
         left = next;
-        show_cell(mass, per_face, cut, c, slivers, fields);
+        show_cell(mass, per_face, cut, head, c, slivers, fields);
     }
 }
 
@@ -75,7 +78,7 @@ void densities_beside_thin(const StaggeredGrid<Real>& grid, const ThinWalls<Real
     for (; c < end; ++c) {
         const Real mass = (thin.mark[c] & kTouching) != 0 ? seen_mass(grid, thin, c)
                                                           : mass_of_cell(grid, c);
-        show_cell(mass, per_face, cut, c, slivers, fields);
+        show_cell(mass, per_face, cut, least_head(fields), c, slivers, fields);
     }
 }
 

@@ -86,8 +86,11 @@ inline void for_each_depth(const GridShape& s, const LevelOf<Real>* level, const
     for (std::int32_t first = 1; rows.first < rows.end && (first == 1 || first < s.nx);
          first += DepthBits<Real>::kColumns) {
         DepthBits<Real> bits(s, level, first, rows.first);
-        for (visit(bits); bits.j + 1 < rows.end; visit(bits)) {
-            bits.advance();
+        for (;; bits.advance()) {
+            visit(bits);
+            if (bits.j + 1 >= rows.end) {
+                break;
+            }
         }
     }
 }

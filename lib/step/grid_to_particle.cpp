@@ -35,6 +35,14 @@ inline Range<Real> range_around(const Field* field, std::int32_t face, std::int3
             maximum(here, maximum(maximum(left, right), maximum(lower, upper)))};
 }
 
+/// The same of a value there. Not inline: most are between two of the faces around.
+template <class Real>
+[[gnu::noinline]] Real clamp_to_range(Real value, const VelocityOf<Real>* field, std::int32_t face,
+                                      std::int32_t stride) {
+    const Range<Real> range = range_around<Real>(field, face, stride);
+    return clamp(value, range.low, range.high);
+}
+
 /// field − kSmoothing ∇²field, within what is there: beyond it, a jump such as a wall without slip
 /// makes would grow from step to step.
 template <class Real>
@@ -46,14 +54,10 @@ inline Real sharp(const VelocityOf<Real>* field, std::int32_t face, std::int32_t
     const Real here = field[face];
     const Real around = (left + right) + (lower + upper);
     const Real value = here - kSmoothing<Real> * (around - Real(4) * here);
-    // Most values are, which two or four comparisons tell.
-    const bool within = (left <= value || right <= value || lower <= value || upper <= value) &&
-                        (left >= value || right >= value || lower >= value || upper >= value);
-    if (within) {
-        return value;
-    }
-    const Range<Real> range = range_around<Real>(field, face, stride);
-    return clamp(value, range.low, range.high);
+    return have_unlike_signs(value - left, value - right) ||
+                   have_unlike_signs(value - lower, value - upper)
+               ? value
+               : clamp_to_range<Real>(value, field, face, stride);
 }
 
 /// One component: out = sharp where liquid is all around.
@@ -157,15 +161,22 @@ void sharpen_rows(const Borders<Real>& borders, const Part& rows, const Sharpeni
 template <class Real>
 void blend(const Part& faces, Real pic_ratio, const VelocityOf<Real>* sharp_u,
            const VelocityOf<Real>* sharp_v, StaggeredGrid<Real>& grid) {
-    std::int32_t face = faces.first;
-    if constexpr (kHasLanes<Real>) {
-        face = blend_lanes(grid.u, sharp_u, pic_ratio, faces.first, faces.end, grid.mass_u);
-        blend_lanes(grid.v, sharp_v, pic_ratio, faces.first, faces.end, grid.mass_v);
-    }
-    for (; face < faces.end; ++face) {
-        grid.mass_u[face] = (grid.u[face] - grid.mass_u[face]) + pic_ratio * sharp_u[face];
-        grid.mass_v[face] = (grid.v[face] - grid.mass_v[face]) + pic_ratio * sharp_v[face];
-    }
+    const auto component = [&](const VelocityOf<Real>* now, const VelocityOf<Real>* sharp,
+                               VelocityOf<Real>* before) {
+        std::int32_t face = faces.first;
+        if constexpr (kHasLanes<Real>) {
+            face = blend_lanes(now, sharp, pic_ratio, face, faces.end, before);
+        }
+        if constexpr (kHasFpuLoops<Real>) {
+            face += blend_with_fpu(now + face, sharp + face, pic_ratio, faces.end - face,
+                                   before + face);
+        }
+        for (; face < faces.end; ++face) {
+            before[face] = (now[face] - before[face]) + pic_ratio * sharp[face];
+        }
+    };
+    component(grid.u, sharp_u, grid.mass_u);
+    component(grid.v, sharp_v, grid.mass_v);
 }
 
 }  // namespace

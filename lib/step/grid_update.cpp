@@ -169,8 +169,8 @@ void extrapolate_component(const Component<Real>& component, const PressureField
     const auto extend = [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         Real sum = Real(0);
         Real count = Real(0);
-        const auto look = [&](bool exists, std::int32_t neighbour) {
-            if (exists && share(neighbour) > Real(0) && wet(neighbour) &&
+        const auto take = [&](std::int32_t neighbour) {
+            if (share(neighbour) > Real(0) &&
                 (component.thin == nullptr ||
                  !separated(*component.thin, s, face, neighbour, back == 1))) {
                 const Real liquid = component.velocity[neighbour];
@@ -179,6 +179,11 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                                                        Real(component.velocity[face]), reach,
                                                        fields.cell_weight, share(neighbour));
                 count += Real(1);
+            }
+        };
+        const auto look = [&](bool exists, std::int32_t neighbour) {
+            if (exists && wet(neighbour)) {
+                take(neighbour);
             }
         };
         look(i > component.first_i, face - 1);

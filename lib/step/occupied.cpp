@@ -96,7 +96,7 @@ Extent<float> extent(const Particles<float>& particles) {
         std::uint32_t span = 0;
         void add(float place) {
             const auto key = static_cast<std::uint32_t>(bound_key(place));
-            if (key - low > span) {  // a branch costs less than choices
+            if (__builtin_expect(key - low > span, 0)) {  // a branch costs less than choices
                 span = key < low ? span + (low - key) : key - low;
                 low = minimum(low, key);
             }
@@ -107,9 +107,18 @@ Extent<float> extent(const Particles<float>& particles) {
     Range x{static_cast<std::uint32_t>(bound_key(position->x))};
     Range y{static_cast<std::uint32_t>(bound_key(position->y))};
     const Vec2<float>* const end = position + particles.count;
+    const auto look = [&](std::int32_t k) {
+        x.add(position[k].x);
+        y.add(position[k].y);
+    };
+    for (; end - position >= 4; position += 4) {
+        look(0);
+        look(1);
+        look(2);
+        look(3);
+    }
     for (; position != end; ++position) {
-        x.add(position->x);
-        y.add(position->y);
+        look(0);
     }
     return {{x.lowest(), y.lowest()}, {x.highest(), y.highest()}};
 }

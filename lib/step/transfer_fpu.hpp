@@ -226,6 +226,40 @@ struct Found {
 
 }  // namespace fpu
 
+/// change = (now − change) + share · sharp, so many of them. Returns how many are done: all but up
+/// to three.
+inline std::int32_t blend_with_fpu(const float* now, const float* sharp, float share,
+                                   std::int32_t count, float* change) {
+    std::int32_t left = count;
+    __asm__ volatile(".syntax unified\n\t"
+            "b 1f\n"
+            "0:\n\t"
+            "vldmia %[now]!, {s0-s3}\n\t"
+            "vldmia %[change], {s4-s7}\n\t"
+            "vldmia %[sharp]!, {s8-s11}\n\t"
+            "vsub.f32 s0, s0, s4\n\t"
+            "vsub.f32 s1, s1, s5\n\t"
+            "vsub.f32 s2, s2, s6\n\t"
+            "vsub.f32 s3, s3, s7\n\t"
+            "vmul.f32 s8, s8, %[share]\n\t"
+            "vmul.f32 s9, s9, %[share]\n\t"
+            "vmul.f32 s10, s10, %[share]\n\t"
+            "vmul.f32 s11, s11, %[share]\n\t"
+            "vadd.f32 s0, s0, s8\n\t"
+            "vadd.f32 s1, s1, s9\n\t"
+            "vadd.f32 s2, s2, s10\n\t"
+            "vadd.f32 s3, s3, s11\n\t"
+            "vstmia %[change]!, {s0-s3}\n"
+            "1:\n\t"
+            "subs %[left], %[left], #4\n\t"
+            "bhs 0b\n\t"
+            : [now] "+r"(now), [sharp] "+r"(sharp), [change] "+r"(change), [left] "+r"(left)
+            : [share] "t"(share)
+            : "cc", "memory", "s0", "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9", "s10",
+              "s11");
+    return count - (left + 4);
+}
+
 inline void scatter_with_fpu(const Particles<float>& particles, const StaggeredGrid<float>& grid) {
     if (particles.count > 0) {
         fpu::scatter(fpu::Faces(grid), particles.position, particles.velocity,

@@ -91,14 +91,18 @@ void scatter() {
     add_to_hash(g_fields.mass_v);
 }
 
-/// Some of the particles are too fast, for the tank or for those who count.
-void gather() {
+void fill_velocities() {
     for (std::int32_t k = 0; k < kEntries; ++k) {
         g_fields.u[k] = number(50.0F);
         g_fields.v[k] = number(50.0F);
         g_fields.mass_u[k] = number(10.0F);
         g_fields.mass_v[k] = number(10.0F);
     }
+}
+
+/// Some of the particles are too fast, for the tank or for those who count.
+void gather() {
+    fill_velocities();
     weir::Transfer<float> transfer{0.01F + number(0.01F), 0.97F, 60.0F};
     transfer.near = 40.0F;
     weir::Particles<float> moved = particles();
@@ -136,11 +140,8 @@ void project() {
     to.shape.ny = 1 + static_cast<std::int32_t>(g_numbers.word() % kRows);
     fields.coarse.shape.nx = weir::coarse_cells(to.shape.nx);
     fields.coarse.shape.ny = weir::coarse_cells(to.shape.ny);
+    fill_velocities();
     for (std::int32_t k = 0; k < kEntries; ++k) {
-        g_fields.u[k] = number(50.0F);
-        g_fields.v[k] = number(50.0F);
-        g_fields.mass_u[k] = number(10.0F);
-        g_fields.mass_v[k] = number(10.0F);
         g_fields.pressure[k] = number(5.0F);
         g_fields.density[k] = 1.0F + number(0.5F);
         g_fields.level[k] = -1.55F;
@@ -165,6 +166,18 @@ void project() {
     }
 }
 
+void blend() {
+    weir::StaggeredGrid<float> to = grid();
+    weir::PressureFields<float> fields = pressure();
+    fill_velocities();
+    for (float& level : g_fields.level) {
+        level = (g_numbers.word() % 8U != 0 ? 0.8F : -0.8F) + number(0.7F);
+    }
+    weir::blend_change<float>({}, 0.97F, fields, to);
+    add_to_hash(g_fields.mass_u);
+    add_to_hash(g_fields.mass_v);
+}
+
 void tell(const char* what) { port::print(what, " ", port::hex(g_hash.value()), "\n"); }
 
 }  // namespace
@@ -183,5 +196,9 @@ int main() {
         project();
     }
     tell("project");
+    for (std::int32_t round = 0; round < kRounds; ++round) {
+        blend();
+    }
+    tell("blend");
     port::exit(0);
 }
