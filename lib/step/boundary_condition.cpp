@@ -8,14 +8,6 @@ namespace weir {
 
 namespace {
 
-/// The field that is mirrored, and what is done to it: `mirrored`, or `before`.
-template <class Real>
-struct Field {
-    Velocity<Real> velocity;
-    const PressureFields<Real>& fields;
-    bool was;
-};
-
 template <class Real>
 Velocity<Real> velocity_before(const StaggeredGrid<Real>& grid,
                                const PressureFields<Real>& fields) {
@@ -31,44 +23,37 @@ Velocity<Real> velocity_now(const StaggeredGrid<Real>& grid, const PressureField
 }
 
 template <class Real>
-VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const Field<Real>& field, std::int32_t i,
-                             std::int32_t j) {
+VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const TwoFields<Real>& fields, bool was,
+                             std::int32_t i, std::int32_t j) {
     const std::int32_t face = axis.s.index(i, j);
-    const VelocityOf<Real> own = (axis.is_u ? field.velocity.u : field.velocity.v)[face];
-    if (!wants_image(axis, field.fields, face)) {
-        return own;
-    }
+    const Velocity<Real>& field = was ? fields.was : fields.now;
+    const VelocityOf<Real> own = (axis.is_u ? field.u : field.v)[face];
     if constexpr (Stored<Real>::coarse) {
-        packed::Mirror mirror;
-        if (!packed::find_mirror(axis, field.fields, i, j, mirror)) {
-            return own;
-        }
-        const packed::MirrorFaces faces(mirror, axis.s.stride);
-        const packed::MirrorTask task{axis, field.velocity};
-        return field.was ? task.speed_before(mirror, faces, face)
-                         : task.speed_now(mirror, faces, face);
+        packed::Image image;
+        return !packed::find_image(axis, fields, i, j, image) ? own : was ? image.was : image.now;
     } else {
         Mirror<Real> mirror;
-        return find_mirror(axis, field.fields, i, j, mirror)
-                   ? axis.of(field.was ? before(field.velocity, mirror)
-                                       : mirrored(field.velocity, mirror))
+        return wants_image(axis, fields.pressure, face) &&
+                       find_mirror(axis, fields.pressure, i, j, mirror)
+                   ? axis.of(was ? before(field, mirror) : mirrored(field, mirror))
                    : own;
     }
 }
 
+/// One field after the other.
 template <class Real>
-void mirror_field(const Walls<Real>& walls, const Field<Real>& field, const Part& computed,
-                  Work work, PressureFields<Real>& fields, VelocityOf<Real>* u,
-                  VelocityOf<Real>* v) {
-    const GridShape& s = field.velocity.shape;
+void mirror_field(const Walls<Real>& walls, const TwoFields<Real>& both, bool was,
+                  const Part& computed, Work work, PressureFields<Real>& fields,
+                  VelocityOf<Real>* u, VelocityOf<Real>* v) {
+    const GridShape& s = both.now.shape;
     const FaceAxis<Real> on_u{s, walls, true};
     const FaceAxis<Real> on_v{s, walls, false};
     // All are computed before the first is written: they read each other.
     work.share(computed, s.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
             const std::int32_t c = s.index(i, j);
-            fields.divergence[c] = i > 0 ? mirror_face(on_u, field, i, j) : u[c];
-            fields.inverse_diagonal[c] = j > 0 ? mirror_face(on_v, field, i, j) : v[c];
+            fields.divergence[c] = i > 0 ? mirror_face(on_u, both, was, i, j) : u[c];
+            fields.inverse_diagonal[c] = j > 0 ? mirror_face(on_v, both, was, i, j) : v[c];
         });
     });
     for_each_near(s, walls, work.take(s.ny, s.nx), [&](std::int32_t i, std::int32_t j) {
@@ -292,14 +277,14 @@ struct BothMirrors {
 
 /// What is computed is written as soon as no other row reads what stood there.
 template <class Real>
-void mirror_together(const Walls<Real>& walls, PressureFields<Real>& fields,
-                     StaggeredGrid<Real>& grid) {
+void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
+                     PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     BothMirrors<Real> mirrors{
         walls,
         fields,
-        velocity_now(grid, fields),
-        velocity_before(grid, fields),
+        both.now,
+        both.was,
         {{s, walls, true}, grid.u, grid.mass_u, fields.divergence},
         {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal}};
     for (std::int32_t front = 0; front < s.ny + kRowsHeld; ++front) {
@@ -319,16 +304,15 @@ template <class Real>
 void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const Field<Real> now{velocity_now(grid, fields), fields, false};
-    const Field<Real> was{velocity_before(grid, fields), fields, true};
+    const TwoFields<Real> both{velocity_now(grid, fields), velocity_before(grid, fields), fields};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
     bool done = false;
     if (enough && rows.first == 0 && rows.end == s.ny && work.pieces(s.ny, s.nx, 1) <= 1) {
         if constexpr (Stored<Real>::coarse) {
-            done = packed::BothMirrors(walls, fields, grid, now.velocity, was.velocity).mirror();
+            done = packed::BothMirrors(walls, both, fields, grid).mirror();
         } else if (s.ny >= kRowsOfTurns) {
-            mirror_together(walls, fields, grid);
+            mirror_together(walls, both, fields, grid);
             done = true;
         }
     }
@@ -338,9 +322,9 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
         }
         return;
     }
-    mirror_field(walls, now, rows, work, fields, grid.u, grid.v);
+    mirror_field(walls, both, false, rows, work, fields, grid.u, grid.v);
     rows = work.take(s.ny, s.nx);
-    mirror_field(walls, was, rows, work, fields, grid.mass_u, grid.mass_v);
+    mirror_field(walls, both, true, rows, work, fields, grid.mass_u, grid.mass_v);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                \

@@ -33,6 +33,14 @@ struct Velocity {
     bool all_count;
 };
 
+/// The velocity, which is to be `mirrored`, and the one before the step, which becomes `before`.
+template <class Real>
+struct TwoFields {
+    Velocity<Real> now;
+    Velocity<Real> was;
+    const PressureFields<Real>& pressure;
+};
+
 template <class Real>
 struct Mirror {
     std::int32_t face;

@@ -236,14 +236,34 @@ inline bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& 
            mirror_of(axis, fields.level, from, face, beyond, {-normal.x, -normal.y}, mirror);
 }
 
+/// What a face takes in both fields.
+struct Image {
+    Speed now;
+    Speed was;
+};
+
+/// False: it keeps its own. By itself: it is asked for in several places.
+[[gnu::noinline]] inline bool find_image(const FaceAxis<Real>& axis, const TwoFields<Real>& fields,
+                                         std::int32_t i, std::int32_t j, Image& image) {
+    const std::int32_t face = axis.s.index(i, j);
+    Mirror mirror;
+    if (!wants_image(axis, fields.pressure, face) ||
+        !find_mirror(axis, fields.pressure, i, j, mirror)) {
+        return false;
+    }
+    const MirrorFaces faces(mirror, axis.s.stride);
+    image.now = MirrorTask{axis, fields.now}.speed_now(mirror, faces, face);
+    image.was = MirrorTask{axis, fields.was}.speed_before(mirror, faces, face);
+    return true;
+}
+
 /// Both fields of a packed world in one look at each face. What is computed is held one behind the
 /// other in scratch, and which faces of a cell it is for in place of the cell's diagonal.
 class BothMirrors {
 public:
-    BothMirrors(const Walls<Real>& walls, PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
-                const Velocity<Real>& now, const Velocity<Real>& was)
-        : walls_(walls), fields_(fields), grid_(grid), now_(now), was_(was),
-          held_(fields.divergence),
+    BothMirrors(const Walls<Real>& walls, const TwoFields<Real>& both, PressureFields<Real>& fields,
+                StaggeredGrid<Real>& grid)
+        : walls_(walls), both_(both), fields_(fields), grid_(grid), held_(fields.divergence),
           end_(held_ + grid.shape.index(grid.shape.nx, grid.shape.ny - 1)) {}
 
     /// False: there are too many, and nothing has happened.
@@ -275,16 +295,14 @@ public:
 
 private:
     bool hold(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j) {
-        const std::int32_t face = axis.s.index(i, j);
-        Mirror mirror;
-        if (!wants_image(axis, fields_, face) || !find_mirror(axis, fields_, i, j, mirror)) {
+        Image image;
+        if (!find_image(axis, both_, i, j, image)) {
             return false;
         }
         held_ += 2;
         if (held_ <= end_) {
-            const MirrorFaces faces(mirror, axis.s.stride);
-            held_[-2] = MirrorTask{axis, now_}.speed_now(mirror, faces, face);
-            held_[-1] = MirrorTask{axis, was_}.speed_before(mirror, faces, face);
+            held_[-2] = image.now;
+            held_[-1] = image.was;
         }
         return true;
     }
@@ -295,10 +313,9 @@ private:
     }
 
     const Walls<Real>& walls_;
+    const TwoFields<Real>& both_;
     PressureFields<Real>& fields_;
     StaggeredGrid<Real>& grid_;
-    const Velocity<Real>& now_;
-    const Velocity<Real>& was_;
     Speed* held_;
     Speed* end_;
 };
