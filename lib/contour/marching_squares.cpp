@@ -187,16 +187,14 @@ Real corner_area(const Real distance[4], std::uint32_t solid_nodes) {
 /// integrated over x from the cell's left edge on. Upper and lower edge give nothing, nor does the
 /// left one.
 template <class Real>
-void add_right_edge(Real low, Real high, OpenMoments<Real>& sums) {
+OpenMoments<Real> right_edge(Real low, Real high) {
     const auto square = [](Real y) { return Real(0.5) * (y * y); };
     const Real way = high - low;
     const Real up = square(high) - square(low);
     const Real above = square(maximum(high, Real(0))) - square(maximum(low, Real(0)));
-    sums.area += way;
-    sums.first.y += up;
-    sums.upper.x += Real(0.125) * way;
-    sums.upper.y += above;
-    sums.y_right += Real(0.125) * up;
+    const Real none = Real(0);
+    const Real eighth = Real(0.125);
+    return {way, {none, up}, {eighth * way, above}, none, eighth * up, none};
 }
 
 /// A straight piece that lies in one quadrant: Simpson's rule is exact.
@@ -334,15 +332,13 @@ Real open_area(const Real distance[4]) {
 template <class Real>
 OpenMoments<Real> open_moments(const Real distance[4]) {
     const std::uint8_t solid_nodes = contour_case(distance);
-    OpenMoments<Real> sums;
     const bool low_solid = (solid_nodes & 2U) != 0;
     const bool high_solid = (solid_nodes & 4U) != 0;
-    if (!low_solid || !high_solid) {
-        const Real half = Real(0.5);
-        const Real crossing =
-            low_solid != high_solid ? crossing_point(distance, kRight).y - half : half;
-        add_right_edge(low_solid ? crossing : -half, high_solid ? crossing : half, sums);
-    }
+    const Real half = Real(0.5);
+    const Real crossing =
+        low_solid != high_solid ? crossing_point(distance, kRight).y - half : half;
+    OpenMoments<Real> sums =
+        right_edge(low_solid ? crossing : -half, high_solid ? crossing : half);
     const CaseLines& table = lines_of(solid_nodes, solids_joined(distance));
     for (std::int32_t i = 0; i < table.lines; ++i) {
         add_line(about_centre(crossing_point(distance, table.crossing[i].from)),

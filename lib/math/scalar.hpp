@@ -111,6 +111,16 @@ constexpr Real part_of(Real whole, std::int32_t parts) {
     return whole / static_cast<Real>(parts);
 }
 
+/// One small whole number over another.
+template <class Real>
+constexpr Real ratio_of(std::int32_t part, std::int32_t whole) {
+    return static_cast<Real>(part) / static_cast<Real>(whole);
+}
+template <>
+constexpr SmallFixed ratio_of(std::int32_t part, std::int32_t whole) {
+    return SmallFixed::of_raw(((part << 16) + whole / 2) / whole);
+}
+
 /// Comparing the exponent bits survives every compiler flag, unlike x == x. __builtin: a
 /// freestanding std::memcpy is a call.
 inline bool is_finite(float value) {

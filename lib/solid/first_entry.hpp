@@ -75,7 +75,7 @@ Entry<Real> first_entry(const GridShape& shape, const Walls<Real>& walls, Vec2<R
     Real inside = Real(0);
     for (std::int32_t k = 1; k <= samples && !entry.found; ++k) {
         outside = inside;
-        inside = static_cast<Real>(k) / static_cast<Real>(samples);
+        inside = ratio_of<Real>(k, samples);
         entry.found = is_inside(shape, walls, from + inside * way);
     }
     for (std::int32_t k = 0; k < kHalvings && entry.found; ++k) {

@@ -64,6 +64,15 @@ TEST(FixedPoint, MirroredNumbersGiveMirroredResults) {
     }
 }
 
+TEST(FixedPoint, RatiosOfSmallNumbersAreTheNearest) {
+    for (std::int32_t whole = 1; whole <= 16; ++whole) {
+        for (std::int32_t part = 0; part <= whole; ++part) {
+            ASSERT_EQ(ratio_of<SmallFixed>(part, whole).raw, ratio_of<Fixed>(part, whole).raw)
+                << part << ' ' << whole;
+        }
+    }
+}
+
 TEST(FixedPoint, RootsAreRoundedDown) {
     for (std::uint32_t root = 0; root <= 0xFFFFU; ++root) {
         const std::uint32_t most = root * root + 2U * root;
