@@ -112,17 +112,17 @@ inline auto surrounded_cells(const DimpleTask& task, std::int32_t c) {
     const auto one = L::all(1.0F);
     Floats open = zero;
     Floats covered = zero;
-    const auto face = [&](Floats inside, const float* share, std::int32_t neighbour) {
-        const Floats fraction = task.open_u != nullptr ? inside * L::load(share) : inside;
-        const auto there = L::load(task.level + neighbour);
+    const auto face = [&](Floats inside, const float* share, std::int32_t at, std::int32_t beside) {
+        const Floats fraction = task.open_u != nullptr ? inside * L::load(share + at) : inside;
+        const auto there = L::load(task.level + beside);
         const auto liquid = (there > zero) & (there != L::all(task.filled));
         open = open + fraction;
         covered = covered + (liquid ? fraction : zero);
     };
-    face(open_before<L>(c == task.first), task.open_u + c, c - 1);
-    face(open_behind<L>(c + L::kLanes - 1 == task.last), task.open_u + c + 1, c + 1);
-    face(task.has_lower ? one : zero, task.open_v + c, c - task.stride);
-    face(task.has_upper ? one : zero, task.open_v + c + task.stride, c + task.stride);
+    face(open_before<L>(c == task.first), task.open_u, c, c - 1);
+    face(open_behind<L>(c + L::kLanes - 1 == task.last), task.open_u, c + 1, c + 1);
+    face(task.has_lower ? one : zero, task.open_v, c, c - task.stride);
+    face(task.has_upper ? one : zero, task.open_v, c + task.stride, c + task.stride);
     Floats share = L::all(task.share);
     if (task.open_u != nullptr) {
         share = L::bytes(task.cell_case + c) != 0 ? L::all(task.share_of_cut) : share;

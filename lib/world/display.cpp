@@ -1,12 +1,14 @@
 #include "weir/display.hpp"
 
 #include "math/scalar.hpp"
+#include "world/validate.hpp"
 
 namespace weir {
 
 namespace {
 
 constexpr std::int32_t kOne = 256;  // of a cell, and of a full cell
+constexpr std::int32_t kMostPixels = 1024;
 
 /// 0 … kOne.
 template <class Number>
@@ -39,7 +41,11 @@ struct Between {
 /// Pixel k of `pixels` over samples that stand at `first` + n, in 1/kOne cells; ends repeat.
 Between between(std::int32_t k, std::int32_t pixels, std::int32_t cells, std::int32_t first,
                 std::int32_t samples) {
-    const std::int32_t at = (2 * k + 1) * cells * kOne / (2 * pixels) - first;
+    // Most pixels over most cells are just below 2³².
+    const std::uint32_t place = static_cast<std::uint32_t>(2 * k + 1) *
+                                static_cast<std::uint32_t>(cells * kOne);
+    const std::int32_t at =
+        static_cast<std::int32_t>(place / static_cast<std::uint32_t>(2 * pixels)) - first;
     const std::int32_t low = clamp(at >> 8, 0, samples - 1);
     return {low, clamp((at >> 8) + 1, 0, samples - 1), at & (kOne - 1)};
 }
@@ -78,10 +84,12 @@ template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display) {
     const auto density = world.density();
     const auto distance = world.signed_distance();
-    ChangedRows changed{display.height, -1};
-    if (density.data == nullptr) {
-        return changed;
+    const bool can_be = display.pixels != nullptr && display.width % 2 == 0 &&
+                        display.width <= kMostPixels && within(display.height, 0, kMostPixels);
+    if (density.data == nullptr || !can_be) {
+        return {};
     }
+    ChangedRows changed{display.height, -1};
     for (std::int32_t row = 0; row < display.height; ++row) {
         const std::int32_t up = display.height - 1 - row;
         const Between cell_y = between(up, display.height, world.cells_y(), kOne / 2,

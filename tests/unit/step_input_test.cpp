@@ -72,13 +72,19 @@ TEST(StepInput, NoTimePasses) {
         pool.world->step(kFrame);
         const std::uint64_t before = pool.world->state_hash();
         const StepReport report = pool.world->step(dt);
-        EXPECT_TRUE(report.has(Clamped::time_step));
+        EXPECT_EQ(report.has(Clamped::time_step), dt != 0.0F) << "a pause is asked for as it is";
         EXPECT_EQ(report.substeps, 0);
         EXPECT_EQ(report.dt_s, 0.0F);
         EXPECT_EQ(pool.world->state_hash(), before);
         pool.expect_whole(report);
         EXPECT_EQ(pool.world->step(kFrame).clamped, 0U) << "the bit is not repeated";
     }
+}
+
+TEST(StepInput, WhatGravityAloneTakesOfSubsteps) {
+    TestWorld<float> world(small_def());
+    EXPECT_EQ(world->step(1.0F / 64).substeps, 1) << "0.1197 cells";
+    EXPECT_EQ(world->step(1.0F / 60).substeps, 2) << "0.136 cells";
 }
 
 TEST(StepInput, LongTimeIsCut) {

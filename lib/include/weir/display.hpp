@@ -27,7 +27,8 @@ struct ChangedRows {
 };
 
 /// Draws the world over the whole display: the density of cells, bilinear between their centres,
-/// as after the last step; solids where the contour is. Integers only.
+/// as `World::density` knows it; solids where the contour is. Integers only. A display that cannot
+/// be, without pixels or of an odd width, is left as it is.
 /// Cost: about 60 instructions a pixel.
 template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display);

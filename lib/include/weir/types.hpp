@@ -38,6 +38,11 @@ struct BodyId {
     std::uint16_t slot = 0xFFFF;
     std::uint16_t generation = 0;
     std::uint16_t world = 0;
+
+    friend constexpr bool operator==(const BodyId& a, const BodyId& b) {
+        return a.slot == b.slot && a.generation == b.generation && a.world == b.world;
+    }
+    friend constexpr bool operator!=(const BodyId& a, const BodyId& b) { return !(a == b); }
 };
 
 /// A read-only window into memory that somebody else owns.

@@ -1,0 +1,79 @@
+// A small display of a world: what is asked for is drawn, and nonsense is left alone.
+#include "weir/display.hpp"
+
+#include <algorithm>
+
+#include "test_world.hpp"
+
+namespace weir {
+namespace {
+
+TEST(Display, WhatCannotBeIsLeftAsItIs) {
+    TestWorld<float> world(small_def());
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.2F, 0.1F}}));
+    world->step(0.01F);
+    std::vector<std::uint8_t> pixels(16 * 16, 0x33);
+    const std::vector<std::uint8_t> before = pixels;
+    const auto changed = [&](std::int32_t width, std::int32_t height, std::uint8_t* at) {
+        Display display;
+        display.width = width;
+        display.height = height;
+        display.pixels = at;
+        const ChangedRows rows = draw(*world, display);
+        return rows.first <= rows.last;
+    };
+    EXPECT_FALSE(changed(16, 16, nullptr));
+    for (const std::int32_t width : {15, 1, 0, -1, -16, 1026}) {
+        EXPECT_FALSE(changed(width, 8, pixels.data())) << width;
+    }
+    EXPECT_FALSE(changed(16, 0, pixels.data()));
+    EXPECT_FALSE(changed(16, -16, pixels.data()));
+    EXPECT_FALSE(changed(16, 1025, pixels.data()));
+    EXPECT_EQ(pixels, before);
+    EXPECT_TRUE(changed(16, 16, pixels.data()));
+    EXPECT_NE(pixels, before);
+}
+
+/// The right edge of the widest display of the widest tank.
+TEST(Display, ManyPixelsOverManyCells) {
+    WorldDef def = small_def();
+    def.capacity.cells_x = kMaxCells;
+    def.capacity.window_cells = 66 * 26;
+    TestWorld<float> world(def);
+    const float right = static_cast<float>(kMaxCells) * def.cell_m;
+    expect_ok(world->fill({{right - 0.16F, 0.0F}, {right, 0.1F}}));
+    world->step(0.01F);
+    std::vector<std::uint8_t> pixels(512 * 16, 0);
+    Display display;
+    display.width = 1024;
+    display.height = 16;
+    display.pixels = pixels.data();
+    draw(*world, display);
+    const auto last = pixels.begin() + 512 * 15;
+    EXPECT_EQ(*(last + 511) & 0x0F, display.liquid);
+    EXPECT_EQ(std::count(last, last + 511, 0), 511);
+}
+
+TEST(BodyName, TellsBodiesApart) {
+    TestWorld<float> world(small_def());
+    TestWorld<float> elsewhere(small_def());
+    BodyId first;
+    BodyId second;
+    BodyId other;
+    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &first));
+    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.2F, 0.1F}), &second));
+    expect_ok(elsewhere->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &other));
+    BodyId again;
+    expect_ok(world->body_in_slot(first.slot, &again));
+    EXPECT_TRUE(first == again);
+    EXPECT_FALSE(first != again);
+    EXPECT_TRUE(first != second);
+    EXPECT_TRUE(first != other) << "another world's";
+    expect_ok(world->remove_body(first));
+    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &again));
+    EXPECT_EQ(again.slot, first.slot);
+    EXPECT_TRUE(first != again);
+}
+
+}  // namespace
+}  // namespace weir
