@@ -107,9 +107,11 @@ void hold(const CoarseAxis<Real>& axis, CoarseFace<Real> face, std::int32_t cell
     }
 }
 
-/// Whether a face matters to the coarse grid: between two of its liquid cells, or at the surface.
-inline bool counts(bool wet_before, bool wet, bool between) {
-    return wet != wet_before || (wet && between);
+/// Faces that matter to the coarse grid, a bit each: those at the surface, and those between two of
+/// its cells, both of them liquid.
+inline std::uint32_t faces_that_count(std::uint32_t wet_before, std::uint32_t wet,
+                                      std::uint32_t between) {
+    return (wet ^ wet_before) | (wet & between);
 }
 
 /// Adds the face between cell `c` and the one before it. `at`: its place in its patch along the
@@ -229,25 +231,33 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
             return;
         }
     }
-    const auto wet = [&](std::int32_t c) {
-        return is_positive(Real(fields.level[c]));
+    // Of a row, the cell before the patch in the lowest bit.
+    const auto wet_bits = [&](std::int32_t y) {
+        const LevelOf<Real>* level = fields.level + s.index(patch.i - 1, patch.j + y);
+        std::uint32_t bits = 0;
+        for (std::int32_t x = patch.width; x >= 0; --x) {
+            bits = bits + bits + (is_positive(Real(level[x])) ? 1U : 0U);
+        }
+        return bits;
     };
+    const auto each = [](std::uint32_t bits, const auto& visit) {
+        for (; bits != 0; bits &= bits - 1U) {
+            visit(__builtin_ctz(bits) - 1);
+        }
+    };
+    const std::uint32_t cells = (2U << static_cast<std::uint32_t>(patch.width)) - 2U;
+    const std::uint32_t columns = (mixed ? cells : 2U) & (has_left ? ~0U : ~2U);
+    std::uint32_t under = wet_bits(-1);
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const std::int32_t row = s.index(patch.i, patch.j + y);
-        const std::int32_t last = mixed ? patch.width : 1;
-        for (std::int32_t x = has_left ? 0 : 1; x < last; ++x) {
-            if (counts(wet(row + x - 1), wet(row + x), x == 0)) {
-                add_u(row + x, x);
-            }
+        const std::uint32_t wet = wet_bits(y);
+        each(faces_that_count(wet << 1U, wet, 2U) & columns,
+             [&](std::int32_t x) { add_u(row + x, x); });
+        if (y > 0 ? mixed : has_lower) {
+            each(faces_that_count(under, wet, y == 0 ? cells : 0U) & cells,
+                 [&](std::int32_t x) { add_v(row + x, y); });
         }
-        if (y > 0 ? !mixed : !has_lower) {
-            continue;
-        }
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            if (counts(wet(row + x - s.stride), wet(row + x), y == 0)) {
-                add_v(row + x, y);
-            }
-        }
+        under = wet;
     }
 }
 

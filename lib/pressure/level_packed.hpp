@@ -73,8 +73,12 @@ struct DensityRow {
     const std::ptrdiff_t to_upper = to_lower + row.stride;
     const ShareOf<SmallFixed>* const full = row.full;
     const std::uint32_t per_face = row.per_face;
+    // Known here, since bytes that are stored may be anybody's.
+    DensityOf<SmallFixed>* const densities = row.density;
+    LevelOf<SmallFixed>* const levels = row.level;
+    const std::int32_t count = row.count;
     std::int32_t left = face->raw;
-    for (std::int32_t k = 0; k < row.count; ++k) {
+    for (std::int32_t k = 0; k < count; ++k) {
         const std::int32_t right = face[1].raw;
         const auto mass = static_cast<std::uint32_t>((left + right) +
                                                      (face[to_lower].raw + face[to_upper].raw));
@@ -87,8 +91,8 @@ struct DensityRow {
                 density = cut_density(row, k, density, slivers);
             }
         }
-        row.density[k].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
-        row.level[k].raw = packed_level(density);
+        densities[k].raw = static_cast<std::uint8_t>(minimum((density + 1) >> 1, 255));
+        levels[k].raw = packed_level(density);
     }
     return slivers;
 }
