@@ -107,11 +107,42 @@ void hold(const CoarseAxis<Real>& axis, CoarseFace<Real> face, std::int32_t cell
     }
 }
 
-/// Faces that matter to the coarse grid, a bit each: those at the surface, and those between two of
-/// its cells, both of them liquid.
-inline std::uint32_t faces_that_count(std::uint32_t wet_before, std::uint32_t wet,
-                                      std::uint32_t between) {
-    return (wet ^ wet_before) | (wet & between);
+/// Of a patch: whether it is neither full nor empty, and whether it has others before it.
+struct PatchSides {
+    bool mixed;
+    bool has_left;
+    bool has_lower;
+};
+
+/// Calls add_u(c, column) and add_v(c, row) for those faces before cells of a patch that the coarse
+/// grid asks for: at the surface, and between liquid cells of two patches. liquid(c): which cells
+/// of a row from c on hold liquid, a bit each; c0: the patch's first cell.
+template <class Level, class Liquid, class AddU, class AddV>
+inline void each_face_that_counts(const Patch& patch, const Level* level, std::int32_t stride,
+                                  std::int32_t c0, PatchSides sides, const Liquid& liquid,
+                                  const AddU& add_u, const AddV& add_v) {
+    const std::uint32_t behind_others = (1U << static_cast<std::uint32_t>(patch.width)) - 2U;
+    std::uint32_t under = sides.has_lower ? liquid(c0 - stride) : 0;
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        const std::int32_t c = c0 + y * stride;
+        const std::uint32_t here = liquid(c);
+        std::uint32_t on_u = sides.mixed ? (here ^ (here << 1U)) & behind_others : 0;
+        if (sides.has_left && ((here & 1U) != 0 || is_positive(level[c - 1]))) {
+            on_u |= 1U;
+        }
+        std::uint32_t on_v = sides.mixed ? here ^ under : 0;
+        if (y == 0) {
+            on_v = sides.has_lower ? here | under : 0;
+        }
+        for (; on_u != 0; on_u &= on_u - 1) {
+            const std::int32_t x = __builtin_ctz(on_u);
+            add_u(c + x, x);
+        }
+        for (; on_v != 0; on_v &= on_v - 1) {
+            add_v(c + __builtin_ctz(on_v), y);
+        }
+        under = here;
+    }
 }
 
 /// Adds the face between cell `c` and the one before it. `at`: its place in its patch along the
@@ -224,41 +255,24 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
     };
     const bool has_left = weights.has_left(patch.i);
     const bool has_lower = weights.has_lower(patch.j);
+    const std::int32_t first = s.index(patch.i, patch.j);
+    const PatchSides sides{mixed, has_left, has_lower};
     if constexpr (kHasLanes<Real>) {
         if (patch.width == kCoarseEdge) {
-            each_face_that_counts(fields.level, s.stride, s.index(patch.i, patch.j), patch.height,
-                                  {mixed, has_left, has_lower}, add_u, add_v);
+            each_face_that_counts(
+                patch, fields.level, s.stride, first, sides,
+                [&](std::int32_t c) { return liquid_bits(fields.level + c); }, add_u, add_v);
             return;
         }
     }
-    // Of a row, the cell before the patch in the lowest bit.
-    const auto wet_bits = [&](std::int32_t y) {
-        const LevelOf<Real>* level = fields.level + s.index(patch.i - 1, patch.j + y);
+    const auto liquid = [&](std::int32_t c) {
         std::uint32_t bits = 0;
-        for (std::int32_t x = patch.width; x >= 0; --x) {
-            bits = bits + bits + (is_positive(Real(level[x])) ? 1U : 0U);
+        for (std::int32_t k = c + patch.width - 1; k >= c; --k) {
+            bits = bits + bits + (is_positive(Real(fields.level[k])) ? 1U : 0U);
         }
         return bits;
     };
-    const auto each = [](std::uint32_t bits, const auto& visit) {
-        for (; bits != 0; bits &= bits - 1U) {
-            visit(__builtin_ctz(bits) - 1);
-        }
-    };
-    const std::uint32_t cells = (2U << static_cast<std::uint32_t>(patch.width)) - 2U;
-    const std::uint32_t columns = (mixed ? cells : 2U) & (has_left ? ~0U : ~2U);
-    std::uint32_t under = wet_bits(-1);
-    for (std::int32_t y = 0; y < patch.height; ++y) {
-        const std::int32_t row = s.index(patch.i, patch.j + y);
-        const std::uint32_t wet = wet_bits(y);
-        each(faces_that_count(wet << 1U, wet, 2U) & columns,
-             [&](std::int32_t x) { add_u(row + x, x); });
-        if (y > 0 ? mixed : has_lower) {
-            each(faces_that_count(under, wet, y == 0 ? cells : 0U) & cells,
-                 [&](std::int32_t x) { add_v(row + x, y); });
-        }
-        under = wet;
-    }
+    each_face_that_counts(patch, fields.level, s.stride, first, sides, liquid, add_u, add_v);
 }
 
 }  // namespace weir

@@ -36,44 +36,9 @@ inline LiquidCells count_liquid(const float* inverse, std::int32_t stride, std::
             (of_rows[0] + of_rows[1]) + (of_rows[2] + of_rows[3])};
 }
 
-/// Of a patch: whether it is neither full nor empty, and whether it has others before it.
-struct PatchSides {
-    bool mixed;
-    bool has_left;
-    bool has_lower;
-};
-
-/// Calls add_u(c, column) and add_v(c, row) for the faces before cells of a patch from cell c0 on
-/// that the coarse grid asks for, in the plain loop's order: at the surface, and between liquid
-/// cells of two patches.
-template <class AddU, class AddV>
-inline void each_face_that_counts(const float* level, std::int32_t stride, std::int32_t c0,
-                                  std::int32_t rows, PatchSides sides, const AddU& add_u,
-                                  const AddV& add_v) {
-    const auto liquid = [&](std::int32_t c) {
-        return bits_of(load_lanes(level + c) > all_lanes(0.0F));
-    };
-    std::uint32_t under = sides.has_lower ? liquid(c0 - stride) : 0;
-    for (std::int32_t y = 0; y < rows; ++y) {
-        const std::int32_t c = c0 + y * stride;
-        const std::uint32_t here = liquid(c);
-        std::uint32_t on_u = sides.mixed ? (here ^ (here << 1U)) & 0xEU : 0;
-        if (sides.has_left && ((here & 1U) != 0 || level[c - 1] > 0.0F)) {
-            on_u |= 1U;
-        }
-        std::uint32_t on_v = sides.mixed ? here ^ under : 0;
-        if (y == 0) {
-            on_v = sides.has_lower ? here | under : 0;
-        }
-        for (; on_u != 0; on_u &= on_u - 1) {
-            const std::int32_t x = __builtin_ctz(on_u);
-            add_u(c + x, x);
-        }
-        for (; on_v != 0; on_v &= on_v - 1) {
-            add_v(c + __builtin_ctz(on_v), y);
-        }
-        under = here;
-    }
+/// Which cells of a patch's row hold liquid, a bit each.
+inline std::uint32_t liquid_bits(const float* level) {
+    return bits_of(load_lanes(level) > all_lanes(0.0F));
 }
 
 /// What is left of the equations of cells from c on; 0 in air. `open_u` and `open_v`: open

@@ -111,8 +111,10 @@ template <bool Solids, bool Mixed, class Real>
 template <bool Solids, bool Mixed, class Real>
 void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
            PressureFields<Real>& fields) {
-    if constexpr (kHasFpuLoops<Real> && !Solids && !Mixed) {
-        relax_rows(weights.grid.shape, rows.low, rows.high, colour, kRelaxation<Real>, fields);
+    if constexpr (kHasFpuLoops<Real> && !Mixed) {
+        relax_rows(std::bool_constant<Solids>{}, weights.grid.shape, rows.low, rows.high, colour,
+                   kRelaxation<Real>, fields,
+                   [&](std::int32_t c) { relax_weighted(weights, c, fields); });
         return;
     }
     for (std::int32_t j = rows.low; j <= rows.high; ++j) {

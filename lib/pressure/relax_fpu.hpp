@@ -3,6 +3,8 @@
 // the bit.
 #pragma once
 
+#include <type_traits>
+
 #include "math/fpu.hpp"
 #include "pressure/pressure_fields.hpp"
 
@@ -22,9 +24,62 @@ namespace weir {
     "vadd.f32 s6, s6, " here "\n\t"                                    \
     "vstr s6, [%[p], #" place "]\n"
 
-/// So many cells of a row, every other one from `c` on: two at a time, and the last one. No inverse
-/// diagonal is negative.
-inline void relax_row(const PressureFields<float>& fields, std::int32_t c, std::int32_t stride,
+/// Sweeps over a row's cells, two at a time, and the last one. `test`: of an inverse diagonal, on
+/// to a label if the cell is to be passed over.
+#define WEIR_RELAX_ROW(test)                                                                  \
+    __asm__ volatile(                                                                         \
+        ".syntax unified\n\t"                                                                 \
+        "vldr s0, [%[p], #-4]\n\t"                                                            \
+        "b 3f\n"                                                                              \
+        "0:\n\t"                                                                              \
+        "vldmia %[p]!, {s1-s4}\n\t"                                                           \
+        "vldmia %[above]!, {s5-s8}\n\t"                                                       \
+        "vldmia %[below]!, {s9-s12}\n\t"                                                      \
+        "vadd.f32 s5, s5, s9\n\t"                                                             \
+        "vadd.f32 s7, s7, s11\n\t"                                                            \
+        "vldmia %[inverse]!, {s13-s16}\n\t"                                                   \
+        "vldmia %[divergence]!, {s9-s12}\n\t"                                                 \
+        "vmov %[some], s13\n\t"                                                               \
+        test("1f")                                                                            \
+        WEIR_RELAX("s0", "s1", "s2", "s5", "s9", "s13", "-16")                                \
+        "1:\n\t"                                                                              \
+        "vmov %[some], s15\n\t"                                                               \
+        test("2f")                                                                            \
+        WEIR_RELAX("s2", "s3", "s4", "s7", "s11", "s15", "-8")                                \
+        "2:\n\t"                                                                              \
+        "vmov.f32 s0, s4\n"                                                                   \
+        "3:\n\t"                                                                              \
+        "subs %[left], %[left], #2\n\t"                                                       \
+        "bpl 0b\n\t"                                                                          \
+        "lsls %[left], %[left], #31\n\t"                                                      \
+        "bpl 4f\n\t"                                                                          \
+        "ldr %[some], [%[inverse]]\n\t"                                                       \
+        test("4f")                                                                            \
+        "vmov s13, %[some]\n\t"                                                               \
+        "vldmia %[p], {s1-s2}\n\t"                                                            \
+        "vldr s5, [%[above]]\n\t"                                                             \
+        "vldr s9, [%[below]]\n\t"                                                             \
+        "vadd.f32 s5, s5, s9\n\t"                                                             \
+        "vldr s9, [%[divergence]]\n\t"                                                        \
+        WEIR_RELAX("s0", "s1", "s2", "s5", "s9", "s13", "0")                                  \
+        "4:\n\t"                                                                              \
+        : [p] "+&r"(p), [above] "+&r"(above), [below] "+&r"(below), [inverse] "+&r"(inverse),  \
+          [divergence] "+&r"(divergence), [some] "=&l"(some), [left] "+&r"(left),             \
+          [all] "+&r"(all)                                                                    \
+        : [omega] "t"(omega)                                                                  \
+        : "cc", "memory", "s0", "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9", "s10",  \
+          "s11", "s12", "s13", "s14", "s15", "s16")
+
+#define WEIR_UNLESS_ZERO(label) "cbz %[some], " label "\n\t"
+#define WEIR_IF_POSITIVE(label)      \
+    "orr %[all], %[all], %[some]\n\t" \
+    "cmp %[some], #0\n\t"            \
+    "ble " label "\n\t"
+
+/// So many cells of a row, every other one from `c` on, but those whose inverse diagonal is
+/// negative. Answers whether there are such.
+template <bool Solids>
+inline bool relax_row(const PressureFields<float>& fields, std::int32_t c, std::int32_t stride,
                       std::int32_t cells, float omega) {
     const float* p = fields.pressure + c;
     const float* above = p + stride;
@@ -32,57 +87,36 @@ inline void relax_row(const PressureFields<float>& fields, std::int32_t c, std::
     const float* divergence = fields.divergence + c;
     const float* inverse = fields.inverse_diagonal + c;
     std::int32_t left = cells;
+    std::int32_t all = 0;
     std::uint32_t some;
-    __asm__ volatile(".syntax unified\n\t"
-            "vldr s0, [%[p], #-4]\n\t"
-            "b 3f\n"
-            "0:\n\t"
-            "vldmia %[p]!, {s1-s4}\n\t"
-            "vldmia %[above]!, {s5-s8}\n\t"
-            "vldmia %[below]!, {s9-s12}\n\t"
-            "vadd.f32 s5, s5, s9\n\t"
-            "vadd.f32 s7, s7, s11\n\t"
-            "vldmia %[inverse]!, {s13-s16}\n\t"
-            "vldmia %[divergence]!, {s9-s12}\n\t"
-            "vmov %[some], s13\n\t"
-            "cbz %[some], 1f\n\t"
-            WEIR_RELAX("s0", "s1", "s2", "s5", "s9", "s13", "-16")
-            "1:\n\t"
-            "vmov %[some], s15\n\t"
-            "cbz %[some], 2f\n\t"
-            WEIR_RELAX("s2", "s3", "s4", "s7", "s11", "s15", "-8")
-            "2:\n\t"
-            "vmov.f32 s0, s4\n"
-            "3:\n\t"
-            "subs %[left], %[left], #2\n\t"
-            "bpl 0b\n\t"
-            "lsls %[left], %[left], #31\n\t"
-            "bpl 4f\n\t"
-            "ldr %[some], [%[inverse]]\n\t"
-            "cbz %[some], 4f\n\t"
-            "vmov s13, %[some]\n\t"
-            "vldmia %[p], {s1-s2}\n\t"
-            "vldr s5, [%[above]]\n\t"
-            "vldr s9, [%[below]]\n\t"
-            "vadd.f32 s5, s5, s9\n\t"
-            "vldr s9, [%[divergence]]\n\t"
-            WEIR_RELAX("s0", "s1", "s2", "s5", "s9", "s13", "0")
-            "4:\n\t"
-            : [p] "+&r"(p), [above] "+&r"(above), [below] "+&r"(below),
-              [divergence] "+&r"(divergence), [inverse] "+&r"(inverse), [some] "=&l"(some),
-              [left] "+&r"(left)
-            : [omega] "t"(omega)
-            : "cc", "memory", "s0", "s1", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9", "s10",
-              "s11", "s12", "s13", "s14", "s15", "s16");
+    if constexpr (Solids) {
+        WEIR_RELAX_ROW(WEIR_IF_POSITIVE);
+    } else {
+        WEIR_RELAX_ROW(WEIR_UNLESS_ZERO);
+    }
+    return Solids && all < 0;
 }
 
-/// Every other cell of rows `low` to `high` of a tank without solids, for one liquid.
-[[gnu::noinline]] inline void relax_rows(const GridShape& s, std::int32_t low, std::int32_t high,
+#undef WEIR_IF_POSITIVE
+#undef WEIR_UNLESS_ZERO
+#undef WEIR_RELAX_ROW
+
+/// Every other cell of rows `low` to `high`, for one liquid; one(c) does those that a wall touches.
+template <bool Solids, class One>
+[[gnu::noinline]] inline void relax_rows(std::bool_constant<Solids>, const GridShape& s,
+                                         std::int32_t low, std::int32_t high,
                                          std::int32_t colour, float omega,
-                                         const PressureFields<float>& fields) {
+                                         const PressureFields<float>& fields, const One& one) {
     for (std::int32_t j = low; j <= high; ++j) {
         const std::int32_t i = (j + colour) & 1;
-        relax_row(fields, s.index(i, j), s.stride, (s.nx - i + 1) / 2, omega);
+        std::int32_t c = s.index(i, j);
+        if (relax_row<Solids>(fields, c, s.stride, (s.nx - i + 1) / 2, omega)) {
+            for (const std::int32_t end = s.index(s.nx, j); c < end; c += 2) {
+                if (bound_key(fields.inverse_diagonal[c]) < 0) {
+                    one(c);
+                }
+            }
+        }
     }
 }
 

@@ -32,6 +32,8 @@ struct Fields {
     float inverse_diagonal[kEntries];
     float density[kEntries];
     float level[kEntries];
+    float open_u[kEntries];
+    float open_v[kEntries];
     float coarse[weir::kCoarseFields][kCoarseEntries];
     weir::Vec2<float> position[kParticles];
     weir::Vec2<float> velocity[kParticles];
@@ -132,8 +134,9 @@ weir::PressureFields<float> pressure() {
     return fields;
 }
 
-/// In tanks of all sizes that fit, two thirds full.
-void project() {
+/// In tanks of all sizes that fit, two thirds full; among solids an eighth of the faces are closed
+/// in part or altogether.
+void project(bool solids) {
     weir::StaggeredGrid<float> to = grid();
     weir::PressureFields<float> fields = pressure();
     to.shape.nx = 1 + static_cast<std::int32_t>(g_numbers.word() % kColumns);
@@ -145,6 +148,10 @@ void project() {
         g_fields.pressure[k] = number(5.0F);
         g_fields.density[k] = 1.0F + number(0.5F);
         g_fields.level[k] = -1.55F;
+        constexpr float kShares[] = {0.0F, 0.3F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F,
+                                     0.7F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+        g_fields.open_u[k] = kShares[g_numbers.word() % 16U];
+        g_fields.open_v[k] = kShares[g_numbers.word() % 16U];
     }
     for (std::int32_t j = 0; j < to.shape.ny; ++j) {
         for (std::int32_t i = 0; i < to.shape.nx; ++i) {
@@ -154,8 +161,16 @@ void project() {
     }
     fields.last_dt = 0.01F;
     fields.cell_weight = 0.1F;
-    weir::projection_in_open<float>({}, {}, 0.01F, 1 + static_cast<std::int32_t>(
-                                    g_numbers.word() % 4U), to, fields, {});
+    const std::int32_t sweeps = 1 + static_cast<std::int32_t>(g_numbers.word() % 4U);
+    weir::Walls<float> walls;
+    if (solids) {
+        walls.active = true;
+        walls.open_u = g_fields.open_u;
+        walls.open_v = g_fields.open_v;
+        weir::projection<float>({}, walls, 0.01F, sweeps, to, fields);
+    } else {
+        weir::projection_in_open<float>({}, walls, 0.01F, sweeps, to, fields, {});
+    }
     for (std::int32_t j = 0; j < to.shape.ny; ++j) {
         for (std::int32_t i = 0; i < to.shape.nx; ++i) {
             const std::int32_t c = to.shape.index(i, j);
@@ -193,7 +208,7 @@ int main() {
     }
     tell("gather");
     for (std::int32_t round = 0; round < kRounds; ++round) {
-        project();
+        project(round % 2 == 1);
     }
     tell("project");
     for (std::int32_t round = 0; round < kRounds; ++round) {
