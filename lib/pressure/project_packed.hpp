@@ -22,20 +22,23 @@ template <bool Solids>
 [[gnu::noinline]] void project_faces(const PressureFields<SmallFixed>& fields,
                                      const ShareOf<SmallFixed>* open, std::int32_t back,
                                      const Part& faces, VelocityOf<SmallFixed>* velocity) {
-    const LevelOf<SmallFixed>* const level = fields.level;
+    const LevelOf<SmallFixed>* at = fields.level + faces.first;
+    const LevelOf<SmallFixed>* const end = fields.level + faces.end;
     const SmallFixed* p = fields.pressure + faces.first;
-    for (std::int32_t face = faces.first; face < faces.end; ++face, p = whole(p + 1)) {
-        const std::int32_t own = level[face].raw;
-        const std::int32_t before = level[face - back].raw;
+    velocity += faces.first;
+    for (; at != end; at = whole(at + 1), p = whole(p + 1), velocity = whole(velocity + 1)) {
+        const std::int32_t own = at->raw;
+        const std::int32_t before = at[-back].raw;
         if (own <= 0 && before <= 0) {
             continue;
         }
+        const auto face = static_cast<std::int32_t>(at - fields.level);
         const std::int32_t share = Solids ? open[face].raw : 128;
         if (share > 0) {
             const std::int32_t rise = own > 0 && before > 0
                                           ? p[0].raw - p[-back].raw
                                           : rise_at_surface(fields, face - back, face, share);
-            velocity[face].raw = short_of(velocity[face].raw - rounded_shift(rise, 9));
+            velocity->raw = short_of(velocity->raw - rounded_shift(rise, 9));
         }
     }
 }
