@@ -39,18 +39,19 @@ template <class Real, class Light>
 inline void project_faces(VelocityOf<Real>* velocity, std::int32_t c, std::int32_t end,
                           std::int32_t back, const ShareOf<Real>* open, const Light& light,
                           const PressureFields<Real>& fields) {
-    const LevelOf<Real>* level = fields.level;
-    const Real* p = fields.pressure;
-    const auto wide = [&] {
-        return open == nullptr || bound_key(Real(open[c])) == bound_key(Real(1));
-    };
-    for (; c < end; ++c) {
-        const bool wet = is_positive<Real>(level[c]);
-        const bool wet_before = is_positive<Real>(level[c - back]);
-        if (wet && wet_before && wide()) {
-            velocity[c] -= light(c) * (p[c] - p[c - back]);
+    const LevelOf<Real>* at = fields.level + c;
+    const LevelOf<Real>* const last = fields.level + end;
+    const Real* p = fields.pressure + c;
+    VelocityOf<Real>* pushed = velocity + c;
+    const auto face = [&] { return static_cast<std::int32_t>(at - fields.level); };
+    for (; at < last; at = whole(at + 1), p = whole(p + 1), pushed = whole(pushed + 1)) {
+        const bool wet = is_positive<Real>(at[0]);
+        const bool wet_before = is_positive<Real>(at[-back]);
+        if (wet && wet_before &&
+            (open == nullptr || bound_key(Real(open[face()])) == bound_key(Real(1)))) {
+            *pushed -= light(face()) * (p[0] - p[-back]);
         } else if (wet || wet_before) {
-            accelerate(velocity, c, c - back, light(c), open, fields);
+            accelerate(velocity, face(), face() - back, light(face()), open, fields);
         }
     }
 }
