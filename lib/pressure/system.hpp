@@ -132,26 +132,28 @@ void build_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
     const Walls<Real>& walls = weights.walls;
     const GridShape& s = weights.grid.shape;
     const std::int32_t up = s.stride;
-    const LevelOf<Real>* level = fields.level;
-    const auto wet = [&](std::int32_t c) { return is_positive(Real(level[c])); };
     const bool row_inside =
         !Mixed && (weights.borders.wrap_y || (j > 0 && j + 1 < s.ny));
     const std::int32_t first_inside = weights.borders.wrap_x ? 0 : 1;
-    const std::int32_t last_inside = s.nx - 1 - first_inside;
+    const auto inside =
+        static_cast<std::uint32_t>(row_inside ? maximum(0, s.nx - 2 * first_inside) : 0);
     const Real rescale = system.rescale;
     Product<Real> wanted = system.wanted;
     Product<Real> there = system.there;
     bool any = false;
-    for (std::int32_t c = s.index(i, j); i < end; ++i, ++c) {
-        if (!wet(c)) {
+    std::int32_t c = s.index(i, j);
+    const LevelOf<Real>* level = fields.level + c;
+    const auto wet = [&](std::int32_t further) { return is_positive(Real(level[further])); };
+    for (; i < end; ++i, ++c, level = whole(level + 1)) {
+        if (!wet(0)) {
             fields.inverse_diagonal[c] = Real(0);
             if (!fields.on_surface) {  // otherwise other rows read it meanwhile
                 fields.pressure[c] = Real(0);
             }
             continue;
         }
-        const bool plain = row_inside && i >= first_inside && i <= last_inside && wet(c - 1) &&
-                           wet(c + 1) && wet(c - up) && wet(c + up) &&
+        const bool plain = static_cast<std::uint32_t>(i - first_inside) < inside && wet(-1) &&
+                           wet(1) && wet(-up) && wet(up) &&
                            (!Solids || (untouched(walls, c, c + up) &&
                                         !(walls.moving && touches_wall(walls, c))));
         const Equation<Real> equation = plain ? plain_equation(weights.grid, c, leap, fields)
