@@ -32,8 +32,9 @@ inline Real surface_share(Real weight, Real open, Real level, std::int32_t neigh
 
 /// Sum of what a liquid cell's faces add to its diagonal.
 template <bool Solids, bool Mixed, class Real>
-Real diagonal_of(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
-                 const PressureFields<Real>& fields) {
+[[gnu::always_inline]] inline Real diagonal_of(const FaceWeights<Solids, Mixed, Real>& weights,
+                                               std::int32_t i, std::int32_t j,
+                                               const PressureFields<Real>& fields) {
     const std::int32_t c = weights.grid.shape.index(i, j);
     const std::int32_t up = c + weights.grid.shape.stride;
     const std::int32_t down = c - weights.grid.shape.stride;
@@ -50,8 +51,9 @@ Real diagonal_of(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
 /// What flows out of it, less what is asked for and what pressure on the surface answers. `wide`:
 /// all its faces are.
 template <bool Solids, bool Mixed, class Real>
-Real divergence_of(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j,
-                   bool wide, const Leap<Real>& leap, const PressureFields<Real>& fields) {
+[[gnu::always_inline]] inline Real divergence_of(
+    const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j, bool wide,
+    const Leap<Real>& leap, const PressureFields<Real>& fields) {
     const Walls<Real>& walls = weights.walls;
     const GridShape& s = weights.grid.shape;
     const std::int32_t c = s.index(i, j);
