@@ -133,8 +133,11 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
     const bool own_row = targets.has(patch.q);
     Real own = Real(0);
     for (std::int32_t y = 0; y < patch.height; ++y) {
+        const std::int32_t row = s.index(patch.i, patch.j + y);
+        const Real of_above = to.of_above[y];
+        Real* const vertical = coarse.residual + to.above[y];
         for (std::int32_t x = 0; x < patch.width; ++x) {
-            const std::int32_t c = s.index(patch.i + x, patch.j + y);
+            const std::int32_t c = whole(row + x);
             const Real inverse = fields.inverse_diagonal[c];
             if (is_zero(inverse)) {
                 continue;
@@ -145,13 +148,13 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
                 (bound_key(inverse) == bound_key(Real(0.25)) ? Real(4) * held
                                                              : held / absolute(inverse));
             const Real beside = to.of_beside[x] * residual;
-            const Real above = to.of_above[y] * residual;
+            const Real above = of_above * residual;
             own += residual - (beside + above);
             if (own_row) {
                 coarse.residual[to.beside[x]] += beside;
             }
             if (targets.has(to.above[y])) {
-                coarse.residual[to.above[y]] += above;
+                *vertical += above;
             }
         }
     }
