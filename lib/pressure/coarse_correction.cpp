@@ -196,9 +196,11 @@ void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>
     for (std::int32_t y = 0; y < patch.height; ++y) {
         const Real row = own + from.of_above[y] * (e[from.above[y]] - own);
         const std::int32_t c = s.index(patch.i, patch.j + y);
+        const VelocityOf<Real>* const inverse = fields.inverse_diagonal + c;
+        Real* const p = fields.pressure + c;
         for (std::int32_t x = 0; x < patch.width; ++x) {
-            if (!is_zero(Real(fields.inverse_diagonal[c + x]))) {
-                fields.pressure[c + x] += row + column[x];
+            if (!is_zero(Real(inverse[x]))) {
+                p[x] += row + column[x];
             }
         }
     }
