@@ -85,10 +85,12 @@ template <class Real>
                                       minimum<Real>(f.level[c - s.stride], f.level[c + s.stride])));
 }
 
-/// Beside closed faces: what is behind them is no surface.
+/// Beside closed faces: what is behind them is no surface. What has little room shows little, and
+/// the density of few particles is known to the slack.
 template <class Real>
-Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
-                        const PressureFields<Real>& f, const Held<Real>& held, std::int32_t c) {
+[[gnu::noinline]] Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
+                                          const PressureFields<Real>& f, const Held<Real>& held,
+                                          std::int32_t c) {
     Real lowest = f.level[c];
     const auto look = [&](Real open, std::int32_t neighbour) {
         lowest = open > Real(0) ? minimum<Real>(lowest, f.level[neighbour]) : lowest;
@@ -97,7 +99,9 @@ Real excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
     look(walls.open_u[c + 1], c + 1);
     look(walls.open_v[c], c - s.stride);
     look(walls.open_v[c + s.stride], c + s.stride);
-    return excess<Real>(f, held, c, lowest);
+    const Real e = excess<Real>(f, held, c, lowest);
+    const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
+    return known * minimum<Real>(Real(1), walls.full_density[c]);
 }
 
 template <class Real>
@@ -173,8 +177,7 @@ inline void find_excess_by_words(const GridShape& s, const Walls<float>& walls,
 }
 #endif
 
-/// The same of the cells beside closed faces. What has little room shows little, and the density of
-/// few particles is known to the slack.
+/// The same of the cells beside closed faces. Where it is dry there is none.
 template <class Real>
 void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
                               const Held<Real>& held, PressureFields<Real>& fields, Work work) {
@@ -183,20 +186,19 @@ void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
         find_excess_by_words(s, walls, excess_limits(fields, held), rows, fields);
         return;
     }
+    const auto wet = [&](std::int32_t c) { return is_positive(Real(fields.level[c])); };
     const auto look = [&](std::int32_t c) {
-        if (fields.level[c] > Real(0)) {  // else there is none
-            const Real e = excess_beside_wall(s, walls, fields, held, c);
-            const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
-            fields.divergence[c] = known * minimum<Real>(Real(1), walls.full_density[c]);
-        }
+        fields.divergence[c] = excess_beside_wall(s, walls, fields, held, c);
     };
     for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
         const std::int32_t c = s.index(i, j);
-        look(c);
-        if (i > 0 && !is_near(walls, s, i - 1, j)) {
+        if (wet(c)) {
+            look(c);
+        }
+        if (i > 0 && wet(c - 1) && !is_near(walls, s, i - 1, j)) {
             look(c - 1);
         }
-        if (j > 0 && !is_near(walls, s, i, j - 1)) {
+        if (j > 0 && wet(c - s.stride) && !is_near(walls, s, i, j - 1)) {
             look(c - s.stride);
         }
     });
