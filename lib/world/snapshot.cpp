@@ -344,6 +344,7 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
     go_through<MemberRead>(take, true, plan, *state_);
     redraw(state_->simulation);
     state_->stepping = false;
+    state_->density_stale = true;
     return Status::ok;
 }
 

@@ -72,8 +72,8 @@ void region_members(Stream& stream, std::int32_t particles, Regions<Real>& recor
 /// gravity changes by a call. Walls are drawn again from the bodies.
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
-    auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, unit_exponent, still_s,
-           still_gravity, pending, substeps_left, plan, progress, report] = state;
+    auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, density_stale, unit_exponent,
+           still_s, still_gravity, pending, substeps_left, plan, progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
                             bodies, layers, walls_behind, walls_moved, free_bodies, body_diagonal,
                             contacts, gathered, extent, max_speed, ticks, stages,

@@ -1,12 +1,11 @@
-// The world's life: memory and views of the grid. Liquid is in world_liquid.cpp, bodies in
-// world_bodies.cpp, the step in world_step.cpp.
+// The world's life: memory. Liquid is in world_liquid.cpp, bodies in world_bodies.cpp, views of the
+// grid in world_views.cpp, the step in world_step.cpp.
 #include "weir/world.hpp"
 
 #include <cstring>
 #include <new>
 
 #include "math/lanes.hpp"
-#include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "step/window.hpp"
 #include "world/world_state.hpp"
@@ -237,20 +236,6 @@ void name_units(WorldState<Real>& state) {
     contacts.world = state.tag;
 }
 
-template <class Number>
-FieldView<Number> view_of(const Number* field, const GridShape& window) {
-    return {field + window.index(0, 0), window.nx, window.ny, window.stride, window.i0, window.j0};
-}
-
-/// What is looked at between steps also shows those who sleep.
-template <class Real>
-void show_asleep(WorldState<Real>& state) {
-    Simulation<Real>& simulation = state.simulation;
-    if (simulation.regions != nullptr && !state.stepping) {
-        simulation.regions->stages->show_fields(simulation);
-    }
-}
-
 /// Different for two worlds that live at the same time. Part of names only, never of the state.
 std::uint16_t tag_of(const void* memory) {
     const auto address = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(memory));
@@ -318,55 +303,6 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
 }
 
 template <class Real>
-FieldView<Real> World<Real>::pressure() const {
-    if (state_ == nullptr) {
-        return {};
-    }
-    show_asleep(*state_);
-    return view_of(state_->simulation.pressure.pressure, stored_part(state_->simulation));
-}
-
-template <class Real>
-FieldView<DensityOf<Real>> World<Real>::density() const {
-    if (state_ == nullptr) {
-        return {};
-    }
-    show_asleep(*state_);
-    return view_of(state_->simulation.pressure.density, stored_part(state_->simulation));
-}
-
-template <class Real>
-float World<Real>::pressure_scale() const {
-    if (state_ == nullptr || !(state_->simulation.pressure.last_dt > Seconds<Real>{})) {
-        return 0.0F;
-    }
-    const float scale = velocity_scale();
-    return scale * scale / static_cast<float>(state_->simulation.pressure.last_dt);
-}
-
-template <class Real>
-float World<Real>::velocity_scale() const {
-    return state_ == nullptr ? 0.0F : state_->def.cell_m * units_per_s(*state_);
-}
-
-template <class Real>
-FieldView<DistanceOf<Real>> World<Real>::signed_distance() const {
-    if (state_ == nullptr || state_->def.capacity.bodies == 0) {
-        return {};
-    }
-    const GridShape s = stored_part(state_->simulation);
-    return {state_->simulation.layers.walls.distance + s.index(0, 0), s.nx + 1, s.ny + 1, s.stride,
-            s.i0, s.j0};
-}
-
-template <class Real>
-View<Contact> World<Real>::contacts() const {
-    return state_ == nullptr ? View<Contact>{}
-                             : View<Contact>{state_->simulation.contacts.entry,
-                                             state_->simulation.contacts.used};
-}
-
-template <class Real>
 float World<Real>::cell_m() const {
     return state_ == nullptr ? 0.0F : state_->def.cell_m;
 }
@@ -381,18 +317,12 @@ std::int32_t World<Real>::cells_y() const {
     return state_ == nullptr ? 0 : state_->def.capacity.cells_y;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                 \
-    template Status World<Real>::init_with(const detail::Features<Real>&,      \
-                                           const WorldDef&, void*,             \
-                                           std::size_t);                       \
-    template FieldView<Real> World<Real>::pressure() const;                    \
-    template FieldView<DensityOf<Real>> World<Real>::density() const;          \
-    template float World<Real>::pressure_scale() const;                        \
-    template float World<Real>::velocity_scale() const;                        \
-    template FieldView<DistanceOf<Real>> World<Real>::signed_distance() const; \
-    template View<Contact> World<Real>::contacts() const;                      \
-    template float World<Real>::cell_m() const;                                \
-    template std::int32_t World<Real>::cells_x() const;                        \
+#define WEIR_INSTANTIATE(Real)                                            \
+    template Status World<Real>::init_with(const detail::Features<Real>&, \
+                                           const WorldDef&, void*,        \
+                                           std::size_t);                  \
+    template float World<Real>::cell_m() const;                           \
+    template std::int32_t World<Real>::cells_x() const;                   \
     template std::int32_t World<Real>::cells_y() const;
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

@@ -1,11 +1,9 @@
 // Diagnostics: sums over particles, and one scatter for what only the grid can tell. The grid's
 // arrays are free between steps, so looking changes nothing.
-#include "pressure/surface_level.hpp"
 #include "step/grid_update.hpp"
-#include "step/particle_to_grid.hpp"
 #include "step/regions.hpp"
-#include "step/substep.hpp"
 #include "step/window.hpp"
+#include "world/find_levels.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
@@ -80,7 +78,6 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
         return Status::output_missing;
     }
     Simulation<Real>& simulation = state_->simulation;
-    const Borders<Real>& borders = simulation.settings.borders;
     const double cell_m = static_cast<double>(state_->def.cell_m);
     *diagnostics = {};
     const auto per_s = static_cast<double>(units_per_s(*state_));
@@ -91,12 +88,10 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
             return Status::ok;
         }
     }
-    particle_to_grid<Real>(simulation.particles, borders, simulation.settings.second_density,
-                           simulation.grid, simulation.layers.walls.thin);
-    surface_level(simulation.grid, borders, simulation.layers.walls,
-                  simulation.settings.rest_count, simulation.pressure,
-                  simulation.stages->empty_slivers);
-    grid_update(borders, Vec2<Real>{}, Seconds<Real>{}, simulation.pressure.level, simulation.grid);
+    scatter_all(simulation);
+    find_levels(simulation);
+    grid_update(simulation.settings.borders, Vec2<Real>{}, Seconds<Real>{},
+                simulation.pressure.level, simulation.grid);
     sum_cells(simulation, cell_m, *diagnostics);
     diagnostics->divergence_per_s *= per_s;
     simulation.grid.shape = simulation.layers.shape;

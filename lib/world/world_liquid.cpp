@@ -64,6 +64,13 @@ void add(Simulation<Real>& simulation, Vec2<Real> at, Vec2<Real> velocity, Liqui
     }
 }
 
+/// There are other particles now.
+template <class Real>
+void note_changed(WorldState<Real>& state) {
+    state.density_stale = true;
+    wake(state);
+}
+
 }  // namespace
 
 template <class Real>
@@ -107,7 +114,7 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
         return Status::no_free_particle;
     }
     each_seed([&](Vec2<Real> at) { add(simulation, at, {}, kind); });
-    wake(*state_);
+    note_changed(*state_);
     if (added != nullptr) {
         *added = seeds;
     }
@@ -141,7 +148,7 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
     const Vec2<Real> velocity =
         convert<Real>(pace_of(*state_) * convert<Face<Real>>(velocity_mps));
     add(simulation, inside, velocity, kind);
-    wake(*state_);
+    note_changed(*state_);
     simulation.max_speed = maximum(simulation.max_speed,
                                    maximum(absolute(velocity.x), absolute(velocity.y)));
     return Status::ok;
@@ -162,7 +169,7 @@ Status World<Real>::remove_particle(std::int32_t index) {
         index = simulation.regions->stages->part_with(simulation, index);
     }
     particles.remove(index);
-    wake(*state_);
+    note_changed(*state_);
     return Status::ok;
 }
 

@@ -14,7 +14,9 @@ struct WorldState {
     Face<Real> cells_per_m = Face<Real>(0);
     float stepped_s = 0.0F;        ///< in the last step
     std::uint16_t tag = 0;         ///< this world's own, in the names of its bodies
-    bool stepping = false;         ///< a step was begun and is not yet done
+    // A byte for both: none is left. `State()` makes them 0.
+    bool stepping : 1;       ///< a step was begun and is not yet done
+    bool density_stale : 1;  ///< particles are others than the last substep's
     std::int8_t unit_exponent = 0;  ///< of the unit of time, a power of 2 s; ask `unit_of`
     float still_s = 0.0F;          ///< for so long nothing has moved, at most Sleep::after_s
     Vec2f still_gravity_mps2;      ///< in that time

@@ -85,6 +85,7 @@ void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepR
         report.substeps = plan.substeps;
         state.plan = plan;
         state.substeps_left = plan.substeps;
+        state.density_stale = false;
     }
     state.stepped_s = report.dt_s;
 }

@@ -128,7 +128,9 @@ public:
     /// `pressure_scale()` for p / ρ in m²/s², ρ the first liquid's. Columns and rows are cells.
     FieldView<Real> pressure() const;
     float pressure_scale() const;
-    /// How full each cell is, 1 = at rest, as of the last substep's beginning.
+    /// How full each cell is, 1 = at rest, as of the last substep's beginning. After `restore`, and
+    /// after particles were added or removed, as they stand now: the first look then costs about as
+    /// much as a scatter.
     FieldView<DensityOf<Real>> density() const;
     /// Signed distance to the nearest solid at the grid's nodes, cells; negative inside, outside
     /// at most `kFarFromSolids`. Contour::mid_edge: −½ and ½, the binary matrix. Empty if the
