@@ -19,6 +19,32 @@ T* numbered_from(T* first, std::int32_t number) {
 }  // namespace
 
 template <class Real>
+NodeBox all_drawn(const BodyTable<Real>& bodies) {
+    NodeBox all;
+    for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
+        const Body<Real>& body = bodies.body[slot];
+        if (body.kind != BodyKind::free && !body.drawn.empty()) {
+            const NodeBox& one = body.drawn;
+            all = all.empty() ? one
+                              : NodeBox{minimum(all.i0, one.i0), minimum(all.j0, one.j0),
+                                        maximum(all.i1, one.i1), maximum(all.j1, one.j1)};
+        }
+    }
+    return all;
+}
+
+template <class Real>
+bool any_drawn(const BodyTable<Real>& bodies, const NodeBox& nodes) {
+    for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
+        const Body<Real>& body = bodies.body[slot];
+        if (body.kind != BodyKind::free && overlap(body.drawn, nodes)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <class Real>
 PictureBeyond<Real>::PictureBeyond(const GridShape& tank, const Walls<Real>& walls,
                                    std::int32_t i, std::int32_t j, std::int32_t around)
     : shape_(tank), walls_(walls) {
@@ -65,7 +91,10 @@ void PictureBeyond<Real>::draw(const BodyTable<Real>& bodies, const NodeBox& nod
     draw_all(BodyKind::moving);
 }
 
-#define WEIR_INSTANTIATE(Real) template class PictureBeyond<Real>;
+#define WEIR_INSTANTIATE(Real)                               \
+    template NodeBox all_drawn(const BodyTable<Real>&);      \
+    template bool any_drawn(const BodyTable<Real>&, const NodeBox&); \
+    template class PictureBeyond<Real>;
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

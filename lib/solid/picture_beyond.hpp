@@ -6,6 +6,14 @@
 
 namespace weir {
 
+/// The nodes that any body may be drawn at.
+template <class Real>
+NodeBox all_drawn(const BodyTable<Real>& bodies);
+/// Whether a body is drawn at any of those nodes. Where none is, all is open, and there is no need
+/// for a picture.
+template <class Real>
+bool any_drawn(const BodyTable<Real>& bodies, const NodeBox& nodes);
+
 /// Of the cell (i, j) of a tank of which a part is stored: its nodes and, if `around` is 1, those
 /// next to them.
 /// Cost: a comparison a body, and of those that are near all edges.

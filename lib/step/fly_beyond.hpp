@@ -1,11 +1,20 @@
 // Stage: those that a window leaves out.
 #pragma once
 
+#include "solid/picture_beyond.hpp"
 #include "step/gather.hpp"
 #include "step/tank_walls.hpp"
 #include "step/window.hpp"
 
 namespace weir {
+
+/// The nodes of all cells that a way touches, and of those around them.
+template <class Real>
+NodeBox nodes_around(Vec2<Real> from, Vec2<Real> to) {
+    const auto cell = [](Real place) { return static_cast<std::int32_t>(place); };
+    return {cell(minimum(from.x, to.x)) - 1, cell(minimum(from.y, to.y)) - 1,
+            cell(maximum(from.x, to.x)) + 2, cell(maximum(from.y, to.y)) + 2};
+}
 
 /// Moves the particles that are left out: they fall, and meet the tank's walls and the solids.
 template <bool Solids, class Real>
@@ -20,6 +29,10 @@ void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
     const Vec2<Real> size{static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)};
     TransferResult<Real> moved;
     CollideResult<Real> collisions;
+    NodeBox drawn;
+    if (Solids && !part.empty()) {
+        drawn = all_drawn(simulation.bodies);
+    }
     // From the last one on: who takes the place of one that is removed has been moved.
     for (std::int32_t k = -1 - part.first; k > -1 - part.end; --k) {
         const Vec2<PositionOf<Real>> before = particles.position[k];
@@ -31,7 +44,8 @@ void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
         particles.position[k] = x;
         particles.velocity[k] = v;
         if constexpr (Solids) {
-            if (simulation.bodies.used > 0) {
+            const NodeBox near = nodes_around(Vec2<Real>(before), x);
+            if (overlap(near, drawn) && any_drawn(simulation.bodies, near)) {
                 collide(tank, simulation.layers.walls,
                         {&before, moved.far > 0, simulation.walls_moved_s, false, true}, k, 1,
                         particles, simulation.contacts, collisions);

@@ -1,6 +1,9 @@
 // Windows of tanks with bodies: the picture of the solids is drawn again wherever the window goes,
 // and around single particles beyond it.
+#include "solid/contour_hit.hpp"
+#include "step/fly_beyond.hpp"
 #include "window_life.hpp"
+#include "world/world_state.hpp"
 
 namespace weir {
 namespace {
@@ -34,6 +37,51 @@ TYPED_TEST(WindowBodies, LoseNobodyHoweverSmallItIs) {
     for (std::int32_t kind = kKinds; kind < kAllKinds; ++kind) {
         expect_nobody_lost<TypeParam>(kind);
     }
+}
+
+/// Whoever is beyond and goes where no body is drawn is not collided: in all cells that it can
+/// touch, and in those beside them, the picture of the whole tank is open.
+TYPED_TEST(WindowBodies, OpenWaysNeedNoPicture) {
+    using Real = TypeParam;
+    TestWorld<Real> world(wide_def(9));
+    TestWorld<Real> twin(wide_def(9));
+    Nomads<Real> nomads(9, 5);
+    Dice dice(17);
+    std::int32_t open = 0;
+    std::int32_t near_bodies = 0;
+    for (std::int32_t step = 0; step < 30; ++step) {
+        nomads.disturb_bodies(*world, *twin);
+        world->step(0.01F);
+        twin->step(0.01F);
+        const auto& simulation =
+            reinterpret_cast<detail::WorldState<Real>*>(world.memory())->simulation;
+        const NodeBox drawn = all_drawn(simulation.bodies);
+        for (std::int32_t k = 0; k < 2000; ++k) {
+            const auto place = [&](float middle_x, float middle_y, float off) {
+                return Vec2<Real>{static_cast<Real>(middle_x + dice.uniform(-off, off)),
+                                  static_cast<Real>(middle_y + dice.uniform(-off, off))};
+            };
+            const float x = dice.uniform(6.0F, 244.0F);
+            const float y = dice.uniform(6.0F, 144.0F);
+            const Vec2<Real> from = place(x, y, 2.0F);
+            const Vec2<Real> to = place(x, y, 2.0F);
+            const NodeBox near = nodes_around(from, to);
+            if (any_drawn(simulation.bodies, near)) {
+                ++near_bodies;
+                EXPECT_TRUE(overlap(near, drawn));
+                continue;
+            }
+            ++open;
+            for (const Real at : {Real(0), Real(0.25), Real(0.5), Real(0.75), Real(1)}) {
+                const Vec2<Real> on = from + at * (to - from);
+                ASSERT_FALSE(is_inside(simulation.layers.shape, simulation.layers.walls, on));
+                ASSERT_EQ(case_at(simulation.layers.shape, simulation.layers.walls, on),
+                          kCellOutside);
+            }
+        }
+    }
+    EXPECT_GT(open, 1000);
+    EXPECT_GT(near_bodies, 1000);
 }
 
 /// Where no picture is stored drops fall into a bowl and on a plate that rises: they come through
