@@ -87,9 +87,15 @@ inline void clear_rows(const GridShape& s, const Part& rows, Field* field) {
 template <class Real>
 inline constexpr bool kHasWindow = !Stored<Real>::shares_momentum;
 
+/// `least_head` in packed worlds, in 64ths and in cells.
+inline constexpr std::int32_t kHeadRaw = 3;
+template <class Real>
+inline constexpr Real kPackedHead = Real(kHeadRaw / 64.0);
+
 /// Level of a cell that no particle reaches, cells.
 template <class Real>
-inline constexpr Real kEmptyLevel = Real(Stored<Real>::coarse ? -1.5 : -1.55);
+inline constexpr Real kEmptyLevel =
+    Real(Stored<Real>::coarse ? -1.5 - kHeadRaw / 64.0 : -1.55);
 
 /// Velocity before the step of a face that no particle reaches: 0, though not the 0 of one where
 /// all is at rest. Fixed point has one 0, and does not know.

@@ -318,7 +318,7 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
         if (Mixed) {
             join_faces(weights.borders, big, coarse.reach_u, coarse.reach_v);
         }
-        coarse.first_row = big.ny;
+        coarse.first_row = static_cast<std::int16_t>(big.ny);
         coarse.last_row = -1;
     }
     const Part rows = work.take(big.ny, big.nx);
@@ -331,8 +331,10 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
                  (coarse.weight_v[q] + coarse.weight_v[q + big.stride]));
             const bool wet = coarse.residual[q] > Real(0) && diagonal > Real(0);
             coarse.inverse_diagonal[q] = wet ? Real(1) / diagonal : Real(0);
-            coarse.first_row = wet ? minimum(coarse.first_row, j) : coarse.first_row;
-            coarse.last_row = wet ? j : coarse.last_row;
+            if (wet) {
+                coarse.last_row = static_cast<std::int16_t>(j);
+                coarse.first_row = minimum(coarse.first_row, coarse.last_row);
+            }
         }
     }
 }

@@ -21,13 +21,15 @@ inline constexpr std::int8_t kDepth[] = {
 /// Level of an air cell that is taken as filled.
 inline constexpr std::int32_t kFilledRaw = 32;
 
+static_assert(SmallFixed(LevelOf<SmallFixed>::of_raw(1)).raw == 1024, "levels are 64ths");
+
 /// Levels of densities in 256ths: of what is more than half full, as much above a cell's centre as
-/// those of what it lacks are below.
+/// those of what it lacks are below; less the head.
 struct PackedLevels {
     constexpr PackedLevels() {
         for (std::int32_t density = 0; density <= 256; ++density) {
-            of[density] = static_cast<std::int8_t>(density <= 128 ? -kDepth[density]
-                                                                  : kDepth[256 - density]);
+            const std::int32_t height = density <= 128 ? -kDepth[density] : kDepth[256 - density];
+            of[density] = static_cast<std::int8_t>(height - kHeadRaw);
         }
     }
     std::int8_t of[257] = {};

@@ -22,8 +22,8 @@ struct CoarseGrid {
     Real* reach_v = nullptr;
     Real* centre_x = nullptr;  ///< mean of the liquid cells' columns within the coarse cell, 0 … 3
     Real* centre_y = nullptr;
-    std::int32_t first_row = 0;  ///< of those that hold liquid
-    std::int32_t last_row = -1;
+    std::int16_t first_row = 0;  ///< of those that hold liquid
+    std::int16_t last_row = -1;
 };
 
 /// One solve, between its parts.
@@ -55,9 +55,10 @@ struct PressureFields {
     /// density. Liquids that overturned gained 0.9 % in energy by it.
     bool leaps = true;
     /// Packed worlds drift every other substep: 1 and the cells that the last one found overfull;
-    /// 0: it had none. Others: substeps since leaning surfaces were quieted, kQuietEvery if there
-    /// was none.
-    std::uint16_t turn = 0;
+    /// 0: it had none.
+    std::uint16_t drift_turn = 0;
+    /// Substeps since leaning surfaces were quieted, kQuietEvery if there was none.
+    std::uint16_t quiet_turn = 0;
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most 1: less if gravity has become weaker since it was
     /// solved for, or sound slower.
@@ -85,8 +86,11 @@ inline Real least_fraction(const PressureFields<Real>& fields) {
 /// then not hydrostatic.
 template <class Real>
 inline Real least_head(const PressureFields<Real>& fields) {
+    if constexpr (Stored<Real>::coarse) {
+        return kPackedHead<Real>;
+    }
     const bool from_centre = fields.on_surface || fields.sound_speed > Real(0);
-    return Real(Stored<Real>::coarse || from_centre ? 0.0F : 0.05F);
+    return Real(from_centre ? 0.0F : 0.05F);
 }
 
 /// Density of a cell that particles reach, but that has no room for liquid: 0, though not the 0 of

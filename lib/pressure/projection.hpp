@@ -112,11 +112,12 @@ inline Real jet_share(const PressureFields<Real>& fields, std::int32_t wet, std:
                                                          std::int32_t level_liquid,
                                                          std::int32_t level_air) {
     const std::int32_t least = maximum(6, 128 - 4 * open);
-    const std::int32_t both = level_liquid - level_air;
-    const bool limited = level_liquid * 128 <= least * both;
+    const std::int32_t height = level_liquid + kHeadRaw;
+    const std::int32_t both = maximum(level_liquid - level_air, (height + 1) / 2);
+    const bool limited = height * 128 <= least * both;
     return static_cast<std::int32_t>(
         small_quotient_of(static_cast<std::uint32_t>(weight * (limited ? 128 : both)),
-                          static_cast<std::uint32_t>(limited ? least : level_liquid)));
+                          static_cast<std::uint32_t>(limited ? least : height)));
 }
 
 /// From one cell to the next, of which at least one is liquid: what the face between them loses in

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/packed_arithmetic.hpp"
+#include "math/sum_of_products.hpp"
 #include "pressure/face_weights.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
@@ -206,29 +207,6 @@ template <bool Solids, class Real>
 
 /// A residual of so little, raw, moves no velocity by a unit, nor does a column of 32 of them.
 inline constexpr std::int32_t kExactRaw = 8;
-
-/// A sum of up to 2^16 products of 32 bits.
-#if defined(__ARM_ARCH_6M__)
-/// In two halves: this processor adds 64 bits out of its memory.
-struct SumOfProducts {
-    std::int32_t high = 0;
-    std::uint32_t low = 0;
-
-    void add(std::int32_t a, std::int32_t b) {
-        const std::int32_t product = a * b;
-        add_aside(high, product >> 16);
-        add_aside<std::uint32_t>(low, static_cast<std::uint16_t>(product));
-    }
-    std::int64_t whole() const { return std::int64_t{high} * 0x10000 + low; }
-};
-#else
-struct SumOfProducts {
-    std::int64_t sum = 0;
-
-    void add(std::int32_t a, std::int32_t b) { sum += std::int64_t{a} * b; }
-    std::int64_t whole() const { return sum; }
-};
-#endif
 
 /// Sums pᵀb and pᵀAp over the cells of a row, in the same unit and as fine as 32-bit products
 /// allow: eighths are asked for. Notes whether a residual is worth a sweep.

@@ -4,8 +4,7 @@
 
 #include "grid/borders.hpp"
 #include "math/packed_arithmetic.hpp"
-#include "pressure/patches.hpp"
-#include "solid/walls.hpp"
+#include "pressure/drift_packed.hpp"
 
 namespace weir {
 
@@ -16,14 +15,15 @@ inline constexpr std::int32_t kSurfaceSlack = 26;
 inline constexpr std::int32_t kCellWindow = 26;
 inline constexpr std::int32_t kPatchWindow = 61;
 inline constexpr std::int32_t kSubsurfaceSlack = 4;
-inline constexpr std::int32_t kSolidPatch = 0x1000;
+/// Level of a cell whose faces are all below the surface.
+inline constexpr std::int32_t kBelowSurface = 32 - kHeadRaw;
 /// Liquid cells of a patch and their mean from which on they are too full.
 inline constexpr std::int32_t kLeastOverfull = 8;
 inline constexpr std::int32_t kOverfull = 307;
 
 /// Of a cell's excess where liquid is all around, the lowest so high.
 [[gnu::noinline]] inline std::int32_t below_surface(std::int32_t e, std::int32_t lowest) {
-    const std::int32_t missing = 32 - lowest;
+    const std::int32_t missing = kBelowSurface - lowest;
     const std::int32_t full = e + ((missing * missing + 128) >> 8);
     return full - clamp(full, -kSubsurfaceSlack, kSubsurfaceSlack);
 }
@@ -45,7 +45,7 @@ inline constexpr std::int32_t kOverfull = 307;
                                              : minimum(minimum<std::int32_t>(left, right),
                                                        minimum<std::int32_t>(at[-stride].raw,
                                                                              at[stride].raw));
-        if (lowest < 32) {
+        if (lowest < kBelowSurface) {
             e = lowest <= 0 ? clamp(e - kSurfaceSlack, 0, kWindow) : below_surface(e, lowest);
         }
         excess[k].raw = static_cast<std::int16_t>(e);
@@ -59,73 +59,26 @@ std::int32_t average(const GridShape& s, const Walls<SmallFixed>& walls, const P
                      const PressureFields<SmallFixed>& f, std::int32_t& overfull) {
     std::int32_t sum = 0;
     std::int32_t count = 0;
+    std::int32_t disorder = 0;
     bool open = !Solids;
     for (std::int32_t y = 0; y < patch.height; ++y) {
         for (std::int32_t x = 0; x < patch.width; ++x) {
             const std::int32_t c = s.index(patch.i + x, patch.j + y);
             open = open || walls.full_density[c].raw > 0;
+            const std::int32_t e = f.divergence[c].raw;
+            disorder += e * e;
             if (f.level[c].raw > 0) {
-                sum += clamp<std::int32_t>(f.divergence[c].raw, -kCellWindow, kCellWindow);
+                sum += clamp(e, -kCellWindow, kCellWindow);
                 count += 1;
             }
         }
     }
+    f.coarse.residual[patch.q].raw = disorder;
     if (count == 0) {
         return open ? 0 : kSolidPatch;
     }
     overfull += count >= kLeastOverfull && 16 * sum >= kOverfull * count ? count : 0;
     return clamp(16 * sum / count, -kPatchWindow, kPatchWindow);
-}
-
-inline std::int32_t rise(std::int32_t from, std::int32_t to) {
-    return from == kSolidPatch || to == kSolidPatch ? 0 : to - from;
-}
-
-/// Between which two patches' centres a face lies, as `rises` says.
-inline void rises_between(const SmallFixed* excess, std::int32_t q, std::int32_t step,
-                  std::int32_t* on_face) {
-    const std::int32_t before = rise(excess[q - step].raw, excess[q].raw);
-    const std::int32_t after = rise(excess[q].raw, excess[q + step].raw);
-    on_face[0] = before;
-    on_face[1] = before;
-    on_face[2] = (before + after) / 2;
-    on_face[3] = after;
-}
-
-/// `speed`: 128ths of a cell a second.
-template <bool Solids>
-void drift(const Borders<SmallFixed>& borders, const Walls<SmallFixed>& walls, std::int32_t speed,
-           const PressureFields<SmallFixed>& fields, const Patch& patch,
-           StaggeredGrid<SmallFixed>& grid) {
-    const GridShape& s = grid.shape;
-    std::int32_t along_x[kCoarseEdge];
-    std::int32_t along_y[kCoarseEdge];
-    rises_between(fields.coarse.correction, patch.q, 1, along_x);
-    rises_between(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
-    const auto push = [&](VelocityOf<SmallFixed>& velocity, std::int32_t more) {
-        if (more != 0) {
-            velocity.raw = short_of(velocity.raw - rounded_shift(speed * more, 11));
-        }
-    };
-    const std::int32_t first_x = patch.i > 0 || borders.wrap_x ? 0 : 1;
-    for (std::int32_t y = 0; y < patch.height; ++y) {
-        const std::int32_t c = s.index(patch.i, patch.j + y);
-        const VelocityOf<SmallFixed>* e = fields.divergence + c;
-        for (std::int32_t x = first_x; x < patch.width; ++x) {
-            if (!Solids || walls.open_u[c + x].raw > 0) {
-                push(grid.u[c + x], 16 * (e[x].raw - e[x - 1].raw) + along_x[x]);
-            }
-        }
-        if (patch.j + y == 0 && !borders.wrap_y) {
-            continue;
-        }
-        const VelocityOf<SmallFixed>* below = e - s.stride;
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            if (!Solids || walls.open_v[c + x].raw > 0) {
-                push(grid.v[c + x], 16 * (e[x].raw - below[x].raw) + along_y[y]);
-            }
-        }
-    }
 }
 
 }  // namespace packed
@@ -138,10 +91,10 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
     if (work.once(1)) {
-        overfull = maximum(fields.turn - 1, 0);
-        fields.turn = fields.turn == 0 ? 1 : 0;
+        overfull = maximum(fields.drift_turn - 1, 0);
+        fields.drift_turn = fields.drift_turn == 0 ? 1 : 0;
     }
-    if (fields.turn == 0 && !work.foreseeing()) {
+    if (fields.drift_turn == 0 && !work.foreseeing()) {
         return;
     }
     const std::int32_t speed = clamp(gain_per_s.raw >> 8, 0, 1 << 17);  // of two substeps
@@ -157,12 +110,13 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
             packed::average<Solids>(s, walls, patch, fields, overfull);
     });
     if (work.once(big.border())) {
-        fields.turn = static_cast<std::uint16_t>(minimum(overfull + 1, 0xFFFF));
+        fields.drift_turn = static_cast<std::uint16_t>(minimum(overfull + 1, 0xFFFF));
         mirror_cells(borders, big, fields.coarse.correction);
+        mirror_cells(borders, big, fields.coarse.residual);
     }
-    for_each_patch(s, big, work, [&](const Patch& patch) {
-        packed::drift<Solids>(borders, walls, speed, fields, patch, grid);
-    });
+    packed::Drift<Solids> drift{borders, walls, fields, grid, speed};
+    const bool pays = fields.cell_weight > SmallFixed(0) && (fields.quiet_turn & 2) != 0;
+    for_each_patch(s, big, work, [&](const Patch& patch) { drift.patch(patch, pays); });
 }
 
 }  // namespace weir

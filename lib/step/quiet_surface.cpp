@@ -1,5 +1,7 @@
 #include "step/quiet_surface.hpp"
 
+#include "step/quiet_packed.hpp"
+
 namespace weir {
 
 namespace {
@@ -23,18 +25,67 @@ constexpr Real kNearest = Real(1);
 /// Pieces for threads are whole multiples of so many particles.
 constexpr std::int32_t kGrain = 64;
 
+/// How much of PIC cells get, and which rows have such cells.
+template <class Real>
+struct Shares {
+    const GridShape& shape;
+    VelocityOf<Real>* of;  ///< each cell, in rows that are marked
+
+    /// A row's mark stands before its cells.
+    VelocityOf<Real>& mark(std::int32_t j) const { return of[shape.index(-1, j)]; }
+
+    bool marked(std::int32_t j) const { return is_positive(Real(mark(j))); }
+
+    /// With the mark.
+    void clear(std::int32_t j) const { clear_rows(shape, {j + 1, j + 2}, of); }
+
+    void set(std::int32_t c, std::int32_t j, VelocityOf<Real> its) const {
+        if (!marked(j)) {
+            clear(j);
+            mark(j) = Real(1);
+        }
+        of[c] = its;
+    }
+
+    /// From the first row with a mark to the end of the last one all cells have a share, if of 0.
+    /// Kept where no cell is.
+    VelocityOf<Real>& first_row() const { return mark(-1); }
+    VelocityOf<Real>& end_row() const { return mark(shape.ny); }
+
+    /// Whether there are any.
+    bool find_rows() const {
+        Part rows{0, shape.ny};
+        while (!rows.empty() && !marked(rows.first)) {
+            ++rows.first;
+        }
+        while (!rows.empty() && !marked(rows.end - 1)) {
+            --rows.end;
+        }
+        first_row() = static_cast<Real>(shape.j0 + rows.first);
+        end_row() = static_cast<Real>(shape.j0 + rows.end);
+        return !rows.empty();
+    }
+
+    /// A row between them that has no mark has no shares.
+    void clear_unmarked(std::int32_t j) const {
+        const auto row = static_cast<Real>(shape.j0 + j);
+        if (!marked(j) && row >= Real(first_row()) && row < Real(end_row())) {
+            clear(j);
+        }
+    }
+};
+
+/// What a cell's share is, and what it does to particles.
 template <class Real>
 struct Quieting {
     const StaggeredGrid<Real>& grid;
-    const PressureFields<Real>& fields;
-    VelocityOf<Real>* share;  ///< of each cell, in rows that are marked
+    const LevelOf<Real>* level;
+    Real most;  ///< what gravity gives in the step
 
-    std::int32_t mark_of(std::int32_t j) const { return grid.shape.index(-1, j); }
-
-    bool marked(std::int32_t j) const { return Real(share[mark_of(j)]) > Real(0); }
+    Quieting(const StaggeredGrid<Real>& faces, const PressureFields<Real>& fields)
+        : grid(faces), level(fields.level), most(fields.cell_weight) {}
 
     bool leans(std::int32_t c) const {
-        const LevelOf<Real>* level = fields.level;
         const auto rise = [&](std::int32_t step) {
             return absolute(Real(level[c + step]) - Real(level[c - step]));
         };
@@ -44,8 +95,7 @@ struct Quieting {
     }
 
     /// Less for what is faster, 0 from what gravity gives in the step on.
-    Real share_of(std::int32_t c) const {
-        const Real most = fields.cell_weight;
+    Real by_speed(std::int32_t c) const {
         const auto mean = [&](const VelocityOf<Real>* before, std::int32_t step) {
             return Real(0.5) * (Real(before[c]) + Real(before[c + step]));
         };
@@ -59,71 +109,12 @@ struct Quieting {
         return maximum(Real(0), kMostShare<Real> * (Real(1) - (x * x + y * y)));
     }
 
-    /// The next cell of the surface, or `end`. In a loop of its own: few cells are.
-    static const LevelOf<Real>* next_near(const LevelOf<Real>* at, const LevelOf<Real>* end) {
-        while (at < end && !(magnitude_key(Real(*at)) < magnitude_key(kNearest<Real>))) {
-            ++at;
-        }
-        return at;
-    }
-
-    /// Shares of a row's cells, if any has one.
-    void weigh_row(std::int32_t j) const {
-        const GridShape& s = grid.shape;
-        const LevelOf<Real>* const first = fields.level + s.index(0, j);
-        const LevelOf<Real>* const end = first + s.nx;
-        share[mark_of(j)] = Real(0);
-        for (const auto* at = next_near(first, end); at < end; at = next_near(at + 1, end)) {
-            weigh(static_cast<std::int32_t>(at - fields.level), j);
-        }
-    }
-
-    /// With the row's mark, which stands before its cells.
-    void clear(std::int32_t j) const { clear_rows(grid.shape, {j + 1, j + 2}, share); }
-
-    [[gnu::noinline]] void weigh(std::int32_t c, std::int32_t j) const {
-        const Real its = leans(c) ? share_of(c) : Real(0);
-        if (its > Real(0)) {
-            if (!marked(j)) {
-                clear(j);
-                share[mark_of(j)] = Real(1);
-            }
-            share[c] = its;
-        }
-    }
-
-    /// From the first row with a mark to the end of the last one all cells have a share, if of 0.
-    /// Kept where no cell is.
-    VelocityOf<Real>& first_row() const { return share[grid.shape.index(-1, -1)]; }
-    VelocityOf<Real>& end_row() const { return share[grid.shape.index(-1, grid.shape.ny)]; }
-
-    /// Whether there are any.
-    bool find_rows() const {
-        const GridShape& s = grid.shape;
-        Part rows{0, s.ny};
-        while (!rows.empty() && !marked(rows.first)) {
-            ++rows.first;
-        }
-        while (!rows.empty() && !marked(rows.end - 1)) {
-            --rows.end;
-        }
-        first_row() = static_cast<Real>(s.j0 + rows.first);
-        end_row() = static_cast<Real>(s.j0 + rows.end);
-        return !rows.empty();
-    }
-
-    /// A row between them that has no mark has no shares.
-    void clear_unmarked(std::int32_t j) const {
-        const auto row = static_cast<Real>(grid.shape.j0 + j);
-        if (!marked(j) && row >= Real(first_row()) && row < Real(end_row())) {
-            clear(j);
-        }
-    }
+    Real share_of(std::int32_t c) const { return leans(c) ? by_speed(c) : Real(0); }
 
     /// Towards the grid's velocity before, or as near as allowed.
     static Real drawn(Real velocity, Real mean, Real its) {
-        const Real most = kFaster<Real> * absolute(velocity);
-        return velocity + its * (maximum(Real(0) - most, minimum(mean, most)) - velocity);
+        const Real limit = kFaster<Real> * absolute(velocity);
+        return velocity + its * (maximum(Real(0) - limit, minimum(mean, limit)) - velocity);
     }
 
     [[gnu::noinline]] void quiet(Real its, const Vec2<Real>& x,
@@ -135,14 +126,11 @@ struct Quieting {
                            its);
     }
 
-    void quiet_some(const Part& some, Particles<Real>& particles) const {
-        if (some.empty()) {
-            return;
-        }
-        const auto first = bound_key(Real(first_row()));
-        const auto end = bound_key(Real(end_row()));
-        const VelocityOf<Real>* const first_share = share + grid.shape.stride + 1;
-        for (std::int32_t k = some.first; k < some.end; ++k) {
+    void quiet_all(const Shares<Real>& shares, const Particles<Real>& particles) const {
+        const auto first = bound_key(Real(shares.first_row()));
+        const auto end = bound_key(Real(shares.end_row()));
+        const VelocityOf<Real>* const first_share = shares.of + grid.shape.stride + 1;
+        for (std::int32_t k = 0; k < particles.count; ++k) {
             const Vec2<PositionOf<Real>>& x = particles.position[k];
             const auto y = bound_key(Real(x.y));
             if (first <= y && y < end) {
@@ -157,6 +145,57 @@ struct Quieting {
     }
 };
 
+#if !defined(WEIR_WITHOUT_PACKED)
+template <>
+struct Quieting<SmallFixed> {
+    const StaggeredGrid<SmallFixed>& grid;
+    const LevelOf<SmallFixed>* level;
+    packed::SlowShare by_speed;
+
+    Quieting(const StaggeredGrid<SmallFixed>& faces, const PressureFields<SmallFixed>& fields)
+        : grid(faces), level(fields.level), by_speed(fields.cell_weight) {}
+
+    VelocityOf<SmallFixed> share_of(std::int32_t c) const {
+        const std::int32_t stride = grid.shape.stride;
+        return VelocityOf<SmallFixed>::of_raw(static_cast<std::int16_t>(
+            packed::leans(level + c, stride) ? by_speed.of(grid.mass_u + c, grid.mass_v + c, stride)
+                                             : 0));
+    }
+
+    void quiet_all(const Shares<SmallFixed>& shares, const Particles<SmallFixed>& particles) const {
+        const Part rows{static_cast<std::int32_t>(SmallFixed(shares.first_row())),
+                        static_cast<std::int32_t>(SmallFixed(shares.end_row()))};
+        packed::quiet(grid, shares.of, rows, particles);
+    }
+};
+#endif
+
+/// The next cell of the surface, or `end`. In a loop of its own: few cells are.
+template <class Real>
+const LevelOf<Real>* next_near(const LevelOf<Real>* at, const LevelOf<Real>* end) {
+    while (at < end && !(magnitude_key(Real(*at)) < magnitude_key(kNearest<Real>))) {
+        ++at;
+    }
+    return at;
+}
+
+/// Shares of a row's cells, if any has one.
+template <class Real>
+void weigh_row(const Quieting<Real>& quieting, std::int32_t j, const Shares<Real>& shares) {
+    const GridShape& s = shares.shape;
+    const LevelOf<Real>* const first = quieting.level + s.index(0, j);
+    const LevelOf<Real>* const end = first + s.nx;
+    shares.mark(j) = Real(0);
+    for (const auto* at = next_near<Real>(first, end); at < end;
+         at = next_near<Real>(at + 1, end)) {
+        const auto c = static_cast<std::int32_t>(at - quieting.level);
+        const VelocityOf<Real> its = quieting.share_of(c);
+        if (is_positive(Real(its))) {
+            shares.set(c, j, its);
+        }
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -167,36 +206,43 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
     if (!asked && !work.foreseeing()) {
         return;
     }
+    std::uint16_t& turn = fields.quiet_turn;
     if (work.once(1)) {
-        fields.turn = static_cast<std::uint16_t>((fields.turn + 1) % kQuietEvery);
+        turn = static_cast<std::uint16_t>((turn + 1) % kQuietEvery);
     }
-    if (fields.turn % kQuietEvery != 0 && !work.foreseeing()) {
+    if (turn % kQuietEvery != 0 && !work.foreseeing()) {
         return;
     }
     const GridShape& s = grid.shape;
-    const Quieting<Real> quieting{grid, fields, fields.divergence};
+    const Quieting<Real> quieting(grid, fields);
+    const Shares<Real> shares{s, fields.divergence};
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         for (std::int32_t j = rows.first; j < rows.end; ++j) {
-            quieting.weigh_row(j);
+            weigh_row(quieting, j, shares);
         }
     });
     if (work.once(s.ny)) {
-        fields.turn = quieting.find_rows() ? 0 : kQuietEvery;
+        turn = shares.find_rows() ? 0 : kQuietEvery;
     }
-    const bool some = work.foreseeing() || fields.turn == 0;
+    const bool some = work.foreseeing() || turn == 0;
     work.share(work.take(some ? s.ny : 0, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         for (std::int32_t j = rows.first; j < rows.end; ++j) {
-            quieting.clear_unmarked(j);
+            shares.clear_unmarked(j);
         }
     });
     work.share(work.take(some ? particles.count : 0, 1), 1, kGrain,
-               [&](const Part& part, std::int32_t) { quieting.quiet_some(part, particles); });
+               [&](const Part& part, std::int32_t) {
+                   if (!part.empty()) {
+                       quieting.quiet_all(shares,
+                                          particles.part(part.first, part.end - part.first));
+                   }
+               });
 }
 
 #define WEIR_INSTANTIATE(Real)                                                     \
     template void quiet_surface(const StaggeredGrid<Real>&, PressureFields<Real>&, \
                                 Particles<Real>&, Work);
-WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

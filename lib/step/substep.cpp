@@ -132,13 +132,11 @@ void fill_borders(Simulation<Real>& simulation, Work work) {
     }
 }
 
-/// Packed worlds do without, and those with thin walls.
+/// Worlds with thin walls do without, and packed liquid that is being led to rest.
 template <class Real>
-void quiet_leaning(Simulation<Real>& simulation, Work work) {
-    if constexpr (!Stored<Real>::coarse) {
-        if (simulation.layers.walls.thin == nullptr) {
-            quiet_surface(simulation.grid, simulation.pressure, simulation.particles, work);
-        }
+void quiet_leaning(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
+    if (simulation.layers.walls.thin == nullptr && !plan.settling) {
+        quiet_surface(simulation.grid, simulation.pressure, simulation.particles, work);
     }
 }
 
@@ -318,7 +316,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     fill_borders<Solids>(simulation, work);
     clock.charge(Stage::pressure);
 
-    quiet_leaning(simulation, work);
+    quiet_leaning(simulation, plan, work);
     blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
     if (settings.volume_gain > Real(0) && !plan.settling) {

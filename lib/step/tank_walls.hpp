@@ -53,6 +53,13 @@ struct TankBlow {
     }
 };
 
+/// Where a particle is set back to that went to x, past a wall: half as far before it. Set to the
+/// wall itself, all that go to a corner would meet in one place, and never part again.
+template <class Real>
+inline Real back_from(Real wall, Real x) {
+    return wall + Real(0.5) * (wall - x);
+}
+
 /// One axis at the tank's walls: back to the wall, the velocity towards it given back, and rubbed
 /// along it. `sense`: the axis along which the low wall's conveyor runs; the high one's runs the
 /// other way. Whether it was hit.
@@ -61,14 +68,14 @@ template <class Real>
                                       const SurfaceLaw<Real>& low, const SurfaceLaw<Real>& high,
                                       Real sense) {
     if (x < kWallGap<Real>) {
-        x = kWallGap<Real>;
+        x = back_from(kWallGap<Real>, x);
         if (v < Real(0)) {
             along = low.friction > Real(0) ? rubbed(along, sense * low.conveyor, low, -v) : along;
             v = -low.restitution * v;
             return true;
         }
     } else if (x > size - kWallGap<Real>) {
-        x = size - kWallGap<Real>;
+        x = back_from(size - kWallGap<Real>, x);
         if (v > Real(0)) {
             along = high.friction > Real(0) ? rubbed(along, -sense * high.conveyor, high, v)
                                             : along;

@@ -142,8 +142,9 @@ bool add_particles(const char*& place, const char* end, Speed* first, std::int32
     "muls %[t], %[ul]\n\t"           \
     "adds %[g], %[g], %[t]\n\t"
 
-/// `t`: how far what carries it, `g`, takes a particle (`moves`).
-#define WEIR_MOVES                  \
+/// `t`: how far what carries it, `g`, takes a particle (`moves`). `own`: adds to what chance is
+/// made of.
+#define WEIR_MOVES(own)             \
     "movs %[t], %[g]\n\t"           \
     "adds %[t], #128\n\t"           \
     "asrs %[t], %[t], #8\n\t"       \
@@ -151,11 +152,18 @@ bool add_particles(const char*& place, const char* end, Speed* first, std::int32
     "muls %[t], %[z]\n\t"           \
     "ldr %[z], %[shift]\n\t"        \
     "asrs %[t], %[z]\n\t"           \
+    own                             \
     "ldr %[z], %[chance]\n\t"       \
     "muls %[g], %[z]\n\t"           \
     "lsrs %[g], %[g], #26\n\t"      \
     "adds %[t], %[t], %[g]\n\t"     \
     "asrs %[t], %[t], #6\n\t"
+
+#define WEIR_OWN                \
+    "ldr %[z], %[tv]\n\t"       \
+    "add %[z], %[place]\n\t"    \
+    "ldr %[z], [%[z]]\n\t"      \
+    "adds %[g], %[g], %[z]\n\t"
 
 /// Its velocity, `low`, out of what it gains, `g` (`change`), and `low` squared. Seldom it is
 /// limited (6), or the fastest (7).
@@ -225,7 +233,7 @@ inline std::int32_t gather_along_u(const GatherTask& given, const char* place,
             WEIR_FOUR_FACES
             "movs %[z], #0\n\t"
             WEIR_WEIGH
-            WEIR_MOVES
+            WEIR_MOVES(WEIR_OWN)
             "mov %[g], %[place]\n\t"
             "ldr %[z], %[tw]\n\t"
             "str %[t], [%[g], %[z]]\n\t"
@@ -281,7 +289,7 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
             WEIR_FOUR_FACES
             "movs %[z], #0\n\t"
             WEIR_WEIGH
-            WEIR_MOVES
+            WEIR_MOVES("")
             "mov %[a], %[t]\n\t"
             "movs %[z], #0\n\t"
             "add %[low], %[on]\n\t"
@@ -339,6 +347,7 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
 #undef WEIR_HALF_V
 #undef WEIR_WEIGH
 #undef WEIR_MOVES
+#undef WEIR_OWN
 #undef WEIR_CHANGE
 #undef WEIR_LIMIT
 #undef WEIR_FOUND

@@ -117,9 +117,11 @@ inline std::int32_t change(std::int16_t& own, std::int32_t flip, std::int32_t ga
     return now * now;
 }
 
-/// How far it goes, 256ths: bits that nobody uses decide what is rounded.
-inline std::int32_t moves(const Pace& pace, std::int32_t along) {
-    return (way_of(pace, along) + chance(along, 6)) >> 6;
+/// How far it goes, 256ths: bits that nobody uses decide what is rounded. Along x those of its own
+/// velocity, `own`, too: what is carried alike from the same place would stay together for good.
+inline std::int32_t moves(const Pace& pace, std::int32_t along, std::uint32_t own = 0) {
+    const auto bits = static_cast<std::int32_t>(static_cast<std::uint32_t>(along) + own);
+    return (way_of(pace, along) + chance(bits, 6)) >> 6;
 }
 
 /// Where there are particles that are too fast.
@@ -216,7 +218,8 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
         const auto w = weights_at(at);
         const Speed* along = first_face(first, at, row);
         const std::int32_t carried = weighed(along, further(along, row), w);
-        put_word(way + k, static_cast<std::uint32_t>(moves(pace, carried)));
+        put_word(way + k, static_cast<std::uint32_t>(
+                              moves(pace, carried, word_at(strip.velocities + k))));
         const Speed* gained = further(along, to_gained);
         fastest = maximum(fastest, change(strip.velocity(k).x.raw, flip,
                                           weighed(gained, further(along, to_upper), w)));

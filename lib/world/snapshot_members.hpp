@@ -79,8 +79,9 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             contacts, gathered, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, turn, last_dt, change, sound_speed, cell_weight,
-                            solve, elasticity, second_liquid] = pressure_fields;
+                            on_surface, leaps, drift_turn, quiet_turn, last_dt, change,
+                            sound_speed, cell_weight, solve, elasticity,
+                            second_liquid] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
                             scratch_list, load, vertex_capacity, vertices_used] = bodies;
@@ -95,7 +96,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(change, Real(0), Real(1));
     stream.member(sound_speed, Real(0), elasticity != nullptr ? settings.sound_speed : Real(0));
     stream.member(on_surface, false, true);
-    stream.member(turn, 0, Stored<Real>::coarse ? 0xFFFF : kQuietEvery);
+    stream.member(drift_turn, 0, 0xFFFF);
+    stream.member(quiet_turn, 0, kQuietEvery);
     stream.member(still_s, 0.0F, def.sleep.after_s);
     any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);

@@ -26,7 +26,7 @@ void fill_up(const GridShape& stored, Simulation<Real>& simulation) {
     CoarseGrid<Real>& coarse = fields.coarse;
     coarse.shape = {coarse_cells(stored.nx), coarse_cells(stored.ny), coarse.shape.stride};
     coarse.first_row = 0;
-    coarse.last_row = coarse.shape.ny - 1;
+    coarse.last_row = static_cast<std::int16_t>(coarse.shape.ny - 1);
     fields.solve.first_row = 0;
     fields.solve.last_row = stored.ny - 1;
     fields.solve.share = Real(0);  // of the last pressure: scaled

@@ -18,24 +18,25 @@ constexpr std::int32_t kCells = 12;
 template <class Real>
 struct Surface {
     GridShape shape{kCells, kCells, kCells + 2};
-    std::vector<Real> before_u, before_v, level, share;
+    std::vector<VelocityOf<Real>> before_u, before_v, share;
+    std::vector<LevelOf<Real>> level;
     StaggeredGrid<Real> grid;
     PressureFields<Real> fields;
-    Vec2<Real> position;
-    Vec2<Real> velocity;
+    Vec2<PositionOf<Real>> position;
+    Vec2<VelocityOf<Real>> velocity;
     Particles<Real> particles;
 
     Surface(double slope, Vec2<double> moves) {
         const auto size = static_cast<std::size_t>(shape.size());
-        before_u.assign(size, static_cast<Real>(moves.x));
-        before_v.assign(size, static_cast<Real>(moves.y));
-        level.assign(size, Real(0));
-        share.assign(size, Real(1));  // whatever was there
+        before_u.assign(size, VelocityOf<Real>(static_cast<Real>(moves.x)));
+        before_v.assign(size, VelocityOf<Real>(static_cast<Real>(moves.y)));
+        level.assign(size, LevelOf<Real>(Real(0)));
+        share.assign(size, VelocityOf<Real>(Real(1)));  // whatever was there
         for (std::int32_t j = -1; j <= kCells; ++j) {
             for (std::int32_t i = -1; i <= kCells; ++i) {
                 const double over = slope * (i - 5.5) + 5.5 - j;
                 level[static_cast<std::size_t>(shape.index(i, j))] =
-                    static_cast<Real>(std::fmin(std::fmax(over, -1.55), 1.45));
+                    LevelOf<Real>(static_cast<Real>(std::fmin(std::fmax(over, -1.5), 1.45)));
             }
         }
         grid.shape = shape;
@@ -48,15 +49,17 @@ struct Surface {
 
     /// The velocity after four substeps.
     Vec2<double> quieted(Vec2<double> at, Vec2<double> moving) {
-        position = convert<Real>(at);
-        velocity = convert<Real>(moving);
+        const Vec2<Real> x = convert<Real>(at);
+        const Vec2<Real> v = convert<Real>(moving);
+        position = {PositionOf<Real>(x.x), PositionOf<Real>(x.y)};
+        velocity = {VelocityOf<Real>(v.x), VelocityOf<Real>(v.y)};
         particles.position = &position;
         particles.velocity = &velocity;
         particles.count = particles.capacity = 1;
         for (int substep = 0; substep < 4; ++substep) {
             quiet_surface<Real>(grid, fields, particles);
         }
-        return convert<double>(velocity);
+        return {static_cast<double>(Real(velocity.x)), static_cast<double>(Real(velocity.y))};
     }
 };
 
@@ -64,7 +67,7 @@ const Vec2<double> kOnSurface{6.25, 6.25};
 
 template <class Real>
 class QuietSurface : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
+using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
 TYPED_TEST_SUITE(QuietSurface, Scalars, );
 
 TYPED_TEST(QuietSurface, TakesHalfOfWhatIsUnlikeTheGridWhereItLeans) {

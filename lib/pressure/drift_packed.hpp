@@ -1,0 +1,182 @@
+// The drift of packed liquid between the cells of a patch, and what it pays for it, in whole
+// numbers.
+#pragma once
+
+#include "grid/borders.hpp"
+#include "math/packed_arithmetic.hpp"
+#include "math/quotient_packed.hpp"
+#include "math/sum_of_products.hpp"
+#include "pressure/patches.hpp"
+#include "solid/walls.hpp"
+
+namespace weir {
+
+namespace packed {
+
+/// In place of its mean excess: a patch that is all solid.
+inline constexpr std::int32_t kSolidPatch = 0x1000;
+
+inline std::int32_t rise(std::int32_t from, std::int32_t to) {
+    return from == kSolidPatch || to == kSolidPatch ? 0 : to - from;
+}
+
+/// Between which two patches' centres a face lies, as `rises` says.
+inline void rises_between(const SmallFixed* excess, std::int32_t q, std::int32_t step,
+                          std::int32_t* on_face) {
+    const std::int32_t before = rise(excess[q - step].raw, excess[q].raw);
+    const std::int32_t after = rise(excess[q].raw, excess[q + step].raw);
+    on_face[0] = before;
+    on_face[1] = before;
+    on_face[2] = (before + after) / 2;
+    on_face[3] = after;
+}
+
+/// Sums of squares of a patch's excess, 2^−14, from which on it pays, and so much more from which
+/// on it pays in full: a lattice that a wave passes has less.
+inline constexpr std::int32_t kOrderly = 32;
+inline constexpr std::int32_t kStirred = 128;
+
+/// Over a patch's velocity, the most that it pays of it, and the most that comes back, for a drift:
+/// twice what others do in a substep (patch_drift.hpp), since it drifts every other one. It pays
+/// for two of them at once.
+inline constexpr std::int32_t kMostPrice = 32;
+inline constexpr std::int32_t kMostRefund = 76;
+
+/// What a patch's drift does.
+struct Deeds {
+    SumOfProducts lifted;  ///< rises of the excess × those of the pressure, 2^−25
+    SumOfProducts moving;  ///< squares of velocities, 2^−14
+
+    /// Part of its velocity that the patch gives for it, or gets if negative, 2^−14.
+    std::int32_t price(std::int32_t speed, std::int32_t disorder) const {
+        constexpr std::int32_t kMostWork = 1 << 20;
+        std::int64_t lift = lifted.whole();
+        std::int64_t energy = moving.whole();
+        while (energy >= 1 << 25 || lift >= 1 << 25 || -lift >= 1 << 25) {
+            energy >>= 4;
+            lift >>= 4;
+        }
+        const std::int32_t own = static_cast<std::int32_t>(energy);
+        const std::int32_t stirred = minimum(disorder - kOrderly, kStirred);
+        const std::int32_t done = scaled(stirred, static_cast<std::int32_t>(lift));
+        const std::int32_t work = clamp(scaled(speed >> 2, done) >> 2, -kMostWork, kMostWork);
+        if (work > 0) {
+            return 2 * share(work, own + kMostPrice * work);
+        }
+        return own > -kMostRefund * work ? -2 * share(-work, own) : 0;
+    }
+
+    /// Of a number that is many times as large, or 0.
+    static std::int32_t share(std::int32_t part, std::int32_t of) {
+        while (of >= 0x10000) {
+            of >>= 2;
+            part >>= 2;
+        }
+        return part == 0 ? 0
+                         : static_cast<std::int32_t>(
+                               quotient_of(static_cast<std::uint32_t>(part) << 14U,
+                                           static_cast<std::uint32_t>(of)));
+    }
+};
+
+template <bool Solids>
+struct Drift {
+    const Borders<SmallFixed>& borders;
+    const Walls<SmallFixed>& walls;
+    const PressureFields<SmallFixed>& fields;
+    StaggeredGrid<SmallFixed>& grid;
+    std::int32_t speed;  ///< where the excess rises by 1 from cell to cell, 128ths of a cell/s
+    std::int32_t along_x[kCoarseEdge] = {};
+    std::int32_t along_y[kCoarseEdge] = {};
+
+    void patch(const Patch& patch, bool pays) {
+        rises_between(fields.coarse.correction, patch.q, 1, along_x);
+        rises_between(fields.coarse.correction, patch.q, fields.coarse.shape.stride, along_y);
+        if (still(patch.q)) {
+            return;
+        }
+        const std::int32_t disorder = disorder_of(patch.q);
+        const std::int32_t price =
+            pays && disorder > kOrderly ? deeds(patch).price(speed, disorder) : 0;
+        for_each_face(
+            patch,
+            [&](std::int32_t face, std::int32_t more) {
+                push(grid.u[face], grid.mass_u[face], more, price);
+            },
+            [&](std::int32_t face, std::int32_t more) {
+                push(grid.v[face], grid.mass_v[face], more, price);
+            });
+    }
+
+private:
+    using Speed = VelocityOf<SmallFixed>;
+
+    /// on_u(face, rise), on_v(face, rise) for the open faces of a patch, by row, of every so many.
+    template <std::int32_t Every = 1, class OnU, class OnV>
+    [[gnu::always_inline]] void for_each_face(const Patch& patch, const OnU& on_u,
+                                              const OnV& on_v) const {
+        const GridShape& s = grid.shape;
+        const std::int32_t first_x = patch.i > 0 || borders.wrap_x ? 0 : 1;
+        for (std::int32_t y = Every - 1; y < patch.height; y += Every) {
+            const std::int32_t c = s.index(patch.i, patch.j + y);
+            const Speed* e = fields.divergence + c;
+            for (std::int32_t x = first_x; x < patch.width; ++x) {
+                if (!Solids || walls.open_u[c + x].raw > 0) {
+                    on_u(c + x, 16 * (e[x].raw - e[x - 1].raw) + along_x[x]);
+                }
+            }
+            if (patch.j + y == 0 && !borders.wrap_y) {
+                continue;
+            }
+            const Speed* below = e - s.stride;
+            for (std::int32_t x = 0; x < patch.width; ++x) {
+                if (!Solids || walls.open_v[c + x].raw > 0) {
+                    on_v(c + x, 16 * (e[x].raw - below[x].raw) + along_y[y]);
+                }
+            }
+        }
+    }
+
+    /// The price is taken out of what particles gain in the step.
+    void push(Speed& velocity, Speed& gained, std::int32_t more, std::int32_t price) const {
+        const std::int32_t now = velocity.raw;
+        if (price != 0) {
+            gained.raw = short_of(gained.raw - rounded_shift(price * now, 14));
+        }
+        if (more != 0) {
+            velocity.raw = short_of(now - rounded_shift(speed * more, 11));
+        }
+    }
+
+    std::int32_t disorder_of(std::int32_t q) const { return fields.coarse.residual[q].raw; }
+
+    /// Whether nothing drifts: no excess in the patch, before it and below it, nor a rise.
+    bool still(std::int32_t q) const {
+        return (disorder_of(q) | disorder_of(q - 1) |
+                disorder_of(q - fields.coarse.shape.stride) | along_x[0] | along_x[3] |
+                along_y[0] | along_y[3]) == 0;
+    }
+
+    /// Of every other row: a sample tells as well.
+    [[gnu::noinline]] Deeds deeds(const Patch& patch) const {
+        Deeds sums;
+        const auto add = [&](const Speed& velocity, const SmallFixed* p, std::int32_t back,
+                             std::int32_t more) {
+            sums.lifted.add(more, short_of((p[0].raw - p[-back].raw) >> 9));
+            sums.moving.add(velocity.raw, velocity.raw);
+        };
+        for_each_face<2>(
+            patch,
+            [&](std::int32_t face, std::int32_t more) {
+                add(grid.u[face], fields.pressure + face, 1, more);
+            },
+            [&](std::int32_t face, std::int32_t more) {
+                add(grid.v[face], fields.pressure + face, grid.shape.stride, more);
+            });
+        return sums;
+    }
+};
+
+}  // namespace packed
+
+}  // namespace weir
