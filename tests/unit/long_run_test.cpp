@@ -82,7 +82,7 @@ TYPED_TEST(LongRunOf, ParticlesStayApartWhileATankIsTurned) {
     for (const auto& x : world->particle_positions()) {
         places.insert({static_cast<double>(x.x), static_cast<double>(x.y)});
     }
-    EXPECT_GE(places.size(), def.capacity.particles - 2U);
+    EXPECT_GE(static_cast<std::int32_t>(places.size()), def.capacity.particles - 2);
 }
 
 }  // namespace
