@@ -1,5 +1,7 @@
 #include "solid/body_coupling.hpp"
 
+#include "solid/obstacles.hpp"
+
 namespace weir {
 
 namespace {
@@ -69,13 +71,17 @@ void for_each_cell(const CoupledSolve<Real>& solve, Visit visit) {
     });
 }
 
-/// What the pressure that there is makes of the bodies.
+/// What the pressure that there is makes of the bodies, and where they are stopped.
+template <class Real>
+void answer_pressure(const CoupledSolve<Real>& solve, std::uint16_t slot) {
+    BodyLoad<Real>& load = solve.walls.load[slot];
+    load.change =
+        answer_stopped(load, pressure_impulse(solve.shape, solve.walls, slot, solve.cells));
+}
 template <class Real>
 void answer_pressure(const CoupledSolve<Real>& solve) {
-    for_each_box(solve, [&](std::uint16_t slot, const NodeBox&) {
-        BodyLoad<Real>& load = solve.walls.load[slot];
-        load.change = answer(load, pressure_impulse(solve.shape, solve.walls, slot, solve.cells));
-    });
+    for_each_box(solve,
+                 [&](std::uint16_t slot, const NodeBox&) { answer_pressure(solve, slot); });
 }
 
 /// What the bodies push into a cell, as the pressure has changed their velocities.
@@ -131,7 +137,7 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std
     for (std::int32_t k = 0; k < levers.count; ++k) {
         const Lever<Real>& lever = levers.lever[k];
         const BodyLoad<Real>& load = walls.load[lever.slot];
-        diagonal += flow(lever.reach, answer(load, lever.reach));
+        diagonal += flow(lever.reach, answer_within(load.yield, lever.reach));
     }
     residual -= pushed_into(solve, levers);
     const Number more = static_cast<Number>(omega) * residual / diagonal;
@@ -140,7 +146,7 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std
     const Number done = static_cast<Number>(p[c]) - static_cast<Number>(before);
     for (std::int32_t k = 0; k < levers.count; ++k) {
         BodyLoad<Real>& load = walls.load[levers.lever[k].slot];
-        const Twist<Real> kick = answer(load, levers.lever[k].reach);
+        const Twist<Real> kick = answer_within(load.yield, levers.lever[k].reach);
         load.change.velocity = load.change.velocity + done * kick.velocity;
         load.change.spin += done * kick.spin;
     }
@@ -178,7 +184,16 @@ void end_coupling(const CoupledSolve<Real>& solve) {
 
 template <class Real>
 void begin_coupling(const CoupledSolve<Real>& solve) {
-    answer_pressure(solve);
+    for_each_box(solve, [&](std::uint16_t slot, const NodeBox&) {
+        BodyLoad<Real>& load = solve.walls.load[slot];
+        release(load);
+        const Impulse<Real> pressed =
+            pressure_impulse(solve.shape, solve.walls, slot, solve.cells);
+        load.change = answer(load, pressed);
+        stop(solve.obstacles, slot);
+        const Twist<Real> pushed = answer_within(load.yield, pressed);
+        load.stopped = {load.change.velocity - pushed.velocity, load.change.spin - pushed.spin};
+    });
     add_flow(solve, Face<Real>(1));
 }
 
@@ -189,7 +204,7 @@ Face<Real> yielding(const CoupledSolve<Real>& solve) {
     for_each_box(solve, [&](std::uint16_t slot, const NodeBox&) {
         BodyLoad<Real>& load = solve.walls.load[slot];
         const Twist<Real> before = load.change;
-        load.change = answer(load, pressure_impulse(solve.shape, solve.walls, slot, solve.cells));
+        answer_pressure(solve, slot);
         const Wide<Real> velocity = load.change.velocity - before.velocity;
         const Face<Real> spin = load.change.spin - before.spin;
         work += load.mass * dot(velocity, velocity) + load.inertia * (spin * spin);

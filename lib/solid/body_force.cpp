@@ -87,7 +87,7 @@ void press_on_bodies(const GridShape& shape, Walls<Real>& walls, BodyTable<Real>
             pressure_impulse(shape, walls, static_cast<std::uint16_t>(slot), cells);
         load.received.add(impulse);
         if (load.is_free()) {
-            load.change = answer(load, impulse);
+            load.change = answer_stopped(load, impulse);
         }
     }
 }

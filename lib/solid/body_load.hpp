@@ -30,19 +30,37 @@ struct Twist {
     Face<Real> spin = Face<Real>(0);
 };
 
+/// How a free body's velocity answers an impulse: the inverse of its masses, without the directions
+/// in which something stops it. Symmetric.
+template <class Real>
+struct Yield {
+    Face<Real> xx = Face<Real>(0);
+    Face<Real> yy = Face<Real>(0);
+    Face<Real> turn = Face<Real>(0);
+    Face<Real> xy = Face<Real>(0);
+    Face<Real> x_turn = Face<Real>(0);
+    Face<Real> y_turn = Face<Real>(0);
+};
+
 template <class Real>
 struct BodyLoad {
     Vec2<Face<Real>> centre;                      ///< of mass, in the body's frame, cells
     Vec2<Face<Real>> at;                          ///< the same in the tank, as last located
     Face<Real> mass = Face<Real>(0);              ///< over the liquid's density, cells²
     Face<Real> inertia = Face<Real>(0);           ///< about the centre, cells⁴
-    Face<Real> inverse_mass = Face<Real>(0);      ///< 0: it moves as told
+    /// 0: it moves as told. < 0: it is free, but led through this step (`World::move_body`).
+    Face<Real> inverse_mass = Face<Real>(0);
     Face<Real> inverse_inertia = Face<Real>(0);
     Impulse<Real> received;    ///< in this step, about the centre of mass
     Impulse<Real> blows;       ///< of particles, which a free body has not answered yet
     Face<Real> blow_mass = Face<Real>(0);  ///< of those particles
     Twist<Real> unpressed;     ///< free bodies: before the pressure
-    Twist<Real> change;        ///< and what the pressure adds to it
+    Twist<Real> change;        ///< and what the pressure adds to it, and whatever stops it
+    Yield<Real> yield;         ///< within the pressure solve
+    Twist<Real> stopped;       ///< what obstacles add at once
+    /// It is denser than the liquid. Only then obstacles hold it within the solve: under what lies
+    /// on the floor no cell holds liquid, and nothing would ever lift a light body.
+    bool sinks = false;
 
     bool is_free() const { return inverse_mass > Face<Real>(0); }
 };
@@ -71,9 +89,26 @@ inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Rea
     return wide.apply(load.centre);
 }
 
+/// As if nothing were in its way.
 template <class Real>
 inline Twist<Real> answer(const BodyLoad<Real>& load, const Impulse<Real>& impulse) {
     return {load.inverse_mass * impulse.linear, load.inverse_inertia * impulse.angular};
+}
+
+template <class Real>
+inline Twist<Real> answer_within(const Yield<Real>& y, const Impulse<Real>& impulse) {
+    const Vec2<Face<Real>> push = impulse.linear;
+    const Face<Real> turn = impulse.angular;
+    return {{y.xx * push.x + y.xy * push.y + y.x_turn * turn,
+             y.xy * push.x + y.yy * push.y + y.y_turn * turn},
+            y.x_turn * push.x + y.y_turn * push.y + y.turn * turn};
+}
+
+/// What an impulse changes, given what stops the body in this step.
+template <class Real>
+inline Twist<Real> answer_stopped(const BodyLoad<Real>& load, const Impulse<Real>& impulse) {
+    const Twist<Real> pushed = answer_within(load.yield, impulse);
+    return {load.stopped.velocity + pushed.velocity, load.stopped.spin + pushed.spin};
 }
 
 }  // namespace weir

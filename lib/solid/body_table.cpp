@@ -4,6 +4,7 @@
 
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/ring_copy.hpp"
+#include "solid/body_load.hpp"
 
 namespace weir {
 
@@ -125,6 +126,33 @@ void place(BodyTable<Real>& table, const Body<Real>& body) {
 }
 
 template <class Real>
+void lead(BodyTable<Real>& table, std::int32_t slot, bool led) {
+    table.body[slot].led = led;
+    if (table.load == nullptr || table.load[slot].is_free() != led) {
+        return;
+    }
+    BodyLoad<Real>& load = table.load[slot];
+    load.inverse_mass = -load.inverse_mass;
+    load.blows = Impulse<Real>{};  // those that hit it meanwhile
+    load.blow_mass = Face<Real>(0);
+}
+
+template <class Real>
+void end_leads(BodyTable<Real>& table) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
+        Body<Real>& body = table.body[slot];
+        if (!body.led) {
+            continue;
+        }
+        lead(table, slot, false);
+        if (table.load == nullptr || !table.load[slot].is_free()) {
+            body.velocity = Vec2<Real>{};
+            body.spin = Real(0);
+        }
+    }
+}
+
+template <class Real>
 void remove(BodyTable<Real>& table, std::int32_t slot) {
     Body<Real>& gone = table.body[slot];
     const std::int32_t first = gone.first_vertex;
@@ -154,6 +182,8 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     template void note_movable(BodyTable<Real>&);                                          \
     template bool any_without_slip(const BodyTable<Real>&);                                \
     template void place(BodyTable<Real>&, const Body<Real>&);                              \
+    template void lead(BodyTable<Real>&, std::int32_t, bool);                              \
+    template void end_leads(BodyTable<Real>&);                                             \
     template void remove(BodyTable<Real>&, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

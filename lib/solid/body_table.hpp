@@ -43,6 +43,7 @@ struct Body {
     bool moved = false;             ///< since it was last rasterized
     bool open = false;              ///< a polyline
     bool hollow = false;            ///< thin all over: the nodes do not show it
+    bool led = false;               ///< until the step is done: `World::move_body`
 
     bool has_speed() const {
         return velocity.x != Real(0) || velocity.y != Real(0) || spin != Real(0);
@@ -120,6 +121,14 @@ bool any_without_slip(const BodyTable<Real>& table);
 /// Turns and moves the vertices to the body's pose.
 template <class Real>
 void place(BodyTable<Real>& table, const Body<Real>& body);
+
+/// Begins or ends that a body is led: a free one yields to nothing meanwhile.
+template <class Real>
+void lead(BodyTable<Real>& table, std::int32_t slot, bool led);
+
+/// Ends it for all: who is not free stands still.
+template <class Real>
+void end_leads(BodyTable<Real>& table);
 
 /// Frees the slot and closes the gap that its vertices leave.
 template <class Real>

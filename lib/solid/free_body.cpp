@@ -10,13 +10,6 @@ namespace {
 /// Bodies are slowed to this many cells a substep, as particles are.
 constexpr std::int32_t kLongestWay = 2;
 
-/// A vertex this near to a wall of the tank bounces off it, cells.
-template <class Real>
-constexpr Face<Real> kTouch = Face<Real>(1.0 / 256.0);
-
-/// Blows of the tank's walls on a body are found one after the other, so often.
-constexpr std::int32_t kContactRounds = 4;
-
 template <class Real>
 using Wide = Vec2<Face<Real>>;
 
@@ -67,15 +60,6 @@ Overhang<Real> overhang(const GridShape& s, const BodyTable<Real>& table,
     return beyond;
 }
 
-/// Whether any of its points may be at the tank's walls.
-template <class Real>
-bool near_walls(const GridShape& s, const Body<Real>& body) {
-    const Real r = body.radius + Real(1);
-    return body.position.x < r || body.position.y < r ||
-           body.position.x + r > static_cast<Real>(s.nx) ||
-           body.position.y + r > static_cast<Real>(s.ny);
-}
-
 template <class Real>
 void move(const GridShape& s, BodyTable<Real>& table, Seconds<Real> dt_s) {
     const Face<Real> dt = static_cast<Face<Real>>(dt_s);
@@ -99,76 +83,10 @@ void move(const GridShape& s, BodyTable<Real>& table, Seconds<Real> dt_s) {
     });
 }
 
-/// How walls of the tank stop a body within a substep.
-template <class Real>
-struct Stop {
-    Face<Real> dt;
-    Face<Real> slow;  ///< what approaches no faster than this comes to rest, cells/s
-};
-
-/// Impulse that lets a point come no nearer to a wall than the wall is (`gap`), or throws it back
-/// if it is fast and the wall has restitution, and rubs it along. `inward`: the wall's normal.
-template <class Real>
-Impulse<Real> blow_of_wall(const BodyLoad<Real>& load, const Twist<Real>& twist, Wide<Real> arm,
-                           Face<Real> gap, Wide<Real> inward, const SurfaceLaw<Real>& wall,
-                           const Stop<Real>& stop) {
-    using Number = Face<Real>;
-    const Wide<Real> along{inward.y, -inward.x};
-    const Wide<Real> v = twist.velocity + spin_velocity(twist.spin, arm);
-    const Number approach = dot(v, inward);
-    const auto restitution = static_cast<Number>(wall.restitution);
-    const bool bounces = restitution > Number(0) && approach < -stop.slow;
-    const Number allowed = bounces ? -restitution * approach
-                                   : -maximum(gap, Number(0)) / stop.dt;
-    Impulse<Real> impulse;
-    if (!(approach < allowed) || (bounces && gap > kTouch<Real>)) {
-        return impulse;
-    }
-    const auto yielding = [&](Wide<Real> direction) {
-        const Number lever = cross(arm, direction);
-        return load.inverse_mass + lever * lever * load.inverse_inertia;
-    };
-    const Number push = (allowed - approach) / yielding(inward);
-    const Number most = static_cast<Number>(wall.friction) * push;
-    const Number slip = dot(v, along) - static_cast<Number>(wall.conveyor);
-    const Number rub = clamp(-slip / yielding(along), -most, most);
-    impulse.add(push * inward + rub * along, arm);
-    return impulse;
-}
-
-/// Blows of the tank's walls on all vertices.
-template <class Real>
-void stop_at_walls(const GridShape& s, const Borders<Real>& borders, const BodyTable<Real>& table,
-                   const Body<Real>& body, const BodyLoad<Real>& load, const Stop<Real>& stop,
-                   Twist<Real>& twist) {
-    using Number = Face<Real>;
-    const Wide<Real> size{static_cast<Number>(s.nx), static_cast<Number>(s.ny)};
-    for (std::int32_t round = 0; round < kContactRounds; ++round) {
-        for (std::int32_t k = 0; k < body.vertex_count; ++k) {
-            const Wide<Real> x = convert<Number>(table.ring(body)[k]);
-            const auto meet = [&](Number gap, Wide<Real> inward, const SurfaceLaw<Real>& wall) {
-                const Twist<Real> more = answer(
-                    load, blow_of_wall(load, twist, x - load.at, gap, inward, wall, stop));
-                twist.velocity = twist.velocity + more.velocity;
-                twist.spin += more.spin;
-            };
-            meet(x.x, {Number(1), Number(0)}, borders.left);
-            meet(size.x - x.x, {Number(-1), Number(0)}, borders.right);
-            meet(x.y, {Number(0), Number(1)}, borders.bottom);
-            meet(size.y - x.y, {Number(0), Number(-1)}, borders.top);
-        }
-    }
-}
-
 /// Particles bounce off a body as if it were too heavy to yield. One that is lighter than all that
 /// hit it takes only as much as brings it to their speed.
 template <class Real>
-void accelerate(const GridShape& s, const Borders<Real>& borders, BodyTable<Real>& table,
-                Vec2<Real> gravity, Seconds<Real> dt_s) {
-    const Face<Real> dt = static_cast<Face<Real>>(dt_s);
-    const Face<Real> fall =
-        dt * static_cast<Face<Real>>(maximum(absolute(gravity.x), absolute(gravity.y)));
-    const Stop<Real> stop{dt, fall + fall};
+void accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Vec2<Real> gravity) {
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         Twist<Real> twist = twist_of(body, load);
         const Twist<Real> blown = answer(load, load.blows);
@@ -177,14 +95,13 @@ void accelerate(const GridShape& s, const Borders<Real>& borders, BodyTable<Real
         load.blows = Impulse<Real>{};
         load.blow_mass = Face<Real>(0);
         twist.velocity =
-            (twist.velocity + dt * convert<Face<Real>>(gravity)) + share * blown.velocity;
+            (twist.velocity + obstacles.dt * convert<Face<Real>>(gravity)) + share * blown.velocity;
         twist.spin += share * blown.spin;
-        if (near_walls(s, body)) {
-            stop_at_walls(s, borders, table, body, load, stop, twist);
-        }
         load.unpressed = twist;
         load.change = Twist<Real>{};
-        set_twist(load, twist, body);
+        release(load);
+        throw_back(obstacles, static_cast<std::uint16_t>(&body - table.body));
+        set_twist(load, load.unpressed, body);
     });
 }
 
@@ -207,10 +124,11 @@ bool limit(Face<Real> fastest, Face<Real> radius, Twist<Real>& twist) {
 }
 
 template <class Real>
-std::int32_t finish(BodyTable<Real>& table, Seconds<Real> dt_s) {
-    const Face<Real> fastest = Face<Real>(kLongestWay) / static_cast<Face<Real>>(dt_s);
+std::int32_t finish(const Obstacles<Real>& obstacles, BodyTable<Real>& table) {
+    const Face<Real> fastest = Face<Real>(kLongestWay) / obstacles.dt;
     std::int32_t slowed = 0;
     for_each_free(table, [&](Body<Real>& body, const BodyLoad<Real>& load) {
+        stop(obstacles, static_cast<std::uint16_t>(&body - table.body));
         Twist<Real> twist{load.unpressed.velocity + load.change.velocity,
                           load.unpressed.spin + load.change.spin};
         slowed += limit<Real>(fastest, static_cast<Face<Real>>(body.radius), twist) ? 1 : 0;

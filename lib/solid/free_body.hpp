@@ -6,8 +6,8 @@
 // is added: a program that adds none does not link this file.
 #pragma once
 
-#include "grid/borders.hpp"
 #include "solid/body_force.hpp"
+#include "solid/obstacles.hpp"
 
 namespace weir {
 
@@ -23,6 +23,7 @@ struct CoupledSolve {
     const VelocityOf<Real>* light_u;  ///< inverse densities, null: one liquid
     const VelocityOf<Real>* light_v;
     PressedCells<Real> cells;
+    Obstacles<Real> obstacles;
     Real* pressure;
     VelocityOf<Real>* divergence;        ///< with the bodies' velocities before the pressure
     VelocityOf<Real>* inverse_diagonal;  ///< 0 where a free body presses: those cells are ours
@@ -31,9 +32,8 @@ struct CoupledSolve {
 
 template <class Real>
 struct FreeBodyStages {
-    /// Before the pressure: gravity, blows and the tank's walls give them a velocity.
-    void (*accelerate)(const GridShape&, const Borders<Real>&, BodyTable<Real>&,
-                       Vec2<Real> gravity, Seconds<Real> dt_s);
+    /// Before the pressure: gravity and blows give them a velocity, and what throws them back.
+    void (*accelerate)(const Obstacles<Real>&, BodyTable<Real>&, Vec2<Real> gravity);
     /// Begin of a cycle: the divergence takes in what the pressure makes of the bodies.
     void (*begin)(const CoupledSolve<Real>&);
     /// After the coarse correction: takes that back, and answers with the work that the bodies'
@@ -45,9 +45,9 @@ struct FreeBodyStages {
     void (*relax)(const CoupledSolve<Real>&, Real omega, std::int32_t colour);
     /// and gives them back.
     void (*end)(const CoupledSolve<Real>&);
-    /// After the pressure: the velocity that came of it. Returns how many were too fast for a
-    /// substep and were slowed.
-    std::int32_t (*finish)(BodyTable<Real>&, Seconds<Real> dt_s);
+    /// After the pressure: the velocity that came of it and of what stops them. Returns how many
+    /// were too fast for a substep and were slowed.
+    std::int32_t (*finish)(const Obstacles<Real>&, BodyTable<Real>&);
     /// Moves them with it; none of them leaves the tank.
     void (*move)(const GridShape&, BodyTable<Real>&, Seconds<Real> dt_s);
 };

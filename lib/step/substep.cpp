@@ -360,7 +360,7 @@ const Stages<Real>& open_stages() {
         return 0;
     };
     static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere, kNothing, kNoSolid,
-                                          nullptr};
+                                          nullptr, nullptr};
     return kStages;
 }
 
@@ -368,7 +368,7 @@ template <class Real>
 const Stages<Real>& solid_stages() {
     static constexpr Stages<Real> kStages{substep<true, Real>, inside_solid<Real>,
                                           merge_moving<Real>, draw_stored<Real>,
-                                          empty_lone_slivers<Real>};
+                                          empty_lone_slivers<Real>, end_leads<Real>};
     return kStages;
 }
 

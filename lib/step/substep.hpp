@@ -20,6 +20,8 @@ struct Stages {
     /// Draws all bodies: another part of the tank is stored.
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
     EmptySlivers<Real> empty_slivers;
+    /// At the end of a step, if there are bodies.
+    void (*end_leads)(BodyTable<Real>& table);
 };
 
 }  // namespace weir

@@ -49,12 +49,21 @@ PressedCells<Real> pressed_cells(const Simulation<Real>& simulation, Seconds<Rea
 }
 
 template <class Real>
+Obstacles<Real> obstacles_of(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
+    const Vec2<Real> g = simulation.settings.gravity;
+    const Face<Real> dt = static_cast<Face<Real>>(dt_s);
+    const Face<Real> fall = dt * static_cast<Face<Real>>(maximum(absolute(g.x), absolute(g.y)));
+    return {simulation.layers.shape, simulation.settings.borders, simulation.bodies, dt,
+            fall + fall};
+}
+
+template <class Real>
 void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s) {
     locate_bodies(simulation.bodies);
     if (simulation.free_bodies != nullptr) {
         simulation.layers.walls.moving = true;
-        simulation.free_bodies->accelerate(simulation.layers.shape, simulation.settings.borders,
-                                           simulation.bodies, simulation.settings.gravity, dt_s);
+        simulation.free_bodies->accelerate(obstacles_of(simulation, dt_s), simulation.bodies,
+                                           simulation.settings.gravity);
     }
 }
 
@@ -70,7 +79,8 @@ void press_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& 
     press_tank(simulation, dt_s);
     press_on_bodies(simulation.grid.shape, simulation.layers.walls, simulation.bodies, cells);
     if (simulation.free_bodies != nullptr) {
-        report.bodies_slowed += simulation.free_bodies->finish(simulation.bodies, dt_s);
+        report.bodies_slowed += simulation.free_bodies->finish(obstacles_of(simulation, dt_s),
+                                                                simulation.bodies);
     }
 }
 
@@ -94,6 +104,7 @@ CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Rea
             grid.inverse_density_u,
             grid.inverse_density_v,
             pressed_cells(simulation, dt_s),
+            obstacles_of(simulation, dt_s),
             fields.pressure,
             fields.divergence,
             fields.inverse_diagonal,

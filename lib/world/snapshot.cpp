@@ -265,7 +265,7 @@ void redraw(Simulation<Real>& simulation) {
             ++table.used;
             place(table, table.body[slot]);
             if constexpr (!Stored<Real>::shares_momentum) {
-                if (table.load != nullptr && table.load[slot].is_free()) {
+                if (table.load != nullptr && table.load[slot].inverse_mass != Face<Real>(0)) {
                     simulation.free_bodies = &free_body_stages<Real>();
                 }
             }

@@ -126,7 +126,7 @@ template <class Real, class Stream>
 void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) {
     auto& [position, velocity, angle, spin, surface, radius, first_vertex, vertex_count, room,
            rings, piece_length, drawn, left, met_position, met_angle, generation, kind, moved,
-           open, hollow] = record;
+           open, hollow, led] = record;
     auto& [restitution, friction, conveyor, no_slip] = surface;
     stream.member(kind, BodyKind::free, BodyKind::moving);
     stream.member(generation, 0, 0xFFFF);
@@ -141,6 +141,7 @@ void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) 
     positive_member(stream, radius);
     stream.member(moved, false, true);
     stream.member(open, false, true);
+    stream.member(led, false, true);
     any_member(stream, met_position);
     angle_member(stream, met_angle);
     constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);

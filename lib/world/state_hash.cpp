@@ -63,10 +63,13 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
         if (body.open) {
             hash.add(std::uint32_t{1});
         }
+        if (body.led) {
+            hash.add(std::uint32_t{2});
+        }
         for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
             hash.add(table.outline(body).end_of(ring));
         }
-        if (table.load != nullptr && table.load[slot].is_free()) {
+        if (table.load != nullptr && table.load[slot].inverse_mass != Face<Real>(0)) {
             const BodyLoad<Real>& load = table.load[slot];
             const Face<Real> weights[] = {load.inverse_mass, load.inverse_inertia,
                                           load.blows.linear.x, load.blows.linear.y,

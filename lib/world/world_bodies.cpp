@@ -88,6 +88,7 @@ void weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& b
     const auto density = static_cast<Face<Real>>(def.density_ratio);
     load.centre = moments.centroid;
     load.mass = density * moments.area;
+    load.sinks = def.density_ratio > 1.0F;
     load.inertia = density * moments.inertia;
 }
 
@@ -169,43 +170,105 @@ Status World<Real>::add_moving_body(const BodyDef& def, BodyId* id) {
     return free != Status::ok ? free : add_body(*state_, def, BodyKind::moving, id);
 }
 
+namespace {
+
+/// Whether that body can be given that motion now.
 template <class Real>
-Status World<Real>::set_motion(BodyId id, const Motion& motion) {
-    const Status free = ready(state_);
+Status check_movable(const WorldState<Real>* state, BodyId id) {
+    const Status free = ready(state);
     if (free != Status::ok) {
         return free;
     }
-    const Status known = check_id(*state_, id);
+    const Status known = check_id(*state, id);
     if (known != Status::ok) {
         return known;
     }
-    Body<Real>& body = state_->simulation.bodies.body[id.slot];
-    if (body.kind == BodyKind::fixed) {
-        return Status::body_is_static;
+    return state->simulation.bodies.body[id.slot].kind == BodyKind::fixed ? Status::body_is_static
+                                                                          : Status::ok;
+}
+
+template <class Real>
+Status check_reach(const WorldState<Real>& state, const Motion& motion) {
+    return check_motion(motion, state.def.cell_m, reach_of<Real>(state.unit_exponent));
+}
+
+/// Of an angle within a whole turn.
+float shorter_turn(float angle_rad) {
+    constexpr float kHalf = 3.14159265F;
+    if (angle_rad > kHalf) {
+        return angle_rad - 2.0F * kHalf;
     }
-    const Status valid =
-        check_motion(motion, state_->def.cell_m, reach_of<Real>(state_->unit_exponent));
+    return angle_rad < -kHalf ? angle_rad + 2.0F * kHalf : angle_rad;
+}
+
+template <class Real>
+void change_velocity(WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
+    const Vec2<Real> velocity = body.velocity;
+    const Real spin = body.spin;
+    set_velocity(state, motion, body);
+    if (velocity.x != body.velocity.x || velocity.y != body.velocity.y || spin != body.spin) {
+        wake(state);
+    }
+}
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::set_motion(BodyId id, const Motion& motion) {
+    Status valid = check_movable(state_, id);
+    if (valid == Status::ok) {
+        valid = check_reach(*state_, motion);
+    }
     if (valid != Status::ok) {
         return valid;
     }
+    BodyTable<Real>& table = state_->simulation.bodies;
+    Body<Real>& body = table.body[id.slot];
     const Vec2<Real> position = body.position;
-    const Vec2<Real> velocity = body.velocity;
     const Real angle = body.angle;
-    const Real spin = body.spin;
+    lead(table, id.slot, false);
     set_pose(*state_, motion, body);
-    set_velocity(*state_, motion, body);
     if (position.x != body.position.x || position.y != body.position.y || angle != body.angle) {
         body.moved = true;
-        BodyTable<Real>& table = state_->simulation.bodies;
         place(table, body);
         touch_regions(state_->simulation.regions, body.drawn);
         touch_regions(state_->simulation.regions, box_of(state_->simulation, body));
         wake(*state_);
     }
-    if (velocity.x != body.velocity.x || velocity.y != body.velocity.y || spin != body.spin) {
-        wake(*state_);
-    }
+    change_velocity(*state_, motion, body);
     return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::move_body(BodyId id, Vec2f position_m, float angle_rad, float dt_s) {
+    Motion now;
+    Motion motion{position_m, angle_rad, {}, 0.0F};
+    Status valid = check_movable(state_, id);
+    if (valid == Status::ok) {
+        valid = check_reach(*state_, motion);
+    }
+    if (valid == Status::ok && !(dt_s > 0.0F && is_finite(dt_s))) {
+        valid = Status::motion_not_finite;
+    }
+    if (valid == Status::ok) {
+        valid = this->motion(id, &now);
+    }
+    if (valid != Status::ok) {
+        return valid;
+    }
+    // A body that was held goes for both steps in the next one.
+    const float behind_s =
+        unit_of(*state_) * static_cast<float>(state_->simulation.walls_behind_s);
+    const float per_s = 1.0F / (dt_s + behind_s);
+    motion.velocity_mps = {per_s * (position_m.x - now.position_m.x),
+                           per_s * (position_m.y - now.position_m.y)};
+    motion.spin_radps = per_s * shorter_turn(wrapped_angle(angle_rad - now.angle_rad));
+    valid = check_reach(*state_, motion);
+    if (valid == Status::ok) {
+        lead(state_->simulation.bodies, id.slot, true);
+        change_velocity(*state_, motion, state_->simulation.bodies.body[id.slot]);
+    }
+    return valid;
 }
 
 template <class Real>
@@ -256,6 +319,7 @@ Status World<Real>::remove_body(BodyId id) {
     template Status World<Real>::add_static_body(const BodyDef&, BodyId*);          \
     template Status World<Real>::add_moving_body(const BodyDef&, BodyId*);          \
     template Status World<Real>::set_motion(BodyId, const Motion&);                 \
+    template Status World<Real>::move_body(BodyId, Vec2f, float, float);            \
     template Status World<Real>::motion(BodyId, Motion*) const;                     \
     template Status World<Real>::remove_body(BodyId);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

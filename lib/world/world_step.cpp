@@ -98,6 +98,7 @@ void end(detail::WorldState<Real>& state) {
     if (report.walls_held) {
         simulation.walls_behind_s = static_cast<Seconds<Real>>(report.dt_s * units_per_s(state));
     }
+    const bool moved = report.dt_s > 0.0F && !report.walls_held;
     finish(simulation.contacts);
     report.contacts_missed = simulation.contacts.missed;
     if (report.particles_slowed > 0) {
@@ -118,6 +119,9 @@ void end(detail::WorldState<Real>& state) {
         const std::int32_t apart =
             simulation.regions != nullptr ? simulation.regions->asleep : 0;
         report.particles_asleep = report.asleep ? report.particles : apart;
+    }
+    if (moved && simulation.stages->end_leads != nullptr) {
+        simulation.stages->end_leads(simulation.bodies);
     }
     state.stepping = false;
 }

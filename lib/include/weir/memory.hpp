@@ -107,7 +107,7 @@ inline constexpr std::size_t kWallEdgeBytes = 16;
 template <class Real>
 inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
-inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 84 : 168;
+inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 124 : 248;
 template <class Real>
 inline constexpr std::size_t kRegionsBytes = sizeof(Real) == 4 ? 144 : 160;
 

@@ -49,12 +49,24 @@ public:
     /// A solid that moves as told; it is rasterized again in each step in which it moved.
     Status add_moving_body(const BodyDef& def, BodyId* id);
     /// A solid that gravity and the liquid move, and that stops at the tank's walls; otherwise a
-    /// moving body. It knows no other bodies: for contacts between them couple a physics engine.
+    /// moving body. It knows no other bodies: for contacts between them couple a physics engine. Free
+    /// bodies inside each other, or in a body of another kind, press liquid together, and so does a
+    /// light one that lies flat on the tank's floor.
     /// Any density is stable with Pressure::projection, down to about a tenth of the liquid's with
     /// the other. Wants `capacity.two_way`.
     Status add_free_body(const BodyDef& def, BodyId* id);
     /// Places a moving body and sets its velocity and spin, which it keeps until told otherwise.
+    /// Another position than it had is a leap, which presses together the liquid that was there:
+    /// over and over again it destroys the liquid's volume. Who knows only positions calls
+    /// `move_body` before each step.
     Status set_motion(BodyId id, const Motion& motion);
+    /// Leads a moving body there within the next step, which is to be of dt_s: it gets the velocity
+    /// and the spin, the shorter way round, that take it there. After that step it stands still
+    /// unless it is led on. A free body moves as told through that step, and keeps its velocity
+    /// after it: a caller that holds one, or has found that something the world does not know
+    /// stopped it, leads it before each step in which it is not free.
+    /// Refuses what is faster than a body can be (`Status::motion_out_of_range`).
+    Status move_body(BodyId id, Vec2f position_m, float angle_rad, float dt_s);
     /// Where a body is now, after the steps that were taken.
     Status motion(BodyId id, Motion* motion) const;
     Status remove_body(BodyId id);

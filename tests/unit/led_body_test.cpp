@@ -1,0 +1,247 @@
+// Bodies that something outside of the liquid stops or leads: the liquid keeps its volume.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "test_world.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kDt = 1.0F / 60.0F;
+
+WorldDef pool_def(std::int32_t cells_x, std::int32_t cells_y) {
+    WorldDef def;
+    def.capacity.cells_x = cells_x;
+    def.capacity.cells_y = cells_y;
+    def.capacity.particles = 4 * cells_x * cells_y;
+    def.capacity.bodies = 2;
+    def.capacity.vertices = 8;
+    def.capacity.two_way = true;
+    return def;
+}
+
+/// Of what the liquid's mass would fill.
+template <class Real>
+double volume_left(World<Real>& world) {
+    Diagnostics now;
+    expect_ok(world.diagnose(&now));
+    return now.volume_m2 / now.mass_m2;
+}
+
+template <class Real>
+class LedBody : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed>;
+TYPED_TEST_SUITE(LedBody, Scalars);
+
+/// It lies flat, the liquid around it keeps its volume, and nothing lifts it again.
+TYPED_TEST(LedBody, SunkenBodyLeavesTheLiquidItsVolume) {
+    for (const float angle : {0.0F, 0.4F}) {
+        for (const float x : {0.24F, 0.05F}) {  // in the middle, and beside a wall
+            TestWorld<TypeParam> world{pool_def(24, 20)};
+            expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
+            const Ring box = rectangle(0.1F, 0.06F);
+            BodyDef body = body_of(box, {x, 0.3F}, angle);
+            body.density_ratio = 2.0F;
+            BodyId id;
+            expect_ok(world->add_free_body(body, &id));
+            Motion m;
+            for (int k = 0; k < 900; ++k) {
+                world->step(kDt);
+                expect_ok(world->motion(id, &m));
+                if (k > 600) {
+                    ASSERT_LT(m.position_m.y, 0.1F) << "it rose";
+                }
+            }
+            EXPECT_GT(volume_left(*world), 0.97) << angle << " " << x;
+        }
+    }
+}
+
+/// What stops it does not hold it: under water light bodies leave the floor and the wall.
+TYPED_TEST(LedBody, LightBodyLeavesTheFloor) {
+    TestWorld<TypeParam> world{pool_def(24, 20)};
+    const Ring box = rectangle(0.1F, 0.06F);
+    BodyDef body = body_of(box, {0.05F, 0.03F});
+    body.density_ratio = 0.4F;
+    BodyId id;
+    expect_ok(world->add_free_body(body, &id));
+    expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
+    // Beneath it there is no liquid to press: it is lifted so far that some comes in.
+    Motion m;
+    expect_ok(world->motion(id, &m));
+    m.position_m.y += 0.02F;
+    expect_ok(world->set_motion(id, m));
+    for (int k = 0; k < 300; ++k) {
+        world->step(kDt);
+    }
+    expect_ok(world->motion(id, &m));
+    EXPECT_GT(m.position_m.y, 0.2F);
+    EXPECT_GT(volume_left(*world), 0.97);
+}
+
+/// There by the end of the step, the shorter way round, and no further after it.
+TYPED_TEST(LedBody, GoesThereAndStandsStill) {
+    TestWorld<TypeParam> world{pool_def(24, 20)};
+    BodyId id;
+    Motion m;
+    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}, 3.0F), &id));
+    for (int k = 1; k <= 10; ++k) {
+        const Vec2f to{0.1F + 0.01F * static_cast<float>(k), 0.1F + 0.004F * static_cast<float>(k)};
+        const float angle = 3.0F + 0.1F * static_cast<float>(k);
+        expect_ok(world->move_body(id, to, k % 2 == 0 ? angle : angle - 6.2831853F, kDt));
+        expect_ok(world->motion(id, &m));
+        EXPECT_NEAR(m.spin_radps, 6.0F, 1e-2F);
+        world->step(kDt);
+        expect_ok(world->motion(id, &m));
+        EXPECT_NEAR(m.position_m.x, to.x, 1e-5F);
+        EXPECT_NEAR(m.position_m.y, to.y, 1e-5F);
+        EXPECT_NEAR(std::remainder(m.angle_rad - angle, 6.2831853F), 0.0F, 1e-3F);
+        EXPECT_EQ(m.velocity_mps.x, 0.0F);
+        EXPECT_EQ(m.spin_radps, 0.0F);
+    }
+    const Vec2f last = m.position_m;
+    world->step(kDt);
+    expect_ok(world->motion(id, &m));
+    EXPECT_EQ(m.position_m.x, last.x);
+    EXPECT_EQ(m.position_m.y, last.y);
+    // Who is told a motion is led no longer.
+    expect_ok(world->move_body(id, {0.2F, 0.2F}, 0.0F, kDt));
+    m.velocity_mps = {0.3F, 0.0F};
+    expect_ok(world->set_motion(id, m));
+    world->step(kDt);
+    expect_ok(world->motion(id, &m));
+    EXPECT_NEAR(m.velocity_mps.x, 0.3F, 1e-3F);
+}
+
+/// A held step is made good in the next one.
+TYPED_TEST(LedBody, ArrivesAfterAStepThatHeldIt) {
+    WorldDef def = pool_def(24, 20);
+    def.capacity.two_way = false;
+    TestWorld<TypeParam> world{def};
+    expect_ok(world->fill({{0, 0}, {0.48F, 0.1F}}));
+    BodyId id;
+    Motion m;
+    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id));
+    world->step(kDt);
+    expect_ok(world->move_body(id, {0.104F, 0.1F}, 0.0F, kDt));
+    ASSERT_TRUE(world->step(kDt, 3).walls_held);
+    expect_ok(world->motion(id, &m));
+    ASSERT_NEAR(m.position_m.x, 0.1F, 1e-6F);
+    expect_ok(world->move_body(id, {0.108F, 0.1F}, 0.0F, kDt));
+    ASSERT_FALSE(world->step(kDt, 3).walls_held);
+    expect_ok(world->motion(id, &m));
+    EXPECT_NEAR(m.position_m.x, 0.108F, 1e-5F);
+    EXPECT_EQ(m.velocity_mps.x, 0.0F);
+}
+
+/// A character that wades to and fro, known by its position alone.
+template <class Real>
+void expect_wading_keeps_volume() {
+    WorldDef def = pool_def(48, 20);
+    def.capacity.two_way = false;
+    TestWorld<Real> world{def};
+    expect_ok(world->fill({{0, 0}, {0.96F, 0.24F}}));
+    const Ring hero = {{-0.04F, 0}, {0.04F, 0}, {0.04F, 0.16F}, {-0.04F, 0.16F}};
+    BodyId id;
+    expect_ok(world->add_moving_body(body_of(hero, {0.2F, 0.0F}), &id));
+    for (int k = 0; k < 1200; ++k) {
+        const float phase = std::fmod(static_cast<float>(k) * kDt * 0.6F, 1.12F);
+        const float x = 0.2F + (phase < 0.56F ? phase : 1.12F - phase);
+        expect_ok(world->move_body(id, {x, 0.0F}, 0.0F, kDt));
+        world->step(kDt);
+    }
+    EXPECT_GT(volume_left(*world), 0.97);
+}
+TYPED_TEST(LedBody, WadingKeepsVolume) { expect_wading_keeps_volume<TypeParam>(); }
+TEST(LedSmallBody, WadingKeepsVolume) { expect_wading_keeps_volume<SmallFixed>(); }
+
+/// A free body that hangs on a rope moves as told, is free again afterwards, and weighs what it did.
+TYPED_TEST(LedBody, FreeBodyIsHeldAndLetGo) {
+    for (const float density : {0.2F, 3.0F}) {
+        TestWorld<TypeParam> world{pool_def(24, 20)};
+        const Ring box = rectangle(0.08F, 0.08F);
+        BodyDef body = body_of(box, {0.24F, 0.12F});
+        body.density_ratio = density;
+        BodyId id;
+        Motion m;
+        expect_ok(world->add_free_body(body, &id));
+        expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
+        float lift = 0;
+        for (int k = 0; k < 600; ++k) {
+            expect_ok(world->move_body(id, {0.24F, 0.12F}, 0.0F, kDt));
+            world->step(kDt);
+            BodyForce force;
+            expect_ok(world->force(id, &force));
+            lift += k < 300 ? 0.0F : force.impulse_m3ps.y / (300 * force.dt_s);
+        }
+        expect_ok(world->motion(id, &m));
+        EXPECT_NEAR(m.position_m.x, 0.24F, 1e-5F);
+        EXPECT_NEAR(m.position_m.y, 0.12F, 1e-5F);
+        EXPECT_GT(volume_left(*world), 0.98);
+        EXPECT_NEAR(lift / (9.81F * 0.0064F), 1.0F, 0.1F) << "what holds it has to know";
+        for (int k = 0; k < 30; ++k) {
+            world->step(kDt);
+        }
+        expect_ok(world->motion(id, &m));
+        EXPECT_GT(density < 1.0F ? m.position_m.y - 0.12F : 0.12F - m.position_m.y, 0.02F);
+    }
+}
+
+/// A snapshot between the call and the step goes on as the world does.
+TYPED_TEST(LedBody, SnapshotKnowsWhoIsLed) {
+    TestWorld<TypeParam> world{pool_def(24, 20)};
+    TestWorld<TypeParam> twin{pool_def(24, 20)};
+    expect_ok(world->fill({{0, 0}, {0.48F, 0.1F}}));
+    BodyId free;
+    BodyId moving;
+    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.1F, 0.2F}), &free));
+    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.3F, 0.1F}), &moving));
+    world->step(kDt);
+    const std::uint64_t before = world->state_hash();
+    expect_ok(world->move_body(free, {0.11F, 0.2F}, 0.1F, kDt));
+    expect_ok(world->move_body(moving, {0.31F, 0.1F}, 0.0F, kDt));
+    EXPECT_NE(world->state_hash(), before);
+    std::vector<std::byte> snapshot(1U << 20U);
+    std::size_t written = 0;
+    expect_ok(world->save(snapshot.data(), snapshot.size(), &written));
+    expect_ok(twin->restore(snapshot.data(), written));
+    EXPECT_EQ(twin->state_hash(), world->state_hash());
+    for (int k = 0; k < 40; ++k) {
+        world->step(kDt);
+        twin->step(kDt);
+        ASSERT_EQ(twin->state_hash(), world->state_hash()) << k;
+    }
+    Motion m;
+    expect_ok(twin->body_in_slot(0, &free));
+    expect_ok(twin->motion(free, &m));
+    EXPECT_LT(m.position_m.y, 0.15F) << "it fell";
+}
+
+TEST(LedBodyCalls, AreRefusedWhenTheyMakeNoSense) {
+    TestWorld<float> world{pool_def(24, 20)};
+    BodyId fixed;
+    BodyId moving;
+    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &fixed));
+    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.3F, 0.1F}), &moving));
+    const std::uint64_t before = world->state_hash();
+    const Vec2f to{0.31F, 0.1F};
+    EXPECT_EQ(World<float>().move_body(moving, to, 0, kDt), Status::not_initialised);
+    EXPECT_EQ(world->move_body(fixed, to, 0, kDt), Status::body_is_static);
+    EXPECT_EQ(world->move_body(BodyId{}, to, 0, kDt), Status::stale_body);
+    for (const float bad : {0.0F, -1.0F, NAN, INFINITY}) {
+        EXPECT_EQ(world->move_body(moving, to, 0, bad), Status::motion_not_finite);
+    }
+    EXPECT_EQ(world->move_body(moving, {NAN, 0}, 0, kDt), Status::motion_not_finite);
+    EXPECT_EQ(world->move_body(moving, to, NAN, kDt), Status::motion_not_finite);
+    EXPECT_EQ(world->move_body(moving, {1e9F, 0}, 0, kDt), Status::position_out_of_range);
+    EXPECT_EQ(world->move_body(moving, {1.0F, 0}, 0, 1e-20F), Status::motion_out_of_range);
+    EXPECT_EQ(world->state_hash(), before);
+    StepReport report;
+    expect_ok(world->begin_step(kDt, &report));
+    EXPECT_EQ(world->move_body(moving, to, 0, kDt), Status::step_in_progress);
+}
+
+}  // namespace
+}  // namespace weir
