@@ -49,9 +49,9 @@ public:
     /// A solid that moves as told; it is rasterized again in each step in which it moved.
     Status add_moving_body(const BodyDef& def, BodyId* id);
     /// A solid that gravity and the liquid move, and that stops at the tank's walls; otherwise a
-    /// moving body. It knows no other bodies: for contacts between them couple a physics engine. Free
-    /// bodies inside each other, or in a body of another kind, press liquid together, and so does a
-    /// light one that lies flat on the tank's floor.
+    /// moving body. It knows no other bodies: for contacts between them couple a physics engine.
+    /// Free bodies inside each other, or in a body of another kind, press liquid together, and so
+    /// does a light one that lies flat on the tank's floor.
     /// Any density is stable with Pressure::projection, down to about a tenth of the liquid's with
     /// the other. Wants `capacity.two_way`.
     Status add_free_body(const BodyDef& def, BodyId* id);
