@@ -41,8 +41,8 @@ struct Table {
         return most;
     }
 };
-constexpr Table kWithoutSolids = {{0, 61, 28, 44, 38, 170, 0}};
-constexpr Table kWithSolids = {{950, 61, 31, 55, 54, 1400, 0}};
+constexpr Table kWithoutSolids = {{0, 44, 23, 32, 34, 114, 0}};
+constexpr Table kWithSolids = {{783, 45, 29, 53, 52, 1400, 0}};
 
 bool g_within = true;
 
