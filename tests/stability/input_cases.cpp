@@ -92,7 +92,8 @@ public:
 
     void time_steps() {
         const std::uint64_t before = tank_.world().state_hash();
-        for (const float bad : {kNan, kInf, -kInf, 0.0F, -1.0F, 1e-30F}) {
+        report_.holds(name_ + ".dt.pause_is_none", !tank_.step(0.0F).has(Clamped::time_step));
+        for (const float bad : {kNan, kInf, -kInf, -1.0F, 1e-30F}) {
             const StepReport report = tank_.step(bad);
             report_.holds(name_ + ".dt.reported", report.has(Clamped::time_step));
         }

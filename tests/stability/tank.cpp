@@ -238,7 +238,8 @@ bool Tank<Real>::consistent(const StepReport& r, float dt_s, double fastest) con
     const bool time = usable ? r.dt_s > 0.0F && r.dt_s <= dt_s * 1.000001F && r.substeps >= 1 &&
                                    r.substeps <= def_.max_substeps
                              : r.dt_s == 0.0F && r.substeps == 0;
-    const bool shortened = !usable || r.dt_s < dt_s * 0.999999F;
+    const bool pause = dt_s == 0.0F;
+    const bool shortened = !pause && (!usable || r.dt_s < dt_s * 0.999999F);
     const bool flags = r.has(Clamped::time_step) == shortened &&
                        r.has(Clamped::speed) == (r.particles_slowed > 0) &&
                        r.has(Clamped::not_finite) == (r.particles_reset > 0) &&
