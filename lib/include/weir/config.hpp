@@ -115,7 +115,8 @@ constexpr TankWalls every_wall(const Surface& surface) {
 /// Liquid that lies apart sleeps by itself after `World::let_regions_sleep`.
 struct Sleep {
     /// Of any particle along an axis, and of any free body, m/s; 0 (never sleeps) … kMaxSpeed
-    /// cells/s. Water without viscosity is long in calming down: try 0.02 √(gh), h the depth.
+    /// cells/s. Water without viscosity is long in calming down: try 0.02 √(gh), h the depth, and
+    /// 0.05 in SmallFixed, where the tank may lean.
     float speed_mps = 0.0F;
     /// s; 0.1 … 1000. Longer than half a period of the tank's waves: at its highest a wave stands.
     float after_s = 1.0F;
