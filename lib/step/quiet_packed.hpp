@@ -3,7 +3,7 @@
 
 #include "math/quotient_packed.hpp"
 #include "pressure/pressure_fields.hpp"
-#include "step/places_packed.hpp"
+#include "step/weights_packed.hpp"
 
 namespace weir {
 
@@ -42,15 +42,6 @@ struct SlowShare {
     }
 };
 
-/// Of a field in 128ths, 2^−15.
-inline std::int32_t mean_at(const Speed* first, std::int32_t row, std::uint32_t at) {
-    const Speed* low = further(first, base_of(at, row));
-    const Speed* high = further(low, row);
-    const Weights w = weights_of(at);
-    return (w.lower_left * low[0].raw + w.lower_right * low[1].raw) +
-           (w.upper_left * high[0].raw + w.upper_right * high[1].raw);
-}
-
 /// By `share`, 128ths, towards the grid's velocity, 2^−15, or as near as a quarter more of its own
 /// allows.
 inline void draw(Speed& own, std::int32_t grid, std::int32_t share) {
@@ -75,11 +66,15 @@ inline void quiet(const StaggeredGrid<SmallFixed>& grid, const Speed* share, con
         if (at - lowest > height) {
             continue;
         }
-        const std::int32_t its = further(first_share, base_of(at, row))->raw;
+        const std::int32_t its = first_face(first_share, at, row)->raw;
         if (its > 0) {
+            const auto mean = [&](const Speed* first, std::uint32_t on_faces) {
+                const Speed* low = first_face(first, on_faces, row);
+                return weighed(low, further(low, row), weights_at(on_faces));
+            };
             Vec2<Speed>& velocity = strip.velocity(k);
-            draw(velocity.x, mean_at(first_u, row, at + kHalf<true>), its);
-            draw(velocity.y, mean_at(first_v, row, at + kHalf<false>), its);
+            draw(velocity.x, mean(first_u, at + kHalf<true>), its);
+            draw(velocity.y, mean(first_v, at + kHalf<false>), its);
         }
     }
 }

@@ -3,8 +3,6 @@
 
 #include "step/places_packed.hpp"
 
-#if !defined(__ARM_ARCH_6M__)  // which has loops of its own
-
 namespace weir::packed {
 
 #if defined(__ARM_FEATURE_SIMD32)
@@ -62,12 +60,6 @@ inline void add_momenta(Real* low, Real* high, const WeightPairs& w, std::int32_
 inline Weights weights_at(std::uint32_t at) {
     return weights_of(at);
 }
-inline std::uint32_t lower_pair(const Weights& w) {
-    return static_cast<std::uint32_t>(w.lower_left + w.lower_right * 0x10000);
-}
-inline std::uint32_t upper_pair(const Weights& w) {
-    return static_cast<std::uint32_t>(w.upper_left + w.upper_right * 0x10000);
-}
 
 inline std::int32_t weighed(const Speed* low, const Speed* high, const Weights& w) {
     std::int32_t sum = w.lower_left * low[0].raw;
@@ -78,13 +70,23 @@ inline std::int32_t weighed(const Speed* low, const Speed* high, const Weights& 
     return sum;
 }
 
+#if !defined(__ARM_ARCH_6M__)  // which scatters in a loop of its own
+inline std::uint32_t lower_pair(const Weights& w) {
+    return static_cast<std::uint32_t>(w.lower_left + w.lower_right * 0x10000);
+}
+inline std::uint32_t upper_pair(const Weights& w) {
+    return static_cast<std::uint32_t>(w.upper_left + w.upper_right * 0x10000);
+}
+
 inline void add_momenta(Real* low, Real* high, const Weights& w, std::int32_t velocity) {
     const std::int32_t v = velocity * 4;  // 512ths
     add_two(low, w.lower_left * v, w.lower_right * v);
     add_two(high, w.upper_left * v, w.upper_right * v);
 }
 #endif
+#endif
 
+#if !defined(__ARM_ARCH_6M__)
 /// Mass of 32 particles: 8 times what a full cell's faces hold.
 inline constexpr std::uint32_t kFull = 0x2000;
 
@@ -127,7 +129,6 @@ inline bool add_masses(Speed* low, Speed* high, const Weighing& w) {
 #endif
     return true;
 }
+#endif
 
 }  // namespace weir::packed
-
-#endif

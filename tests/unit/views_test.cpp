@@ -44,16 +44,29 @@ void fill_pool(World<Real>& world) {
 }
 constexpr float kShort = 0.001F;
 
+/// Kinds of worlds that a scalar bears.
+template <class Real>
+std::vector<std::int32_t> kinds_of_worlds() {
+    std::vector<std::int32_t> all;
+    for (const std::int32_t kind : {0, 1, 2, 3, 5, 7, 8}) {
+        if (busy_kind_is_borne<Real>(kind)) {
+            all.push_back(kind);
+        }
+    }
+    return all;
+}
+WorldDef roomy_def(std::int32_t kind) {
+    WorldDef def = busy_def(kind);
+    def.capacity.particles = 600;
+    return def;
+}
+
 /// Densities are those of the substep's beginning: of one that is all of the step, as they were
 /// looked at before it.
 TYPED_TEST(Views, ShowLiquidThatWasJustPutIn) {
-    for (const std::int32_t kind : {0, 1, 2, 3, 5, 7, 8}) {
-        if (!busy_kind_is_borne<TypeParam>(kind)) {
-            continue;
-        }
+    for (const std::int32_t kind : kinds_of_worlds<TypeParam>()) {
         SCOPED_TRACE(kind);
-        WorldDef def = busy_def(kind);
-        def.capacity.particles = 600;
+        const WorldDef def = roomy_def(kind);
         TestWorld<TypeParam> world(def);
         if (def.capacity.bodies > 0) {
             BodyId id;
@@ -71,13 +84,9 @@ TYPED_TEST(Views, ShowLiquidThatWasJustPutIn) {
 }
 
 TYPED_TEST(Views, ShowWhatWasRestored) {
-    for (const std::int32_t kind : {0, 1, 2, 3, 5, 7, 8}) {
-        if (!busy_kind_is_borne<TypeParam>(kind)) {
-            continue;
-        }
+    for (const std::int32_t kind : kinds_of_worlds<TypeParam>()) {
         SCOPED_TRACE(kind);
-        WorldDef def = busy_def(kind);
-        def.capacity.particles = 600;
+        const WorldDef def = roomy_def(kind);
         TestWorld<TypeParam> world(def);
         TestWorld<TypeParam> other(def);
         fill_pool(*world);
