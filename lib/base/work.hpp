@@ -6,15 +6,6 @@
 
 #include "weir/parallel.hpp"
 
-/// Whether loops can be shared out to threads. Processors that come alone leave the code out.
-#ifndef WEIR_PARALLEL
-#if defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M'
-#define WEIR_PARALLEL 0
-#else
-#define WEIR_PARALLEL 1
-#endif
-#endif
-
 namespace weir {
 
 /// Items first … end − 1 of a loop.

@@ -98,7 +98,7 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? 896 : 1216) +
+        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 912 : 896) : 1216) +
               (std::is_same_v<Real, Fixed> ? 16 : 0)
         : 1440;
 template <class Real>
