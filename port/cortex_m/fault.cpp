@@ -86,8 +86,3 @@ extern "C" [[gnu::naked, gnu::used]] void port_fault() {
       "bx r1 \n"
       ".pool \n");
 }
-
-extern "C" [[gnu::weak]] void weir_fault(const char* expression, const char* file, int line) {
-  port::print("FAULT ", expression, ' ', file, ':', line, "\n");
-  port::exit(3);
-}

@@ -1,10 +1,9 @@
-// From reset to main(): FPU, memory, fence, constructors; then main() on its own stack, and exit.
+// Vectors, and from reset to the first line of C++: FPU, and main() on a stack of its own.
+#include "start.hpp"
+
 #include "fence.hpp"
-#include "port/port.hpp"
 #include "symbols.hpp"
 #include "timer.hpp"
-
-int main();
 
 extern "C" {
 
@@ -31,32 +30,6 @@ void port_fault();
     reinterpret_cast<void*>(port_fault),  // PendSV
     reinterpret_cast<void*>(port_fault),  // SysTick
 };
-
-/// Runs on the handlers' stack, so it may paint the whole of main()'s.
-[[gnu::used]] void port_prepare_memory() {
-  for (std::uint32_t* word = port_stack_bottom; word != port_stack_top; ++word) {
-    *word = port::kStackPaint;
-  }
-  const std::uint32_t* image = port_data_image;
-  for (std::uint32_t* word = port_data_start; word != port_data_end; ++word) *word = *image++;
-  for (std::uint32_t* word = port_bss_start; word != port_bss_end; ++word) *word = 0;
-#if __ARM_ARCH >= 7
-  constexpr std::uintptr_t kVectorTable = 0xE000ED08, kHandlerControl = 0xE000ED24;
-  port::word_at(kVectorTable) =
-      static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(port_vectors));
-  port::word_at(kHandlerControl) |= 0xFu << 16;  // each fault by its own name, not as HardFault
-#endif
-  port::raise_fence();
-  port::start_timer();
-}
-
-[[gnu::used, noreturn]] void port_run() {
-  for (auto constructor = port_init_array_start; constructor != port_init_array_end;
-       ++constructor) {
-    (*constructor)();
-  }
-  port::exit(main());
-}
 
 /// No compiled code runs before the FPU is on: at -O2 the compiler may use its registers to copy
 /// memory. FPSCR = 0: denormals are kept and rounding is to nearest, which the same-bits promise
@@ -93,3 +66,18 @@ void port_fault();
 }
 
 }  // extern "C"
+
+namespace port {
+
+void prepare_processor() {
+#if __ARM_ARCH >= 7
+  constexpr std::uintptr_t kVectorTable = 0xE000ED08, kHandlerControl = 0xE000ED24;
+  word_at(kVectorTable) =
+      static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(port_vectors));
+  word_at(kHandlerControl) |= 0xFu << 16;  // each fault by its own name, not as HardFault
+#endif
+  raise_fence();
+  start_timer();
+}
+
+}  // namespace port

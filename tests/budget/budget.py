@@ -14,7 +14,7 @@ BOARD = "netduinoplus2"
 
 
 def run_once(image):
-    run = subprocess.run([ROOT / "port/cortex_m/run", BOARD, image], text=True, check=True,
+    run = subprocess.run([ROOT / "port/run", BOARD, image], text=True, check=True,
                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     return [line for line in run.stdout.splitlines() if not line.startswith("progress")]
 

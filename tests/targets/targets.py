@@ -84,7 +84,7 @@ def left_out(image, objects):
 
 def facts(board, image):
     """What an image prints on a board, by name."""
-    run = subprocess.run([ROOT / "port/cortex_m/run", board, image], text=True, check=True,
+    run = subprocess.run([ROOT / "port/run", board, image], text=True, check=True,
                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     return {words[0]: int(words[1]) for words in map(str.split, run.stdout.splitlines())}
 
@@ -118,7 +118,7 @@ def measure_example(build):
     image = pathlib.Path(build) / EXAMPLE
     if not image.exists():
         return
-    _, moved, ticks = example_ticks([ROOT / "port/cortex_m/run", "microbit", image])
+    _, moved, ticks = example_ticks([ROOT / "port/run", "microbit", image])
     yield "cortex-m0 microbit example instructions", round(ticks / moved, 1)
     with tempfile.TemporaryDirectory() as folder:
         tool = pathlib.Path(folder) / "cycles_m0"

@@ -60,10 +60,18 @@ void go_wrong() {
   if (asked("null_call")) reinterpret_cast<void (*)()>(null)();
 #if defined(__arm__)
   if (asked("undefined")) asm volatile(".inst.n 0xde00");  // UDF #0
+  constexpr std::uint16_t kReturn = 0x4770;                // bx lr
+  constexpr std::uintptr_t kOfCode = 1;                    // Thumb
+#else
+#if defined(__riscv)
+  if (asked("undefined")) asm volatile("unimp");
+#endif
+  constexpr std::uint16_t kReturn = 0x8082;  // ret, of RISC-V
+  constexpr std::uintptr_t kOfCode = 0;
 #endif
   if (asked("run_data")) {
-    static std::uint16_t code[] = {0x4770, 0x4770};  // bx lr
-    reinterpret_cast<void (*)()>(reinterpret_cast<std::uintptr_t>(code) | 1u)();
+    static std::uint16_t code[] = {kReturn, kReturn};
+    reinterpret_cast<void (*)()>(reinterpret_cast<std::uintptr_t>(code) | kOfCode)();
   }
 }
 

@@ -1,2 +1,3 @@
 set(board_processor cortex-m7)
-set(board_timer cmsdk_dual)
+set(board_sources timers/cmsdk_dual.cpp)
+set(board_ram_end 20400000)

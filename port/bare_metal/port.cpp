@@ -1,10 +1,9 @@
-// port.hpp on a Cortex-M with a debugger or emulator that answers semihosting.
+// port.hpp, but for ticks, on any processor with a debugger or emulator that answers semihosting.
 #include "port/port.hpp"
 
-#include "board.hpp"
+#include "port/print.hpp"
 #include "semihosting.hpp"
 #include "symbols.hpp"
-#include "timer.hpp"
 
 namespace port {
 namespace {
@@ -32,16 +31,6 @@ void write(const char* text, std::size_t bytes) {
 }
 
 void exit(int code) { semihosting::exit(code); }
-
-std::uint64_t ticks() {
-  const std::uint32_t fine = timer_fine();
-  const std::uint64_t coarse = timer_coarse();
-  const auto correction = static_cast<std::int32_t>(fine - static_cast<std::uint32_t>(coarse));
-  const std::uint64_t count = coarse + static_cast<std::uint64_t>(std::int64_t{correction});
-  return (count * board::kTickFactor + board::kTickRounding) >> board::kTickShift;
-}
-
-const char* tick_unit() { return board::kTickUnit; }
 
 void wait_for_tick() {}
 
@@ -93,3 +82,8 @@ bool file_write(const char* name, const void* data, std::size_t bytes, bool appe
 }
 
 }  // namespace port
+
+extern "C" [[gnu::weak]] void weir_fault(const char* expression, const char* file, int line) {
+  port::print("FAULT ", expression, ' ', file, ':', line, "\n");
+  port::exit(3);
+}

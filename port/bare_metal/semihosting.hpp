@@ -1,5 +1,5 @@
-// Arm semihosting: calls that the debugger or emulator answers (Arm, "Semihosting for AArch32 and
-// AArch64").
+// Semihosting: calls that the debugger or emulator answers (Arm, "Semihosting for AArch32 and
+// AArch64"; RISC-V International, "RISC-V Semihosting", has the same calls).
 #pragma once
 
 #include <cstddef>

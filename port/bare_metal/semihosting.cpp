@@ -16,10 +16,28 @@ enum class Call : std::uint32_t {
 /// Every call takes the address of a block of words and returns a word. The memory clobber makes
 /// the compiler store the block, and what it points at, first.
 std::uint32_t call(Call operation, const void* block) {
+#if defined(__riscv)
+  register std::uint32_t a0 asm("a0") = static_cast<std::uint32_t>(operation);
+  register const void* a1 asm("a1") = block;
+  // A breakpoint is a call if just these two stand around it, uncompressed and on one page.
+  asm volatile(
+      ".option push \n"
+      ".option norvc \n"
+      ".balign 16 \n"
+      "slli zero, zero, 0x1f \n"
+      "ebreak \n"
+      "srai zero, zero, 7 \n"
+      ".option pop \n"
+      : "+r"(a0)
+      : "r"(a1)
+      : "memory");
+  return a0;
+#else
   register std::uint32_t r0 asm("r0") = static_cast<std::uint32_t>(operation);
   register const void* r1 asm("r1") = block;
   asm volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
   return r0;
+#endif
 }
 
 std::uint32_t word_of(const void* pointer) {

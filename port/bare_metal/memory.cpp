@@ -34,6 +34,37 @@ void copy_forwards(unsigned char* out, const unsigned char* in, std::size_t byte
   for (; bytes > 0; --bytes) *out++ = *in++;
 }
 
+/// Sets words, four at a time, and takes what it has set off `bytes`; returns the next one.
+AliasWord* set_fours(AliasWord* out_word, Word pattern, std::size_t* left) {
+  std::size_t bytes = *left;
+#if defined(__arm__)
+  // One store for four words, which compilers do not make of words that are alike.
+  register Word a __asm__("r3") = pattern;
+  register Word b __asm__("r4") = pattern;
+  register Word c __asm__("r5") = pattern;
+  register Word d __asm__("r6") = pattern;
+  __asm__ volatile(
+      ".syntax unified\n\t"
+      "b 1f\n"
+      "0:\n\t"
+      "stmia %[out]!, {%[a], %[b], %[c], %[d]}\n"
+      "1:\n\t"
+      "subs %[bytes], %[bytes], #16\n\t"
+      "bhs 0b\n\t"
+      "adds %[bytes], %[bytes], #16\n\t"
+      : [out] "+l"(out_word), [bytes] "+l"(bytes), [a] "+l"(a), [b] "+l"(b), [c] "+l"(c),
+        [d] "+l"(d)
+      :
+      : "cc", "memory");
+#else
+  for (; bytes >= 4 * sizeof(Word); bytes -= 4 * sizeof(Word), out_word += 4) {
+    out_word[0] = out_word[1] = out_word[2] = out_word[3] = pattern;
+  }
+#endif
+  *left = bytes;
+  return out_word;
+}
+
 }  // namespace
 
 extern "C" {
@@ -61,24 +92,7 @@ void* memset(void* to, int value, std::size_t bytes) {
   if (aligned(out, out)) {
     const Word pattern = byte * Word{0x01010101u};
     auto* out_word = reinterpret_cast<AliasWord*>(out);
-    // One store for four words, which compilers do not make of words that are alike.
-    register Word a __asm__("r3") = pattern;
-    register Word b __asm__("r4") = pattern;
-    register Word c __asm__("r5") = pattern;
-    register Word d __asm__("r6") = pattern;
-    __asm__ volatile(
-        ".syntax unified\n\t"
-        "b 1f\n"
-        "0:\n\t"
-        "stmia %[out]!, {%[a], %[b], %[c], %[d]}\n"
-        "1:\n\t"
-        "subs %[bytes], %[bytes], #16\n\t"
-        "bhs 0b\n\t"
-        "adds %[bytes], %[bytes], #16\n\t"
-        : [out] "+l"(out_word), [bytes] "+l"(bytes), [a] "+l"(a), [b] "+l"(b), [c] "+l"(c),
-          [d] "+l"(d)
-        :
-        : "cc", "memory");
+    out_word = set_fours(out_word, pattern, &bytes);
     for (; bytes >= sizeof(Word); bytes -= sizeof(Word)) *out_word++ = pattern;
     out = reinterpret_cast<unsigned char*>(out_word);
   }

@@ -1,0 +1,2 @@
+set(board_processor riscv32)
+set(board_ram_end 80800000)
