@@ -22,10 +22,11 @@ ALLOWED = 1.02
 # An operator of the scalars stands in one object for all who call it: that is not its stage.
 SHARED = 64
 
-BOARD = {"cortex-m0": "microbit", "cortex-m3": "mps2-an385", "cortex-m4f": "netduinoplus2"}
+BOARD = {"cortex-m0": "microbit", "cortex-m3": "mps2-an385", "cortex-m4f": "netduinoplus2",
+         "riscv32": "virt"}
 SCENES = {"0": "liquid", "1": "solid"}
 # Boards with the memory for the scenes of the paper's tables, with and without their solids.
-ROOMY = {"cortex-m3": "mps2-an385", "cortex-m4f": "mps2-an386"}
+ROOMY = {"cortex-m3": "mps2-an385", "cortex-m4f": "mps2-an386", "riscv32": "virt"}
 TRANSFERS = ("stage_particle_to_grid", "stage_grid_to_particle")
 
 # Cycles for an instruction, on average over the liquid scene: the instructions that were executed,
