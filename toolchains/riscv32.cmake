@@ -3,7 +3,7 @@
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR riscv32)
 find_program(weir_riscv_compiler NAMES riscv-none-elf-g++ riscv32-unknown-elf-g++
-  riscv64-unknown-elf-g++ REQUIRED)
+  riscv64-unknown-elf-g++ riscv64-elf-g++ REQUIRED)
 string(REGEX REPLACE "g\\+\\+$" "gcc" CMAKE_C_COMPILER ${weir_riscv_compiler})
 set(CMAKE_CXX_COMPILER ${weir_riscv_compiler})
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # there is no libc to link a test program with
