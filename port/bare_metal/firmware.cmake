@@ -1,13 +1,14 @@
 # Boards, how a program becomes a firmware image for one, and an image a test. The folders of
-# processors call the first; weir_add_program (../program.cmake) the others, or a program that is for
-# one board.
+# processors call the first; weir_add_program (../program.cmake) the others, or a program that is
+# for one board.
 
 set(WEIR_BARE_METAL_DIR ${CMAKE_CURRENT_LIST_DIR} CACHE INTERNAL "")
 set(weir_boards "" CACHE INTERNAL "The boards this build makes images for")
 
 # weir_add_boards(BOARDS board... SOURCES file...)
-#   Of the boards in the calling folder's boards/, those whose processor is the toolchain's: a library
-#   of objects each, of bare_metal/, SOURCES and what the board adds. boards/<board>/board.cmake sets
+#   Of the boards in the calling folder's boards/, those whose processor is the toolchain's: a
+#   library of objects each, of bare_metal/, SOURCES and what the board adds.
+#   boards/<board>/board.cmake sets
 #     board_processor  CMAKE_SYSTEM_PROCESSOR of the toolchain file
 #     board_sources    files more, relative to the calling folder (a timer), if any
 #     board_ram_end    the first address past its RAM, hexadecimal without 0x: tests store there

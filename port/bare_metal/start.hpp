@@ -1,6 +1,6 @@
 // From reset to main(): what is alike on all processors. A processor's own start.cpp has
-// port_reset(), which sets up what compiled code needs, calls port_prepare_memory() on the handlers'
-// stack and then port_run() on that of main().
+// port_reset(), which sets up what compiled code needs, calls port_prepare_memory() on the
+// handlers' stack and then port_run() on that of main().
 #pragma once
 
 extern "C" {

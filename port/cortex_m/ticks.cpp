@@ -1,5 +1,5 @@
-// ticks() from two counters of one clock: the fine one counts, the coarse one says how often the fine
-// one wrapped.
+// ticks() from two counters of one clock: the fine one counts, the coarse one says how often the
+// fine one wrapped.
 #include "board.hpp"
 #include "port/port.hpp"
 #include "timer.hpp"
