@@ -137,7 +137,7 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std
     for (std::int32_t k = 0; k < levers.count; ++k) {
         const Lever<Real>& lever = levers.lever[k];
         const BodyLoad<Real>& load = walls.load[lever.slot];
-        diagonal += flow(lever.reach, answer_within(load.yield, lever.reach));
+        diagonal += flow(lever.reach, answer(load, lever.reach));
     }
     residual -= pushed_into(solve, levers);
     const Number more = static_cast<Number>(omega) * residual / diagonal;
@@ -146,7 +146,7 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std
     const Number done = static_cast<Number>(p[c]) - static_cast<Number>(before);
     for (std::int32_t k = 0; k < levers.count; ++k) {
         BodyLoad<Real>& load = walls.load[levers.lever[k].slot];
-        const Twist<Real> kick = answer_within(load.yield, levers.lever[k].reach);
+        const Twist<Real> kick = answer(load, levers.lever[k].reach);
         load.change.velocity = load.change.velocity + done * kick.velocity;
         load.change.spin += done * kick.spin;
     }
@@ -184,16 +184,8 @@ void end_coupling(const CoupledSolve<Real>& solve) {
 
 template <class Real>
 void begin_coupling(const CoupledSolve<Real>& solve) {
-    for_each_box(solve, [&](std::uint16_t slot, const NodeBox&) {
-        BodyLoad<Real>& load = solve.walls.load[slot];
-        release(load);
-        const Impulse<Real> pressed =
-            pressure_impulse(solve.shape, solve.walls, slot, solve.cells);
-        load.change = answer(load, pressed);
-        stop(solve.obstacles, slot);
-        const Twist<Real> pushed = answer_within(load.yield, pressed);
-        load.stopped = {load.change.velocity - pushed.velocity, load.change.spin - pushed.spin};
-    });
+    answer_pressure(solve);
+    stop(solve.obstacles, kRoundsBefore);
     add_flow(solve, Face<Real>(1));
 }
 
@@ -223,6 +215,7 @@ void relax_coupled(const CoupledSolve<Real>& solve, Real omega, std::int32_t col
             }
         }
     });
+    stop(solve.obstacles, kRoundsBetween);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                  \

@@ -30,18 +30,6 @@ struct Twist {
     Face<Real> spin = Face<Real>(0);
 };
 
-/// How a free body's velocity answers an impulse: the inverse of its masses, without the directions
-/// in which something stops it. Symmetric.
-template <class Real>
-struct Yield {
-    Face<Real> xx = Face<Real>(0);
-    Face<Real> yy = Face<Real>(0);
-    Face<Real> turn = Face<Real>(0);
-    Face<Real> xy = Face<Real>(0);
-    Face<Real> x_turn = Face<Real>(0);
-    Face<Real> y_turn = Face<Real>(0);
-};
-
 template <class Real>
 struct BodyLoad {
     Vec2<Face<Real>> centre;                      ///< of mass, in the body's frame, cells
@@ -56,11 +44,7 @@ struct BodyLoad {
     Face<Real> blow_mass = Face<Real>(0);  ///< of those particles
     Twist<Real> unpressed;     ///< free bodies: before the pressure
     Twist<Real> change;        ///< and what the pressure adds to it, and whatever stops it
-    Yield<Real> yield;         ///< within the pressure solve
-    Twist<Real> stopped;       ///< what obstacles add at once
-    /// It is denser than the liquid. Only then obstacles hold it within the solve: under what lies
-    /// on the floor no cell holds liquid, and nothing would ever lift a light body.
-    bool sinks = false;
+    Twist<Real> stopped;       ///< that part of the change which is due to what stops it
 
     bool is_free() const { return inverse_mass > Face<Real>(0); }
 };
@@ -89,25 +73,16 @@ inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Rea
     return wide.apply(load.centre);
 }
 
-/// As if nothing were in its way.
+/// How a free body's velocity answers an impulse.
 template <class Real>
 inline Twist<Real> answer(const BodyLoad<Real>& load, const Impulse<Real>& impulse) {
     return {load.inverse_mass * impulse.linear, load.inverse_inertia * impulse.angular};
 }
 
-template <class Real>
-inline Twist<Real> answer_within(const Yield<Real>& y, const Impulse<Real>& impulse) {
-    const Vec2<Face<Real>> push = impulse.linear;
-    const Face<Real> turn = impulse.angular;
-    return {{y.xx * push.x + y.xy * push.y + y.x_turn * turn,
-             y.xy * push.x + y.yy * push.y + y.y_turn * turn},
-            y.x_turn * push.x + y.y_turn * push.y + y.turn * turn};
-}
-
-/// What an impulse changes, given what stops the body in this step.
+/// What an impulse changes, besides what stops the body.
 template <class Real>
 inline Twist<Real> answer_stopped(const BodyLoad<Real>& load, const Impulse<Real>& impulse) {
-    const Twist<Real> pushed = answer_within(load.yield, impulse);
+    const Twist<Real> pushed = answer(load, impulse);
     return {load.stopped.velocity + pushed.velocity, load.stopped.spin + pushed.spin};
 }
 

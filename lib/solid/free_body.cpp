@@ -28,10 +28,16 @@ void set_twist(const BodyLoad<Real>& load, const Twist<Real>& twist, Body<Real>&
     body.spin = static_cast<Real>(twist.spin);
 }
 
+/// Before the pressure, and what has changed.
+template <class Real>
+Twist<Real> whole_twist(const BodyLoad<Real>& load) {
+    return {load.unpressed.velocity + load.change.velocity, load.unpressed.spin + load.change.spin};
+}
+
 template <class Real, class Visit>
 void for_each_free(BodyTable<Real>& table, Visit visit) {
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        if (table.body[slot].kind == BodyKind::moving && table.load[slot].is_free()) {
+        if (is_free_body(table, slot)) {
             visit(table.body[slot], table.load[slot]);
         }
     }
@@ -61,16 +67,18 @@ Overhang<Real> overhang(const GridShape& s, const BodyTable<Real>& table,
 }
 
 template <class Real>
-void move(const GridShape& s, BodyTable<Real>& table, Seconds<Real> dt_s) {
-    const Face<Real> dt = static_cast<Face<Real>>(dt_s);
+void move(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seconds<Real> dt_s) {
+    const GridShape& s = obstacles.tank;
+    part(obstacles);
     for_each_free(table, [&](Body<Real>& body, const BodyLoad<Real>& load) {
         const Twist<Real> twist = twist_of(body, load);
+        const Twist<Real>& parted = load.change;
         const Wide<Real> centre = (convert<Face<Real>>(body.position) + arm_of_centre(body, load)) +
-                                  dt * twist.velocity;
-        body.angle = wrapped_angle(body.angle + dt_s * body.spin);
+                                  (obstacles.dt * twist.velocity + parted.velocity);
+        body.angle = wrapped_angle(body.angle + (dt_s * body.spin + static_cast<Real>(parted.spin)));
         body.position = convert<Real>(centre - arm_of_centre(body, load));
         place(table, body);
-        if (near_walls(s, body)) {
+        if (near_walls(s, body, Real(1))) {
             const Overhang<Real> beyond = overhang(s, table, body);
             const Vec2<Real> back{beyond.low_x - beyond.high_x, beyond.low_y - beyond.high_y};
             if (back.x != Real(0) || back.y != Real(0)) {
@@ -86,7 +94,7 @@ void move(const GridShape& s, BodyTable<Real>& table, Seconds<Real> dt_s) {
 /// Particles bounce off a body as if it were too heavy to yield. One that is lighter than all that
 /// hit it takes only as much as brings it to their speed.
 template <class Real>
-void accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Vec2<Real> gravity) {
+std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table) {
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         Twist<Real> twist = twist_of(body, load);
         const Twist<Real> blown = answer(load, load.blows);
@@ -94,15 +102,19 @@ void accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Vec2<R
                                                             : Face<Real>(1);
         load.blows = Impulse<Real>{};
         load.blow_mass = Face<Real>(0);
-        twist.velocity =
-            (twist.velocity + obstacles.dt * convert<Face<Real>>(gravity)) + share * blown.velocity;
+        twist.velocity = (twist.velocity + obstacles.fall) + share * blown.velocity;
         twist.spin += share * blown.spin;
         load.unpressed = twist;
         load.change = Twist<Real>{};
-        release(load);
-        throw_back(obstacles, static_cast<std::uint16_t>(&body - table.body));
+    });
+    const std::int32_t cost = find_meetings(obstacles);
+    stop(obstacles, kRoundsBefore);
+    for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
+        load.unpressed = whole_twist(load);
+        load.change = load.stopped = Twist<Real>{};
         set_twist(load, load.unpressed, body);
     });
+    return cost;
 }
 
 /// Twist within what a substep can bear; NaN becomes rest.
@@ -127,11 +139,12 @@ template <class Real>
 std::int32_t finish(const Obstacles<Real>& obstacles, BodyTable<Real>& table) {
     const Face<Real> fastest = Face<Real>(kLongestWay) / obstacles.dt;
     std::int32_t slowed = 0;
-    for_each_free(table, [&](Body<Real>& body, const BodyLoad<Real>& load) {
-        stop(obstacles, static_cast<std::uint16_t>(&body - table.body));
-        Twist<Real> twist{load.unpressed.velocity + load.change.velocity,
-                          load.unpressed.spin + load.change.spin};
+    stop(obstacles, kRoundsAfter);
+    for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
+        Twist<Real> twist = whole_twist(load);
         slowed += limit<Real>(fastest, static_cast<Face<Real>>(body.radius), twist) ? 1 : 0;
+        load.unpressed = twist;
+        load.change = Twist<Real>{};
         set_twist(load, twist, body);
     });
     return slowed;
@@ -142,8 +155,9 @@ std::int32_t finish(const Obstacles<Real>& obstacles, BodyTable<Real>& table) {
 template <class Real>
 const FreeBodyStages<Real>& free_body_stages() {
     static constexpr FreeBodyStages<Real> kStages{
-        accelerate<Real>,      begin_coupling<Real>, yielding<Real>, set_aside<Real>,
-        relax_coupled<Real>,   end_coupling<Real>,   finish<Real>,   move<Real>};
+        most_looks<Real>,    accelerate<Real>,   begin_coupling<Real>,
+        yielding<Real>,      set_aside<Real>,    relax_coupled<Real>,
+        end_coupling<Real>,  finish<Real>,       move<Real>};
     return kStages;
 }
 

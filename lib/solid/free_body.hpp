@@ -32,8 +32,11 @@ struct CoupledSolve {
 
 template <class Real>
 struct FreeBodyStages {
-    /// Before the pressure: gravity and blows give them a velocity, and what throws them back.
-    void (*accelerate)(const Obstacles<Real>&, BodyTable<Real>&, Vec2<Real> gravity);
+    /// The most that `accelerate` can cost.
+    std::int32_t (*most_looks)(const BodyTable<Real>&);
+    /// Before the pressure: gravity and blows give them a velocity, and what they meet as if there
+    /// were no liquid. Returns the cost.
+    std::int32_t (*accelerate)(const Obstacles<Real>&, BodyTable<Real>&);
     /// Begin of a cycle: the divergence takes in what the pressure makes of the bodies.
     void (*begin)(const CoupledSolve<Real>&);
     /// After the coarse correction: takes that back, and answers with the work that the bodies'
@@ -48,8 +51,8 @@ struct FreeBodyStages {
     /// After the pressure: the velocity that came of it and of what stops them. Returns how many
     /// were too fast for a substep and were slowed.
     std::int32_t (*finish)(const Obstacles<Real>&, BodyTable<Real>&);
-    /// Moves them with it; none of them leaves the tank.
-    void (*move)(const GridShape&, BodyTable<Real>&, Seconds<Real> dt_s);
+    /// Moves them with it, and apart if they are in something; none of them leaves the tank.
+    void (*move)(const Obstacles<Real>&, BodyTable<Real>&, Seconds<Real> dt_s);
 };
 
 /// The stages of free_body.cpp.

@@ -1,189 +1,227 @@
+// Which points of free bodies are before something.
 #include "solid/obstacles.hpp"
+
+#include "base/work.hpp"
+#include "solid/piece_contact.hpp"
+
 
 namespace weir {
 
 namespace {
 
-/// A vertex this near to a wall of the tank bounces off it, cells.
-template <class Real>
-constexpr Face<Real> kTouch = Face<Real>(1.0 / 256.0);
-
-/// A body has three ways to yield; where friction lets it slip, it may meet more than that.
-constexpr std::int32_t kMostContacts = 6;
-
-/// Blows are found one after the other, so often.
-constexpr std::int32_t kRoundsOfBlows = 4;
-
-/// Of what a direction yields when nothing stops the body: less is held already.
-template <class Real>
-constexpr Face<Real> kHeld = Face<Real>(1.0 / 1024.0);
-
 template <class Real>
 using Wide = Vec2<Face<Real>>;
 
+/// Points are listed that are so near, besides what their speed brings near: the pressure may
+/// change it. Cells.
 template <class Real>
-Face<Real> along(const Impulse<Real>& direction, const Twist<Real>& twist) {
-    return dot(direction.linear, twist.velocity) + direction.angular * twist.spin;
+constexpr Face<Real> kNear = Face<Real>(1.0 / 4.0);
+
+/// No body goes further than half of this in a substep, cells.
+template <class Real>
+constexpr Face<Real> kFurthest = Face<Real>(4);
+
+/// What approaches no faster than what it falls in so many substeps comes to rest.
+constexpr std::int32_t kSlowFall = 2;
+
+/// Velocity of a body's material before the pressure.
+template <class Real>
+Wide<Real> unpressed_at(const BodyTable<Real>& table, std::uint16_t slot, Wide<Real> at) {
+    if (slot == kNoBody) {
+        return {};
+    }
+    const BodyLoad<Real>& load = table.load[slot];
+    if (load.is_free()) {
+        return load.unpressed.velocity + spin_velocity(load.unpressed.spin, at - load.at);
+    }
+    return convert<Face<Real>>(velocity_at(table.body[slot], convert<Real>(at)));
 }
 
-/// Takes a direction, and the way that the body yields along it, out of what it yields to.
 template <class Real>
-void hold(const Twist<Real>& way, Face<Real> yielding, Yield<Real>& yield) {
-    const Twist<Real> share{(Face<Real>(1) / yielding) * way.velocity, way.spin / yielding};
-    yield.xx -= share.velocity.x * way.velocity.x;
-    yield.yy -= share.velocity.y * way.velocity.y;
-    yield.turn -= share.spin * way.spin;
-    yield.xy -= share.velocity.x * way.velocity.y;
-    yield.x_turn -= share.velocity.x * way.spin;
-    yield.y_turn -= share.velocity.y * way.spin;
+Face<Real> fastest(const BodyTable<Real>& table, std::int32_t slot) {
+    const BodyLoad<Real>& load = table.load[slot];
+    const auto radius = static_cast<Face<Real>>(table.body[slot].radius);
+    return load.is_free()
+               ? furthest_way(load.unpressed.velocity, load.unpressed.spin, radius + radius)
+               : static_cast<Face<Real>>(table.body[slot].fastest_point());
 }
 
-/// A point of a body before an obstacle.
 template <class Real>
-struct Touch {
-    Wide<Real> arm;     ///< from the centre of mass
-    Wide<Real> inward;  ///< the obstacle's normal
-    const SurfaceLaw<Real>* law = nullptr;
-    Face<Real> change = Face<Real>(0);  ///< of its velocity along the normal that it needs
-    bool bounces = false;
+class Finder {
+public:
+    explicit Finder(const Obstacles<Real>& obstacles)
+        : obstacles_(obstacles), table_(obstacles.bodies), list_(obstacles.bodies) {
+        *list_.used = 0;
+    }
+
+    /// The free body before the tank and all bodies; of two free ones the lower slot sees to it.
+    void look_from(std::int32_t slot) {
+        before_walls(slot);
+        for (std::int32_t other = 0; other < table_.capacity; ++other) {
+            const Body<Real>& body = table_.body[other];
+            const bool done = other == slot || (other < slot && table_.load[other].is_free());
+            if (body.kind != BodyKind::free && !done) {
+                before_body(slot, other);
+            }
+        }
+        cost_ += table_.capacity;
+    }
+
+    std::int64_t cost() const { return cost_; }
+
+private:
+    using Number = Face<Real>;
+
+    Number margin(Number speed) const {
+        return minimum(kNear<Real> + obstacles_.dt * speed, kFurthest<Real>);
+    }
+
+    void before_walls(std::int32_t slot) {
+        const Body<Real>& body = table_.body[slot];
+        const Number most = margin(fastest(table_, slot));
+        if (!near_walls(obstacles_.tank, body, static_cast<Real>(most))) {
+            return;
+        }
+        const Wide<Real> size{static_cast<Number>(obstacles_.tank.nx),
+                              static_cast<Number>(obstacles_.tank.ny)};
+        for (std::int32_t k = 0; k < body.vertex_count; ++k) {
+            const Wide<Real> x = convert<Number>(table_.ring(body)[k]);
+            const auto wall = [&](Number gap, Wide<Real> inward) {
+                if (gap <= most) {
+                    enter(slot, kNoBody, x, inward, gap);
+                }
+            };
+            wall(x.x, {Number(1), Number(0)});
+            wall(size.x - x.x, {Number(-1), Number(0)});
+            wall(x.y, {Number(0), Number(1)});
+            wall(size.y - x.y, {Number(0), Number(-1)});
+        }
+    }
+
+    /// Whether circles around two bodies come within a distance of each other.
+    static bool circles_meet(const Body<Real>& one, const Body<Real>& other, Number distance) {
+        const Wide<Real> arm = convert<Number>(one.position - other.position);
+        const Number reach =
+            (static_cast<Number>(one.radius) + static_cast<Number>(other.radius)) + distance;
+        return dot(arm, arm) <= reach * reach;
+    }
+
+    void before_body(std::int32_t slot, std::int32_t other) {
+        const Body<Real>& body = table_.body[slot];
+        const Body<Real>& its = table_.body[other];
+        const Number most = margin(fastest(table_, slot) + fastest(table_, other));
+        if (!circles_meet(body, its, most)) {
+            return;
+        }
+        const Vec2<Real> from = body.position;
+        const Number reach = static_cast<Number>(body.radius) + most;
+        for_each_piece(table_, its, [&](const ConvexPiece<Real>& its_piece) {
+            cost_ += its_piece.count;
+            if (!within_reach(its_piece, from, reach)) {
+                return;
+            }
+            for_each_piece(table_, body, [&](const ConvexPiece<Real>& piece) {
+                cost_ += piece.count * its_piece.count;
+                const PieceContact<Real> contact = contact_of(piece, its_piece, from, most);
+                for (std::int32_t k = 0; k < contact.count; ++k) {
+                    enter(slot, static_cast<std::uint16_t>(other), contact.point[k].at,
+                          contact.normal, contact.point[k].gap);
+                }
+            });
+        });
+    }
+
+    /// Whether a box around a piece is.
+    static bool within_reach(const ConvexPiece<Real>& piece, Vec2<Real> from, Number reach) {
+        Wide<Real> low = piece.at(0, from);
+        Wide<Real> high = low;
+        for (std::int32_t k = 1; k < piece.count; ++k) {
+            const Wide<Real> x = piece.at(k, from);
+            low = {minimum(low.x, x.x), minimum(low.y, x.y)};
+            high = {maximum(high.x, x.x), maximum(high.y, x.y)};
+        }
+        return low.x <= reach && low.y <= reach && high.x >= -reach && high.y >= -reach;
+    }
+
+    /// Bodies that are led have moved already: the gap was as much larger as they came nearer.
+    /// Who is thrown back leaves as fast as it came, before this substep's gravity: gravity did not
+    /// act for all of it.
+    void enter(std::int32_t slot, std::uint16_t other, Wide<Real> at, Wide<Real> normal,
+               Number gap) {
+        const auto own = static_cast<std::uint16_t>(slot);
+        Meeting<Real> meeting{at, normal, gap, Number(0), Number(0), Number(0), own, other};
+        const Wide<Real> its = unpressed_at(table_, other, at);
+        const bool free = other != kNoBody && table_.load[other].is_free();
+        meeting.gap += free ? Number(0) : obstacles_.led_dt * dot(normal, its);
+        const Number approach = dot(normal, unpressed_at(table_, own, at) - its);
+        const Number fall = free ? Number(0) : dot(normal, obstacles_.fall);
+        const Number slow = static_cast<Number>(kSlowFall) *
+                            maximum(absolute(obstacles_.fall.x), absolute(obstacles_.fall.y));
+        const auto restitution = static_cast<Number>(
+            maximum(table_.body[own].surface.restitution,
+                    law_before(obstacles_, other, normal).restitution));
+        if (approach < -slow && meeting.gap + obstacles_.dt * approach < Number(0)) {
+            meeting.leaves = restitution * maximum(fall - approach, Number(0));
+        }
+        keep(meeting);
+    }
+
+    void keep(const Meeting<Real>& meeting) {
+        if (*list_.used < list_.room) {
+            list_.entry[(*list_.used)++] = meeting;
+            return;
+        }
+        Meeting<Real>* furthest = list_.begin();
+        for (Meeting<Real>& one : list_) {
+            furthest = one.gap > furthest->gap ? &one : furthest;
+        }
+        if (meeting.gap < furthest->gap) {
+            *furthest = meeting;
+        }
+    }
+
+    const Obstacles<Real>& obstacles_;
+    const BodyTable<Real>& table_;
+    Meetings<Real> list_;
+    std::int64_t cost_ = 0;
 };
 
-/// A direction in which a point can be pushed, and how the body yields to it, given what holds it.
 template <class Real>
-struct Way {
-    Impulse<Real> direction;
-    Twist<Real> way;
-    Face<Real> yielding;
-
-    Way(const BodyLoad<Real>& load, Wide<Real> along_it, Wide<Real> arm) {
-        direction.add(along_it, arm);
-        way = answer_within(load.yield, direction);
-        yielding = along(direction, way);
-    }
-    bool is_free(const BodyLoad<Real>& load) const {
-        return yielding > kHeld<Real> * along(direction, answer(load, direction));
-    }
-    Face<Real> speed(const BodyLoad<Real>& load) const {
-        return along(direction, load.unpressed) + along(direction, load.change);
-    }
-    void push(Face<Real> strength, BodyLoad<Real>& load) const {
-        load.change.velocity = load.change.velocity + strength * way.velocity;
-        load.change.spin += strength * way.spin;
-    }
-};
-
-/// Pushes a point as it needs it, and rubs it along: as it came, or if it is held there as it then
-/// goes. Who is held already stays so.
-template <class Real>
-void push(const Touch<Real>& at, bool held, BodyLoad<Real>& load) {
-    using Number = Face<Real>;
-    const Way<Real> normal(load, at.inward, at.arm);
-    const Number strength = at.change / normal.yielding;
-    if (held) {
-        normal.push(strength, load);
-        hold(normal.way, normal.yielding, load.yield);
-    }
-    const Number most = static_cast<Number>(at.law->friction) * strength;
-    const Way<Real> rub(load, {at.inward.y, -at.inward.x}, at.arm);
-    const bool rubs = most > Number(0) && rub.is_free(load);
-    const Number wanted =
-        rubs ? (static_cast<Number>(at.law->conveyor) - rub.speed(load)) / rub.yielding
-             : Number(0);
-    if (!held) {
-        normal.push(strength, load);
-    }
-    rub.push(clamp(wanted, -most, most), load);
-    if (held && rubs && absolute(wanted) < most) {
-        hold(rub.way, rub.yielding, load.yield);
-    }
-}
-
-/// Looks at a point before an obstacle: `worst` becomes the one that comes nearest too fast. Who
-/// is fast before a wall with restitution goes on until it is there.
-template <class Real>
-void look(const Obstacles<Real>& obstacles, const BodyLoad<Real>& load, Touch<Real> at,
-          Face<Real> gap, bool throwing, Touch<Real>& worst) {
-    using Number = Face<Real>;
-    Impulse<Real> normal;
-    normal.add(at.inward, at.arm);
-    const Number approach = along(normal, load.unpressed) + along(normal, load.change);
-    const auto restitution = static_cast<Number>(at.law->restitution);
-    const bool fast = restitution > Number(0) && approach < -obstacles.slow;
-    at.bounces = fast && throwing;
-    const Number allowed = at.bounces ? -restitution * approach
-                                      : -maximum(gap, Number(0)) / obstacles.dt;
-    at.change = allowed - approach;
-    if (at.change > worst.change && !(fast && gap > kTouch<Real>) &&
-        Way<Real>(load, at.inward, at.arm).is_free(load)) {
-        worst = at;
-    }
-}
-
-/// Calls visit(contact, gap) for each vertex before each wall of the tank.
-template <class Real, class Visit>
-void for_each_contact(const Obstacles<Real>& obstacles, const Body<Real>& body,
-                      const BodyLoad<Real>& load, Visit visit) {
-    using Number = Face<Real>;
-    const Borders<Real>& borders = obstacles.borders;
-    const Wide<Real> size{static_cast<Number>(obstacles.tank.nx),
-                          static_cast<Number>(obstacles.tank.ny)};
-    for (std::int32_t k = 0; k < body.vertex_count && near_walls(obstacles.tank, body); ++k) {
-        const Wide<Real> x = convert<Number>(obstacles.bodies.ring(body)[k]);
-        const auto wall = [&](Number gap, Wide<Real> inward, const SurfaceLaw<Real>& law) {
-            visit(Touch<Real>{x - load.at, inward, &law}, gap);
-        };
-        wall(x.x, {Number(1), Number(0)}, borders.left);
-        wall(size.x - x.x, {Number(-1), Number(0)}, borders.right);
-        wall(x.y, {Number(0), Number(1)}, borders.bottom);
-        wall(size.y - x.y, {Number(0), Number(-1)}, borders.top);
-    }
+std::int64_t list_length(const Body<Real>& body) {
+    return body.open ? 2 * body.vertex_count : body.piece_length;
 }
 
 }  // namespace
 
-/// Blows follow each other, each as if it were the only one.
 template <class Real>
-void throw_back(const Obstacles<Real>& obstacles, std::uint16_t slot) {
-    BodyLoad<Real>& load = obstacles.bodies.load[slot];
-    bool answered = !load.sinks;
-    for (std::int32_t round = 0; round < kRoundsOfBlows; ++round) {
-        for_each_contact(obstacles, obstacles.bodies.body[slot], load,
-                         [&](const Touch<Real>& at, Face<Real> gap) {
-                             Touch<Real> worst;
-                             look(obstacles, load, at, gap, true, worst);
-                             if (worst.law != nullptr) {
-                                 push(worst, false, load);
-                                 answered = answered || worst.bounces;
-                             }
-                         });
-    }
-    if (answered) {
-        load.unpressed = {load.unpressed.velocity + load.change.velocity,
-                          load.unpressed.spin + load.change.spin};
-    }
-    load.change = Twist<Real>{};
-}
-
-/// Contact after contact, the worst first.
-template <class Real>
-void stop(const Obstacles<Real>& obstacles, std::uint16_t slot) {
-    BodyLoad<Real>& load = obstacles.bodies.load[slot];
-    for (std::int32_t count = 0; count < kMostContacts && load.sinks; ++count) {
-        Touch<Real> worst;
-        for_each_contact(obstacles, obstacles.bodies.body[slot], load,
-                         [&](const Touch<Real>& at, Face<Real> gap) {
-                             look(obstacles, load, at, gap, false, worst);
-                         });
-        if (worst.law == nullptr) {
-            return;
+std::int32_t find_meetings(const Obstacles<Real>& obstacles) {
+    Finder<Real> finder(obstacles);
+    for (std::int32_t slot = 0; slot < obstacles.bodies.capacity; ++slot) {
+        if (is_free_body(obstacles.bodies, slot)) {
+            finder.look_from(slot);
         }
-        push(worst, true, load);
     }
+    return static_cast<std::int32_t>(minimum(finder.cost(), std::int64_t{kMostWork}));
 }
 
-#define WEIR_INSTANTIATE(Real)                                       \
-    template void throw_back(const Obstacles<Real>&, std::uint16_t); \
-    template void stop(const Obstacles<Real>&, std::uint16_t);
+template <class Real>
+std::int32_t most_looks(const BodyTable<Real>& table) {
+    std::int64_t all = 0;
+    std::int64_t looks = 0;
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        all += table.body[slot].kind != BodyKind::free ? list_length(table.body[slot]) : 0;
+    }
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        if (is_free_body(table, slot)) {
+            looks += table.capacity + all * (1 + list_length(table.body[slot]));
+        }
+    }
+    return static_cast<std::int32_t>(minimum(looks, std::int64_t{kMostWork}));
+}
+
+#define WEIR_INSTANTIATE(Real)                                    \
+    template std::int32_t find_meetings(const Obstacles<Real>&); \
+    template std::int32_t most_looks(const BodyTable<Real>&);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

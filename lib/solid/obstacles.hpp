@@ -1,48 +1,119 @@
-// What stops free bodies: the tank's walls.
+// What stops free bodies: the tank's walls, other bodies, and each other.
+//
+// At the top of a substep the points are listed at which a free body is before something, or may be
+// at the end of the substep. The impulses at these points are unknowns beside the pressures: they
+// are found by the same sweeps (projected Gauss-Seidel: each point in turn gets what makes it stop,
+// and gives back what turns out to have been too much), so that the pressure neither takes a body
+// to fall that something holds, nor one to stay that is let go.
 #pragma once
 
 #include "grid/borders.hpp"
 #include "solid/body_load.hpp"
+#include "solid/walls.hpp"
 
 namespace weir {
+
+/// A point of a free body before something.
+template <class Real>
+struct Meeting {
+    Vec2<Face<Real>> at;
+    Vec2<Face<Real>> normal;  ///< towards the free body
+    Face<Real> gap;           ///< between them when the substep began, negative inside, cells
+    Face<Real> leaves;        ///< no slower than this, as it was thrown back; 0: it may stay
+    Face<Real> push;          ///< impulse along the normal so far, never negative
+    Face<Real> rub;           ///< and along the surface
+    std::uint16_t slot;
+    std::uint16_t other;      ///< kNoBody: the tank
+};
+static_assert(sizeof(Meeting<float>) <= kMeetingBytes<float>, "raise kMeetingBytes");
+static_assert(sizeof(Meeting<double>) <= kMeetingBytes<double>, "raise kMeetingBytes");
+
+/// Those of a substep, in the order of the bodies' slots; the list stands behind the bodies' loads.
+template <class Real>
+struct Meetings {
+    Meeting<Real>* entry;
+    std::int32_t* used;
+    std::int32_t room;
+
+    explicit Meetings(const BodyTable<Real>& table)
+        : room(kMeetingsPerBody * table.capacity) {
+        constexpr std::size_t kAlign = world_alignment;
+        const auto loads = static_cast<std::size_t>(table.capacity + 1) * kBodyLoadBytes<Real>;
+        std::byte* const behind =
+            reinterpret_cast<std::byte*>(table.load) + (loads + kAlign - 1) / kAlign * kAlign;
+        used = reinterpret_cast<std::int32_t*>(behind);
+        entry = reinterpret_cast<Meeting<Real>*>(behind + kMeetingBytes<Real>);
+    }
+    Meeting<Real>* begin() const { return entry; }
+    Meeting<Real>* end() const { return entry + *used; }
+};
 
 template <class Real>
 struct Obstacles {
     const GridShape& tank;
     const Borders<Real>& borders;
     const BodyTable<Real>& bodies;
+    Vec2<Face<Real>> fall;  ///< gravity × dt
     Face<Real> dt;
-    Face<Real> slow;  ///< what approaches no faster than this comes to rest, cells/s
+    Face<Real> led_dt;      ///< for so long other bodies have moved on in this substep
 };
 
-/// Whether any of its points may be at the tank's walls.
 template <class Real>
-bool near_walls(const GridShape& s, const Body<Real>& body) {
-    const Real r = body.radius + Real(1);
+bool is_free_body(const BodyTable<Real>& table, std::int32_t slot) {
+    return table.body[slot].kind == BodyKind::moving && table.load[slot].is_free();
+}
+
+/// The tank's wall with that inward normal.
+template <class Real>
+const SurfaceLaw<Real>& wall_law(const Borders<Real>& borders, Vec2<Face<Real>> inward) {
+    if (inward.x != Face<Real>(0)) {
+        return inward.x > Face<Real>(0) ? borders.left : borders.right;
+    }
+    return inward.y > Face<Real>(0) ? borders.bottom : borders.top;
+}
+
+/// The surface that a free body meets there.
+template <class Real>
+const SurfaceLaw<Real>& law_before(const Obstacles<Real>& obstacles, std::uint16_t other,
+                                   Vec2<Face<Real>> normal) {
+    return other == kNoBody ? wall_law(obstacles.borders, normal)
+                            : obstacles.bodies.body[other].surface;
+}
+
+/// Whether any of its points may be within a distance of the tank's walls.
+template <class Real>
+bool near_walls(const GridShape& s, const Body<Real>& body, Real distance) {
+    const Real r = body.radius + distance;
     return body.position.x < r || body.position.y < r ||
            body.position.x + r > static_cast<Real>(s.nx) ||
            body.position.y + r > static_cast<Real>(s.ny);
 }
 
-/// Nothing stops the body.
+/// Lists the substep's points, given `load.unpressed`. Where there is no room for more, those that
+/// are further away are left out.
+/// @return the cost: a look at each other body for each free one, at the vertices of those that
+///         come near, and both numbers of vertices multiplied for pieces that do.
 template <class Real>
-void release(BodyLoad<Real>& load) {
-    load.yield = Yield<Real>{};
-    load.yield.xx = load.yield.yy = load.inverse_mass;
-    load.yield.turn = load.inverse_inertia;
-    load.stopped = Twist<Real>{};
-}
+std::int32_t find_meetings(const Obstacles<Real>& obstacles);
 
-/// Before the pressure: throws a body back that hits an obstacle with restitution, and stops one
-/// that does not sink. Changes `load.unpressed`.
+/// The most that can cost, wherever the bodies are.
 template <class Real>
-void throw_back(const Obstacles<Real>& obstacles, std::uint16_t slot);
+std::int32_t most_looks(const BodyTable<Real>& table);
 
-/// Adds to `load.change` what lets no point come nearer to an obstacle than the obstacle is, and
-/// takes the directions in which that had to be done out of `load.yield`: within the pressure
-/// solve the body goes on as fast along them as it then does. What leads away from an obstacle is
-/// free; what was held already stays so. Of bodies that sink.
+/// So often the points are gone through before the pressure, again before each of its cycles,
+/// after each half sweep, and after it.
+inline constexpr std::int32_t kRoundsBefore = 8;
+inline constexpr std::int32_t kRoundsBetween = 1;
+inline constexpr std::int32_t kRoundsAfter = 16;
+
+/// Goes through the points so often: adds to `load.change` what lets no point come nearer to an
+/// obstacle than it may, and takes back what was too much; the same to `load.stopped`.
 template <class Real>
-void stop(const Obstacles<Real>& obstacles, std::uint16_t slot);
+void stop(const Obstacles<Real>& obstacles, std::int32_t rounds);
+
+/// After all velocities are known: `load.change` becomes what moves bodies apart that would be in
+/// each other at the end of the substep, cells and radians. No velocity comes of it.
+template <class Real>
+void part(const Obstacles<Real>& obstacles);
 
 }  // namespace weir

@@ -286,8 +286,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (kHasLedger<Real> && two_way != nullptr) {
         two_way->open_ledger(simulation, work);
     }
-    if (Solids && two_way != nullptr && work.once(simulation.bodies.capacity)) {
-        two_way->accelerate_bodies(simulation, dt_s);
+    if (Solids && two_way != nullptr) {
+        two_way->accelerate_bodies(simulation, dt_s, work);
     }
     report.particles_crowded += particle_to_grid(simulation.particles, settings.borders,
                                                  settings.second_density, grid, thin, work);

@@ -52,18 +52,24 @@ template <class Real>
 Obstacles<Real> obstacles_of(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const Vec2<Real> g = simulation.settings.gravity;
     const Face<Real> dt = static_cast<Face<Real>>(dt_s);
-    const Face<Real> fall = dt * static_cast<Face<Real>>(maximum(absolute(g.x), absolute(g.y)));
-    return {simulation.layers.shape, simulation.settings.borders, simulation.bodies, dt,
-            fall + fall};
+    return {simulation.layers.shape, simulation.settings.borders,
+            simulation.bodies,       dt * convert<Face<Real>>(g),
+            dt,                      static_cast<Face<Real>>(simulation.walls_moved_s)};
 }
 
 template <class Real>
-void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s) {
-    locate_bodies(simulation.bodies);
-    if (simulation.free_bodies != nullptr) {
-        simulation.layers.walls.moving = true;
-        simulation.free_bodies->accelerate(obstacles_of(simulation, dt_s), simulation.bodies,
-                                           simulation.settings.gravity);
+void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work) {
+    const FreeBodyStages<Real>* free_bodies = simulation.free_bodies;
+    if (work.once(simulation.bodies.capacity)) {
+        locate_bodies(simulation.bodies);
+        if (free_bodies != nullptr) {
+            simulation.layers.walls.moving = true;
+            work.spend(free_bodies->accelerate(obstacles_of(simulation, dt_s),
+                                               simulation.bodies));
+        }
+    }
+    if (free_bodies != nullptr && work.foreseeing()) {
+        work.expect(1, free_bodies->most_looks(simulation.bodies));
     }
 }
 
@@ -89,7 +95,7 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
     if (simulation.free_bodies == nullptr) {
         return;
     }
-    simulation.free_bodies->move(simulation.layers.shape, simulation.bodies, dt_s);
+    simulation.free_bodies->move(obstacles_of(simulation, dt_s), simulation.bodies, dt_s);
     report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
     locate_bodies(simulation.bodies);
 }

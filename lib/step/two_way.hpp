@@ -19,7 +19,7 @@ struct detail::TwoWay {
     void (*close_ledger)(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work);
 
     /// Before the pressure: free bodies take up gravity and blows.
-    void (*accelerate_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s);
+    void (*accelerate_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work);
     /// The pressure solve, as free bodies share in it.
     CoupledSolve<Real> (*coupled_solve)(const Simulation<Real>& simulation, Seconds<Real> dt_s);
     /// After the pressure: its impulse on the tank and on all bodies, and the velocity that free

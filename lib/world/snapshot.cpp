@@ -136,6 +136,7 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::body_table:
         case Block::vertex_placed:
         case Block::contact:
+        case Block::body_meeting:
         case Block::body_diagonal:
         case Block::decomposition_scratch:
         case Block::static_distance:

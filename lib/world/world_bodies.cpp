@@ -88,7 +88,6 @@ void weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& b
     const auto density = static_cast<Face<Real>>(def.density_ratio);
     load.centre = moments.centroid;
     load.mass = density * moments.area;
-    load.sinks = def.density_ratio > 1.0F;
     load.inertia = density * moments.inertia;
 }
 

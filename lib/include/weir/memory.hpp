@@ -46,6 +46,7 @@ enum class Block : std::uint8_t {
     piece_index,
     decomposition_scratch,
     body_load,
+    body_meeting,
     body_diagonal,
     static_distance,
     static_body,
@@ -107,7 +108,11 @@ inline constexpr std::size_t kWallEdgeBytes = 16;
 template <class Real>
 inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
-inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 124 : 248;
+inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 96 : 192;
+/// Points at which free bodies are before something, for each body, and one more for their number.
+inline constexpr std::int32_t kMeetingsPerBody = 6;
+template <class Real>
+inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 44 : 80;
 template <class Real>
 inline constexpr std::size_t kRegionsBytes = sizeof(Real) == 4 ? 144 : 160;
 
@@ -262,6 +267,9 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
     const std::size_t thin = wall_edges > 0 ? 1 : 0;
     const std::size_t loads = capacity.two_way ? count(capacity.bodies) + 1 : 0;
+    const std::size_t meetings = loads > 0 && !Stored<Real>::shares_momentum
+                                     ? 1 + count(kMeetingsPerBody) * count(capacity.bodies)
+                                     : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
     const std::size_t kept_cells = capacity.sleeping_regions ? cells : 0;
     const std::size_t tiles = capacity.sleeping_regions ? count(coarse_cells(capacity.cells_x)) *
@@ -293,6 +301,7 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
         kScratchPerVertex * vertices);
     add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
+    add(Block::body_meeting, Owner::bodies, Kept::nothing, kMeetingBytes<Real>, meetings);
     add(Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0);
     add(Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells);
     add(Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), named_moving);
