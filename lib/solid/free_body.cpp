@@ -105,9 +105,12 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         twist.velocity = (twist.velocity + obstacles.fall) + share * blown.velocity;
         twist.spin += share * blown.spin;
         load.unpressed = twist;
-        load.change = Twist<Real>{};
+    });
+    for_each_free(table, [](const Body<Real>&, BodyLoad<Real>& load) {
+        load.change = load.stopped = Twist<Real>{};
     });
     const std::int32_t cost = find_meetings(obstacles);
+    recall(obstacles);
     stop(obstacles, kRoundsBefore);
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         load.unpressed = whole_twist(load);
@@ -140,6 +143,7 @@ std::int32_t finish(const Obstacles<Real>& obstacles, BodyTable<Real>& table) {
     const Face<Real> fastest = Face<Real>(kLongestWay) / obstacles.dt;
     std::int32_t slowed = 0;
     stop(obstacles, kRoundsAfter);
+    remember(obstacles);
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         Twist<Real> twist = whole_twist(load);
         slowed += limit<Real>(fastest, static_cast<Face<Real>>(body.radius), twist) ? 1 : 0;

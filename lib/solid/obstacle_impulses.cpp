@@ -11,10 +11,28 @@ using Wide = Vec2<Face<Real>>;
 /// Positions are put right in so many rounds, by such a share of what is wrong, and by no more
 /// than so many cells in a substep.
 constexpr std::int32_t kRoundsOfParting = 4;
+template <class Number>
+constexpr Number kPartedShare = Number(1.0 / 4.0);
+template <class Number>
+constexpr Number kMostParted = Number(1.0 / 16.0);
+
+/// Two points that yield so nearly as one are taken in turn.
 template <class Real>
-constexpr Face<Real> kPartedShare = Face<Real>(1.0 / 4.0);
+constexpr Face<Real> kSeparate = Face<Real>(1.0 / 4096.0);
+
+/// Of a gap, what is to be gone at once: what is left of it, or a part of what is too much.
+template <class Number>
+Number parting(Number gap) {
+    return gap > Number(0) ? -gap : minimum(-kPartedShare<Number> * gap, kMostParted<Number>);
+}
+
+/// A point is the same as before if it has moved by less, as its body sees it, cells.
 template <class Real>
-constexpr Face<Real> kMostParted = Face<Real>(1.0 / 16.0);
+constexpr Face<Real> kSamePlace = Face<Real>(1.0 / 4.0);
+
+/// The fastest that a point is sent off with what it got before, cells a substep.
+template <class Real>
+constexpr Face<Real> kMostRecalled = Face<Real>(2);
 
 /// One of the two bodies at a point, and a direction: how fast it goes along it, and how it yields.
 template <class Real>
@@ -93,13 +111,80 @@ Face<Real> least_speed(const Obstacles<Real>& obstacles, const Meeting<Real>& me
                : -maximum(meeting.gap, Face<Real>(0)) / obstacles.dt;
 }
 
+/// Sets the impulse at a point; never a pull.
 template <class Real>
-void stop_there(const Obstacles<Real>& obstacles, Meeting<Real>& meeting) {
-    const Way<Real> way(obstacles.bodies, meeting, meeting.normal);
-    const Face<Real> wanted = least_speed(obstacles, meeting) - way.speed();
-    const Face<Real> all = maximum(meeting.push + wanted / way.yielding, Face<Real>(0));
+void set_push(const Way<Real>& way, Face<Real> all, Meeting<Real>& meeting) {
     way.push(all - meeting.push);
     meeting.push = all;
+}
+
+template <class Real>
+void push_one(const Way<Real>& way, Face<Real> wanted, Meeting<Real>& meeting) {
+    set_push(way, maximum(meeting.push + wanted / way.yielding, Face<Real>(0)), meeting);
+}
+
+/// How a push at one point of a face moves the other one along the same normal.
+template <class Real>
+Face<Real> yielding_between(const Way<Real>& one, const Way<Real>& two) {
+    const auto side = [](const Side<Real>& a, const Side<Real>& b) {
+        return a.load == nullptr ? Face<Real>(0) : b.speed_of(answer(*a.load, a.unit));
+    };
+    return side(one.own, two.own) + side(one.other, two.other);
+}
+
+/// Both points of a face at once: what lies on it would rock if they took turns. Of the four cases,
+/// either one pushing or not, the one is taken that fits.
+template <class Real>
+void push_both(const Way<Real> (&way)[2], const Face<Real> (&wanted)[2], Meeting<Real>* meeting) {
+    using Number = Face<Real>;
+    const Number across = yielding_between(way[0], way[1]);
+    const Number a = way[0].yielding;
+    const Number b = way[1].yielding;
+    // Speeds that are lacking if neither pushed.
+    const Number lack[2] = {wanted[0] + (a * meeting[0].push + across * meeting[1].push),
+                            wanted[1] + (across * meeting[0].push + b * meeting[1].push)};
+    const Number area = a * b - across * across;
+    if (!(area > kSeparate<Real> * (a * b))) {
+        const Number before = meeting[0].push;
+        push_one(way[0], wanted[0], meeting[0]);
+        push_one(way[1], wanted[1] - across * (meeting[0].push - before), meeting[1]);
+        return;
+    }
+    Number all[2] = {(b * lack[0] - across * lack[1]) / area,
+                     (a * lack[1] - across * lack[0]) / area};
+    if (all[0] < Number(0) || all[1] < Number(0)) {
+        const bool first = lack[0] > Number(0) && across * (lack[0] / a) >= lack[1];
+        all[0] = first ? lack[0] / a : Number(0);
+        all[1] = first ? Number(0) : maximum(lack[1] / b, Number(0));
+    }
+    set_push(way[0], all[0], meeting[0]);
+    set_push(way[1], all[1], meeting[1]);
+}
+
+/// Calls visit(meetings, their number) for one point after the other, or for two of one face.
+template <class Real, class Visit>
+void for_each_face(const Meetings<Real>& meetings, Visit visit) {
+    for (Meeting<Real>* at = meetings.begin(); at != meetings.end();) {
+        const bool both = at + 1 != meetings.end() && at[1].slot == at->slot &&
+                          at[1].other == at->other && at[1].normal.x == at->normal.x &&
+                          at[1].normal.y == at->normal.y;
+        visit(at, both ? 2 : 1);
+        at += both ? 2 : 1;
+    }
+}
+
+/// wanted(way, meeting): the speed that is lacking there.
+template <class Real, class Wanted>
+void push_face(const BodyTable<Real>& table, Meeting<Real>* meeting, std::int32_t count,
+               Wanted wanted) {
+    const Way<Real> way(table, meeting[0], meeting[0].normal);
+    if (count == 1) {
+        push_one(way, wanted(way, meeting[0]), meeting[0]);
+        return;
+    }
+    const Way<Real> both[2] = {way, Way<Real>(table, meeting[1], meeting[1].normal)};
+    const Face<Real> speeds[2] = {wanted(both[0], meeting[0]), wanted(both[1], meeting[1])};
+    push_both(both, speeds, meeting);
 }
 
 /// Coulomb's law, against a surface that may run as a conveyor.
@@ -123,15 +208,51 @@ void rub_there(const Obstacles<Real>& obstacles, Meeting<Real>& meeting) {
     meeting.rub = all;
 }
 
-/// Positions instead of velocities: `gap` is that of the end of the substep.
+template <class Number>
+Number named(std::uint16_t slot) {
+    return static_cast<Number>(slot) + Number(1);
+}
+
+/// The push of the same bodies at about the same place; they mostly come in the same order.
 template <class Real>
-void part_there(const Obstacles<Real>& obstacles, Meeting<Real>& meeting) {
-    const Way<Real> way(obstacles.bodies, meeting, meeting.normal);
-    const Face<Real> most = meeting.gap > Face<Real>(0) ? Face<Real>(1) : kPartedShare<Real>;
-    const Face<Real> wanted = minimum(-most * meeting.gap, kMostParted<Real>) - way.changed();
-    const Face<Real> all = maximum(meeting.push + wanted / way.yielding, Face<Real>(0));
-    way.push(all - meeting.push);
-    meeting.push = all;
+const Push<Real>* find_push(const BodyTable<Real>& table, const Meetings<Real>& meetings,
+                            const Meeting<Real>& meeting, const Push<Real>*& cursor) {
+    const Wide<Real> arm = meeting.at - table.load[meeting.slot].at;
+    const Push<Real>* const end = meetings.before + meetings.room;
+    const Push<Real>* const start = cursor;
+    const auto fits = [&](const Push<Real>& push) {
+        const Wide<Real> off = push.arm - arm;
+        return push.slot == named<Face<Real>>(meeting.slot) &&
+               push.other == named<Face<Real>>(meeting.other) &&
+               absolute(off.x) < kSamePlace<Real> && absolute(off.y) < kSamePlace<Real>;
+    };
+    for (const Push<Real>* at = start; at != end && at->slot != Face<Real>(0); ++at) {
+        if (fits(*at)) {
+            cursor = at + 1;
+            return at;
+        }
+    }
+    for (const Push<Real>* at = meetings.before; at != start; ++at) {
+        if (fits(*at)) {
+            cursor = at + 1;
+            return at;
+        }
+    }
+    return nullptr;
+}
+
+/// At most what would send the body as far as bodies go: the kept numbers may come from outside.
+template <class Real>
+void begin_with(const Obstacles<Real>& obstacles, const Push<Real>& kept,
+                Meeting<Real>& meeting) {
+    using Number = Face<Real>;
+    const BodyTable<Real>& table = obstacles.bodies;
+    const Way<Real> way(table, meeting, meeting.normal);
+    const Number most = kMostRecalled<Real> / (obstacles.dt * way.yielding);
+    set_push(way, clamp(obstacles.dt * kept.push, Number(0), most), meeting);
+    const Way<Real> along(table, meeting, {meeting.normal.y, -meeting.normal.x});
+    meeting.rub = clamp(obstacles.dt * kept.rub, -meeting.push, meeting.push);
+    along.push(meeting.rub);
 }
 
 }  // namespace
@@ -140,11 +261,42 @@ template <class Real>
 void stop(const Obstacles<Real>& obstacles, std::int32_t rounds) {
     const Meetings<Real> meetings(obstacles.bodies);
     for (std::int32_t round = 0; round < rounds; ++round) {
-        for (Meeting<Real>& meeting : meetings) {
-            rub_there(obstacles, meeting);
-            stop_there(obstacles, meeting);
+        for_each_face(meetings, [&](Meeting<Real>* meeting, std::int32_t count) {
+            push_face(obstacles.bodies, meeting, count,
+                      [&](const Way<Real>& way, const Meeting<Real>& at) {
+                          return least_speed(obstacles, at) - way.speed();
+                      });
+            for (std::int32_t k = 0; k < count; ++k) {
+                rub_there(obstacles, meeting[k]);
+            }
+        });
+    }
+}
+
+template <class Real>
+void recall(const Obstacles<Real>& obstacles) {
+    const Meetings<Real> meetings(obstacles.bodies);
+    const Push<Real>* cursor = meetings.before;
+    for (Meeting<Real>& meeting : meetings) {
+        const Push<Real>* push = find_push(obstacles.bodies, meetings, meeting, cursor);
+        if (push != nullptr && !(meeting.leaves > Face<Real>(0))) {
+            begin_with(obstacles, *push, meeting);
         }
     }
+}
+
+template <class Real>
+void remember(const Obstacles<Real>& obstacles) {
+    const Meetings<Real> meetings(obstacles.bodies);
+    Push<Real>* push = meetings.before;
+    for (const Meeting<Real>& meeting : meetings) {
+        if (meeting.push > Face<Real>(0)) {
+            *push++ = {meeting.at - obstacles.bodies.load[meeting.slot].at,
+                       meeting.push / obstacles.dt, meeting.rub / obstacles.dt,
+                       named<Face<Real>>(meeting.slot), named<Face<Real>>(meeting.other)};
+        }
+    }
+    push->slot = Face<Real>(0);
 }
 
 template <class Real>
@@ -159,14 +311,19 @@ void part(const Obstacles<Real>& obstacles) {
         obstacles.bodies.load[slot].change = Twist<Real>{};
     }
     for (std::int32_t round = 0; round < kRoundsOfParting; ++round) {
-        for (Meeting<Real>& meeting : meetings) {
-            part_there(obstacles, meeting);
-        }
+        for_each_face(meetings, [&](Meeting<Real>* meeting, std::int32_t count) {
+            push_face(obstacles.bodies, meeting, count,
+                      [](const Way<Real>& way, const Meeting<Real>& at) {
+                          return parting(at.gap) - way.changed();
+                      });
+        });
     }
 }
 
 #define WEIR_INSTANTIATE(Real)                                   \
     template void stop(const Obstacles<Real>&, std::int32_t);    \
+    template void recall(const Obstacles<Real>&);                \
+    template void remember(const Obstacles<Real>&);              \
     template void part(const Obstacles<Real>&);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

@@ -28,21 +28,40 @@ struct Meeting {
 static_assert(sizeof(Meeting<float>) <= kMeetingBytes<float>, "raise kMeetingBytes");
 static_assert(sizeof(Meeting<double>) <= kMeetingBytes<double>, "raise kMeetingBytes");
 
-/// Those of a substep, in the order of the bodies' slots; the list stands behind the bodies' loads.
+/// What a point got per second of the last substep: where it is found again it begins with that, or
+/// what lies on each other would have to be weighed anew each time.
+template <class Real>
+struct Push {
+    Vec2<Face<Real>> arm;  ///< from the free body's centre of mass
+    Face<Real> push;
+    Face<Real> rub;
+    Face<Real> slot;       ///< and 1; 0: no more of them
+    Face<Real> other;
+};
+static_assert(sizeof(Push<float>) <= kPushBytes<float>, "raise kPushBytes");
+static_assert(sizeof(Push<double>) <= kPushBytes<double>, "raise kPushBytes");
+
+/// Those of a substep, in the order of the bodies' slots; the lists stand behind the bodies' loads.
 template <class Real>
 struct Meetings {
     Meeting<Real>* entry;
     std::int32_t* used;
+    Push<Real>* before;  ///< of the last substep; there is room for one more
     std::int32_t room;
 
     explicit Meetings(const BodyTable<Real>& table)
         : room(kMeetingsPerBody * table.capacity) {
+        std::byte* at = reinterpret_cast<std::byte*>(table.load);
+        at += blocks(table.capacity + 1, kBodyLoadBytes<Real>);
+        before = reinterpret_cast<Push<Real>*>(at);
+        at += blocks(room + 1, kPushBytes<Real>);
+        used = reinterpret_cast<std::int32_t*>(at);
+        entry = reinterpret_cast<Meeting<Real>*>(at + kMeetingBytes<Real>);
+    }
+    /// Bytes of so many, as `layout` places them.
+    static std::size_t blocks(std::int32_t count, std::size_t bytes) {
         constexpr std::size_t kAlign = world_alignment;
-        const auto loads = static_cast<std::size_t>(table.capacity + 1) * kBodyLoadBytes<Real>;
-        std::byte* const behind =
-            reinterpret_cast<std::byte*>(table.load) + (loads + kAlign - 1) / kAlign * kAlign;
-        used = reinterpret_cast<std::int32_t*>(behind);
-        entry = reinterpret_cast<Meeting<Real>*>(behind + kMeetingBytes<Real>);
+        return (static_cast<std::size_t>(count) * bytes + kAlign - 1) & ~(kAlign - 1);
     }
     Meeting<Real>* begin() const { return entry; }
     Meeting<Real>* end() const { return entry + *used; }
@@ -104,12 +123,19 @@ std::int32_t most_looks(const BodyTable<Real>& table);
 /// after each half sweep, and after it.
 inline constexpr std::int32_t kRoundsBefore = 8;
 inline constexpr std::int32_t kRoundsBetween = 1;
-inline constexpr std::int32_t kRoundsAfter = 16;
+inline constexpr std::int32_t kRoundsAfter = 12;
 
 /// Goes through the points so often: adds to `load.change` what lets no point come nearer to an
 /// obstacle than it may, and takes back what was too much; the same to `load.stopped`.
 template <class Real>
 void stop(const Obstacles<Real>& obstacles, std::int32_t rounds);
+
+/// Begins with what the points got in the last substep.
+template <class Real>
+void recall(const Obstacles<Real>& obstacles);
+/// Keeps what they got in this one.
+template <class Real>
+void remember(const Obstacles<Real>& obstacles);
 
 /// After all velocities are known: `load.change` becomes what moves bodies apart that would be in
 /// each other at the end of the substep, cells and radians. No velocity comes of it.

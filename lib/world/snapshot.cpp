@@ -132,6 +132,9 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::body_load:
             return all_finite<Face<Real>>(from, elements * (sizeof(BodyLoad<Real>) /
                                                             sizeof(Face<Real>)));
+        case Block::body_push:  // guesses, of whatever
+            return all_finite<Face<Real>>(from, elements * (sizeof(Push<Real>) /
+                                                            sizeof(Face<Real>)));
         case Block::world_state:
         case Block::body_table:
         case Block::vertex_placed:

@@ -46,6 +46,7 @@ enum class Block : std::uint8_t {
     piece_index,
     decomposition_scratch,
     body_load,
+    body_push,
     body_meeting,
     body_diagonal,
     static_distance,
@@ -113,6 +114,9 @@ inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 96 : 192;
 inline constexpr std::int32_t kMeetingsPerBody = 6;
 template <class Real>
 inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 44 : 80;
+/// What is kept of each until the next substep.
+template <class Real>
+inline constexpr std::size_t kPushBytes = sizeof(Real) == 4 ? 24 : 48;
 template <class Real>
 inline constexpr std::size_t kRegionsBytes = sizeof(Real) == 4 ? 144 : 160;
 
@@ -301,6 +305,7 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
         kScratchPerVertex * vertices);
     add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
+    add(Block::body_push, Owner::bodies, Kept::whole, kPushBytes<Real>, meetings);
     add(Block::body_meeting, Owner::bodies, Kept::nothing, kMeetingBytes<Real>, meetings);
     add(Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0);
     add(Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells);
