@@ -95,18 +95,39 @@ bool cut_off(Wide<Real> along, Face<Real> most, Wide<Real> (&end)[2]) {
     return true;
 }
 
+/// A corner before a corner: no edge is before the other.
+template <class Real>
+void corner_before(const Wide<Real> (&face)[2], const Wide<Real> (&end)[2], Vec2<Real> from,
+                   Face<Real> margin, PieceContact<Real>& contact) {
+    for (const Wide<Real>& corner : face) {
+        for (const Wide<Real>& at : end) {
+            const Wide<Real> arm = at - corner;
+            const Face<Real> gap = length(arm);
+            if (gap <= margin && gap > Face<Real>(0)) {
+                margin = gap;
+                contact.normal = (Face<Real>(1) / gap) * arm;
+                contact.point[0] = {convert<Face<Real>>(from) + at, gap};
+                contact.count = 1;
+            }
+        }
+    }
+}
+
 /// The other piece's points before a face.
 template <class Real>
 void points_before(const ConvexPiece<Real>& of, const BestFace<Real>& face,
                    const ConvexPiece<Real>& other, Vec2<Real> from, Face<Real> margin,
                    PieceContact<Real>& contact) {
+    contact.normal = face.normal;
     const Wide<Real> begin = of.at(face.edge, from);
     const Wide<Real> finish = of.at(of.next(face.edge), from);
     const Wide<Real> along{-face.normal.y, face.normal.x};
     const std::int32_t k = edge_against(other, from, face.normal);
-    Wide<Real> end[2] = {other.at(k, from), other.at(other.next(k), from)};
+    const Wide<Real> edge[2] = {other.at(k, from), other.at(other.next(k), from)};
+    Wide<Real> end[2] = {edge[0], edge[1]};
     if (!cut_off<Real>(along, dot(along, finish) + kEnd<Real>, end) ||
         !cut_off<Real>(Face<Real>(-1) * along, kEnd<Real> - dot(along, begin), end)) {
+        corner_before<Real>({begin, finish}, edge, from, margin, contact);
         return;
     }
     for (const Wide<Real>& at : end) {
@@ -147,11 +168,10 @@ PieceContact<Real> contact_of(const ConvexPiece<Real>& one, const ConvexPiece<Re
         return contact;
     }
     if (its.edge >= 0 && (mine.edge < 0 || its.gap > mine.gap + kBetter<Real>)) {
-        contact.normal = its.normal;
         points_before(other, its, one, from, margin, contact);
     } else {
-        contact.normal = Face<Real>(-1) * mine.normal;
         points_before(one, mine, other, from, margin, contact);
+        contact.normal = Face<Real>(-1) * contact.normal;
     }
     return contact;
 }
