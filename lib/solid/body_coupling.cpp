@@ -9,6 +9,11 @@ namespace {
 template <class Real>
 using Wide = Vec2<Face<Real>>;
 
+template <class Real>
+Face<Real> flow(const Impulse<Real>& reach, const Twist<Real>& twist) {
+    return dot(reach.linear, twist.velocity) + reach.angular * twist.spin;
+}
+
 /// Of a body's closed faces on one cell: what the body's twist pushes into the cell. The bodies of
 /// a cell's four faces may be four.
 template <class Real>
@@ -19,28 +24,68 @@ struct Lever {
 
 template <class Real>
 struct Levers {
-    Lever<Real> lever[4];
+    Lever<Real> lever[6];
     std::int32_t count = 0;
+    Face<Real> before = Face<Real>(0);  ///< what goes into films, as bodies are before the pressure
+
+    Impulse<Real>* of(std::uint16_t slot) {
+        std::int32_t k = 0;
+        while (k < count && lever[k].slot != slot) {
+            ++k;
+        }
+        if (k == 6) {
+            return nullptr;
+        }
+        count = maximum(count, k + 1);
+        lever[k].slot = slot;
+        return &lever[k].reach;
+    }
 };
 
 template <class Real>
-Levers<Real> levers_of(const GridShape& s, const Walls<Real>& walls, std::int32_t i,
-                       std::int32_t j) {
+void add_film(const CoupledSolve<Real>& solve, const Meeting<Real>& meeting,
+              std::uint16_t slot, Face<Real> sign, Levers<Real>& levers) {
+    if (slot == kNoBody || !solve.walls.load[slot].is_free()) {
+        return;
+    }
+    Impulse<Real>* reach = levers.of(slot);
+    if (reach != nullptr) {
+        const BodyLoad<Real>& load = solve.walls.load[slot];
+        const Impulse<Real> film = meeting.pushes(load, sign);
+        levers.before += flow(film, load.unpressed);
+        reach->add(film);
+    }
+}
+
+template <class Real>
+Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::int32_t i, std::int32_t j) {
+    const Walls<Real>& walls = solve.walls;
     Levers<Real> levers;
-    for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
-        if (face.slot == kNoBody || !walls.load[face.slot].is_free()) {
-            return;
+    for_each_closed_face(solve.shape, walls, i, j, [&](const ClosedFace<Real>& face) {
+        if (face.slot != kNoBody && walls.load[face.slot].is_free()) {
+            levers.of(face.slot)->add(convert<Face<Real>>(face.outward),
+                                      convert<Face<Real>>(face.centre) -
+                                          walls.load[face.slot].at);
         }
-        std::int32_t k = 0;
-        while (k < levers.count && levers.lever[k].slot != face.slot) {
-            ++k;
-        }
-        levers.count = maximum(levers.count, k + 1);
-        levers.lever[k].slot = face.slot;
-        levers.lever[k].reach.add(convert<Face<Real>>(face.outward),
-                                  convert<Face<Real>>(face.centre) - walls.load[face.slot].at);
     });
+    const std::int32_t cell = solve.shape.index(i, j);
+    for (const Meeting<Real>& meeting : Meetings<Real>(solve.obstacles.bodies)) {
+        if (meeting.film_cell == cell && meeting.is_wet(solve.cells)) {
+            add_film(solve, meeting, meeting.slot, Face<Real>(1), levers);
+            add_film(solve, meeting, meeting.other, Face<Real>(-1), levers);
+        }
+    }
     return levers;
+}
+
+/// Whether a body's face or a film may be at a cell.
+template <class Real>
+bool is_pressed(const CoupledSolve<Real>& solve, std::int32_t cell) {
+    bool film = false;
+    for (const Meeting<Real>& meeting : Meetings<Real>(solve.obstacles.bodies)) {
+        film = film || (meeting.film > Face<Real>(0) && meeting.film_cell == cell);
+    }
+    return film || !untouched(solve.walls, cell, cell + solve.shape.stride);
 }
 
 /// Calls visit(slot, box) for the rectangle of each free body.
@@ -52,11 +97,6 @@ void for_each_box(const CoupledSolve<Real>& solve, Visit visit) {
                   cells_of(solve.shape, solve.walls.body[slot].drawn));
         }
     }
-}
-
-template <class Real>
-Face<Real> flow(const Impulse<Real>& reach, const Twist<Real>& twist) {
-    return dot(reach.linear, twist.velocity) + reach.angular * twist.spin;
 }
 
 /// Calls visit(i, j, cell) for the cells of the free bodies' rectangles.
@@ -75,8 +115,9 @@ void for_each_cell(const CoupledSolve<Real>& solve, Visit visit) {
 template <class Real>
 void answer_pressure(const CoupledSolve<Real>& solve, std::uint16_t slot) {
     BodyLoad<Real>& load = solve.walls.load[slot];
-    load.change =
-        answer_stopped(load, pressure_impulse(solve.shape, solve.walls, slot, solve.cells));
+    Impulse<Real> pressed = pressure_impulse(solve.shape, solve.walls, slot, solve.cells);
+    pressed.add(film_impulse(solve.obstacles, solve.cells, slot));
+    load.change = answer_stopped(load, pressed);
 }
 template <class Real>
 void answer_pressure(const CoupledSolve<Real>& solve) {
@@ -87,7 +128,7 @@ void answer_pressure(const CoupledSolve<Real>& solve) {
 /// What the bodies push into a cell, as the pressure has changed their velocities.
 template <class Real>
 Face<Real> pushed_into(const CoupledSolve<Real>& solve, const Levers<Real>& levers) {
-    Face<Real> sum = Face<Real>(0);
+    Face<Real> sum = levers.before;
     for (std::int32_t k = 0; k < levers.count; ++k) {
         sum += flow(levers.lever[k].reach, solve.walls.load[levers.lever[k].slot].change);
     }
@@ -103,8 +144,8 @@ void add_flow(const CoupledSolve<Real>& solve, Face<Real> sign) {
     });
     for_each_cell(solve, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
         if (solve.diagonal[c] == Real(0) &&
-            !untouched(solve.walls, c, c + solve.shape.stride)) {
-            const Levers<Real> levers = levers_of(solve.shape, solve.walls, i, j);
+            is_pressed(solve, c)) {
+            const Levers<Real> levers = levers_of(solve, i, j);
             solve.divergence[c] += static_cast<Real>(sign * pushed_into(solve, levers));
             solve.diagonal[c] = Real(1);
         }
@@ -130,7 +171,7 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std
                       weight(walls.open_u, solve.light_u, c + 1) * p[c + 1]) +
                      (weight(walls.open_v, solve.light_v, c) * p[c - s.stride] +
                       weight(walls.open_v, solve.light_v, up) * p[up]);
-    const Levers<Real> levers = levers_of(s, walls, i, j);
+    const Levers<Real> levers = levers_of(solve, i, j);
     Number diagonal = static_cast<Number>(solve.diagonal[c]);
     Number residual = static_cast<Number>(sum - solve.divergence[c]) -
                       diagonal * static_cast<Number>(p[c]);
@@ -162,9 +203,9 @@ void set_aside(const CoupledSolve<Real>& solve) {
         solve.diagonal[c] = Real(0);
     });
     for_each_cell(solve, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        if (!untouched(solve.walls, c, c + solve.shape.stride) &&
+        if (is_pressed(solve, c) &&
             solve.inverse_diagonal[c] != Real(0) &&
-            levers_of(solve.shape, solve.walls, i, j).count > 0) {
+            levers_of(solve, i, j).count > 0) {
             solve.diagonal[c] = Real(1) / absolute(solve.inverse_diagonal[c]);
             solve.inverse_diagonal[c] = Real(0);
         }

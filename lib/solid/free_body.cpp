@@ -139,8 +139,16 @@ bool limit(Face<Real> fastest, Face<Real> radius, Twist<Real>& twist) {
 }
 
 template <class Real>
-std::int32_t finish(const Obstacles<Real>& obstacles, BodyTable<Real>& table) {
+std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
+                    BodyTable<Real>& table) {
     const Face<Real> fastest = Face<Real>(kLongestWay) / obstacles.dt;
+    for_each_free(table, [&](const Body<Real>& body, BodyLoad<Real>& load) {
+        const Impulse<Real> film =
+            film_impulse(obstacles, cells, static_cast<std::uint16_t>(&body - table.body));
+        const Twist<Real> pushed = answer(load, film);
+        load.received.add(film);
+        load.change = {load.change.velocity + pushed.velocity, load.change.spin + pushed.spin};
+    });
     std::int32_t slowed = 0;
     stop(obstacles, kRoundsAfter);
     remember(obstacles);

@@ -161,18 +161,6 @@ void push_both(const Way<Real> (&way)[2], const Face<Real> (&wanted)[2], Meeting
     set_push(way[1], all[1], meeting[1]);
 }
 
-/// Calls visit(meetings, their number) for one point after the other, or for two of one face.
-template <class Real, class Visit>
-void for_each_face(const Meetings<Real>& meetings, Visit visit) {
-    for (Meeting<Real>* at = meetings.begin(); at != meetings.end();) {
-        const bool both = at + 1 != meetings.end() && at[1].slot == at->slot &&
-                          at[1].other == at->other && at[1].normal.x == at->normal.x &&
-                          at[1].normal.y == at->normal.y;
-        visit(at, both ? 2 : 1);
-        at += both ? 2 : 1;
-    }
-}
-
 /// wanted(way, meeting): the speed that is lacking there.
 template <class Real, class Wanted>
 void push_face(const BodyTable<Real>& table, Meeting<Real>* meeting, std::int32_t count,
@@ -261,7 +249,7 @@ template <class Real>
 void stop(const Obstacles<Real>& obstacles, std::int32_t rounds) {
     const Meetings<Real> meetings(obstacles.bodies);
     for (std::int32_t round = 0; round < rounds; ++round) {
-        for_each_face(meetings, [&](Meeting<Real>* meeting, std::int32_t count) {
+        meetings.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
             push_face(obstacles.bodies, meeting, count,
                       [&](const Way<Real>& way, const Meeting<Real>& at) {
                           return least_speed(obstacles, at) - way.speed();
@@ -311,7 +299,7 @@ void part(const Obstacles<Real>& obstacles) {
         obstacles.bodies.load[slot].change = Twist<Real>{};
     }
     for (std::int32_t round = 0; round < kRoundsOfParting; ++round) {
-        for_each_face(meetings, [&](Meeting<Real>* meeting, std::int32_t count) {
+        meetings.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
             push_face(obstacles.bodies, meeting, count,
                       [](const Way<Real>& way, const Meeting<Real>& at) {
                           return parting(at.gap) - way.changed();

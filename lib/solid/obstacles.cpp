@@ -17,6 +17,9 @@ using Wide = Vec2<Face<Real>>;
 template <class Real>
 constexpr Face<Real> kNear = Face<Real>(1.0 / 4.0);
 
+/// Case of a cell of which all corners are inside.
+constexpr std::uint8_t kAllInside = 15;
+
 /// No body goes further than half of this in a substep, cells.
 template <class Real>
 constexpr Face<Real> kFurthest = Face<Real>(4);
@@ -67,6 +70,19 @@ public:
         cost_ += table_.capacity;
     }
 
+    /// Between faces that lie on each other.
+    void lay_films() const {
+        list_.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
+            const Wide<Real> way = meeting[count - 1].at - meeting[0].at;
+            const Number size = length(way);
+            if (meeting[0].gap < kNear<Real> && meeting[count - 1].gap < kNear<Real> &&
+                size > Number(0)) {
+                lay_film((Number(1) / size) * way, size, meeting[1]);
+                lay_film((Number(-1) / size) * way, size, meeting[0]);
+            }
+        });
+    }
+
     std::int64_t cost() const { return cost_; }
 
 private:
@@ -84,18 +100,19 @@ private:
         }
         const Wide<Real> size{static_cast<Number>(obstacles_.tank.nx),
                               static_cast<Number>(obstacles_.tank.ny)};
-        for (std::int32_t k = 0; k < body.vertex_count; ++k) {
-            const Wide<Real> x = convert<Number>(table_.ring(body)[k]);
-            const auto wall = [&](Number gap, Wide<Real> inward) {
+        const auto wall = [&](Number at, Wide<Real> inward) {
+            for (std::int32_t k = 0; k < body.vertex_count; ++k) {
+                const Wide<Real> x = convert<Number>(table_.ring(body)[k]);
+                const Number gap = dot(inward, x) + at;
                 if (gap <= most) {
                     enter(slot, kNoBody, x, inward, gap);
                 }
-            };
-            wall(x.x, {Number(1), Number(0)});
-            wall(size.x - x.x, {Number(-1), Number(0)});
-            wall(x.y, {Number(0), Number(1)});
-            wall(size.y - x.y, {Number(0), Number(-1)});
-        }
+            }
+        };
+        wall(Number(0), {Number(1), Number(0)});
+        wall(size.x, {Number(-1), Number(0)});
+        wall(Number(0), {Number(0), Number(1)});
+        wall(size.y, {Number(0), Number(-1)});
     }
 
     /// Whether circles around two bodies come within a distance of each other.
@@ -166,6 +183,28 @@ private:
         keep(meeting);
     }
 
+    /// At one end of a face, given the way out from its middle and the whole length.
+    void lay_film(Wide<Real> out, Number size, Meeting<Real>& meeting) const {
+        constexpr Number kBeside = Number(0.3);
+        const Wide<Real> before = meeting.at + kBeside * (out + meeting.normal);
+        meeting.middle = meeting.at - (Number(0.25) * size) * out;
+        const GridShape& s = obstacles_.tank;
+        const auto cell_at = [&](Wide<Real> x) {
+            return s.index(floor_to_int(x.x), floor_to_int(x.y));
+        };
+        if (before.x > Number(0) && before.x < static_cast<Number>(s.nx) && before.y > Number(0) &&
+            before.y < static_cast<Number>(s.ny)) {
+            meeting.film = Number(0.5) * size;
+            meeting.film_cell = cell_at(before);
+            const auto in_tank = [](Number x, std::int32_t cells) {
+                return clamp(x, Number(0), static_cast<Number>(cells) - Number(0.5));
+            };
+            const std::int32_t under = cell_at({in_tank(meeting.middle.x, s.nx),
+                                                in_tank(meeting.middle.y, s.ny)});
+            meeting.under = obstacles_.walls.cell_case[under] == kAllInside ? -1 : under;
+        }
+    }
+
     void keep(const Meeting<Real>& meeting) {
         if (*list_.used < list_.room) {
             list_.entry[(*list_.used)++] = meeting;
@@ -201,7 +240,30 @@ std::int32_t find_meetings(const Obstacles<Real>& obstacles) {
             finder.look_from(slot);
         }
     }
+    finder.lay_films();
     return static_cast<std::int32_t>(minimum(finder.cost(), std::int64_t{kMostWork}));
+}
+
+template <class Real>
+Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
+                           std::uint16_t slot) {
+    using Number = Face<Real>;
+    Impulse<Real> sum;
+    for (const Meeting<Real>& meeting : Meetings<Real>(obstacles.bodies)) {
+        if ((meeting.slot != slot && meeting.other != slot) || !meeting.is_wet(cells)) {
+            continue;
+        }
+        const std::int32_t stride = obstacles.tank.stride;
+        const std::int32_t inner = meeting.film_cell - obstacles.tank.index(0, 0);
+        const Wide<Real> centre{static_cast<Number>(inner % stride) + Number(0.5),
+                                static_cast<Number>(inner / stride) + Number(0.5)};
+        const Number pressure =
+            static_cast<Number>(cells.pressure[meeting.film_cell]) +
+            dot(convert<Number>(cells.gravity_dt), meeting.middle - centre);
+        sum.add(meeting.pushes(obstacles.bodies.load[slot],
+                               meeting.slot == slot ? pressure : -pressure));
+    }
+    return sum;
 }
 
 template <class Real>
@@ -221,6 +283,8 @@ std::int32_t most_looks(const BodyTable<Real>& table) {
 
 #define WEIR_INSTANTIATE(Real)                                    \
     template std::int32_t find_meetings(const Obstacles<Real>&); \
+    template Impulse<Real> film_impulse(const Obstacles<Real>&, const PressedCells<Real>&,      \
+                                         std::uint16_t);                                        \
     template std::int32_t most_looks(const BodyTable<Real>&);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

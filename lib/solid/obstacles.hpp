@@ -9,7 +9,7 @@
 
 #include "grid/borders.hpp"
 #include "solid/body_load.hpp"
-#include "solid/walls.hpp"
+#include "solid/body_force.hpp"
 
 namespace weir {
 
@@ -24,6 +24,23 @@ struct Meeting {
     Face<Real> rub;           ///< and along the surface
     std::uint16_t slot;
     std::uint16_t other;      ///< kNoBody: the tank
+    /// Where a face lies on another one there is a film of liquid, which has the pressure of the
+    /// cell before its end: how much of the face that is, from this point to the middle.
+    Face<Real> film = Face<Real>(0);
+    std::int32_t film_cell = 0;
+    std::int32_t under = 0;   ///< the cell of its middle, where it is open; otherwise negative
+    Vec2<Face<Real>> middle{};
+
+    bool is_wet(const PressedCells<Real>& cells) const {
+        return film > Face<Real>(0) && cells.level[film_cell] > Real(0) &&
+               (under < 0 || !(cells.level[under] > Real(0)));
+    }
+    /// How the film's pressure pushes the free body, and less than 0 times that the other.
+    Impulse<Real> pushes(const BodyLoad<Real>& load, Face<Real> times) const {
+        Impulse<Real> reach;
+        reach.add((times * film) * normal, middle - load.at);
+        return reach;
+    }
 };
 static_assert(sizeof(Meeting<float>) <= kMeetingBytes<float>, "raise kMeetingBytes");
 static_assert(sizeof(Meeting<double>) <= kMeetingBytes<double>, "raise kMeetingBytes");
@@ -63,6 +80,17 @@ struct Meetings {
         constexpr std::size_t kAlign = world_alignment;
         return (static_cast<std::size_t>(count) * bytes + kAlign - 1) & ~(kAlign - 1);
     }
+    /// Calls visit(meetings, their number) for one point after the other, or for two of one face.
+    template <class Visit>
+    void for_each_face(Visit visit) const {
+        for (Meeting<Real>* at = begin(); at != end();) {
+            const bool both = at + 1 != end() && at[1].slot == at->slot &&
+                              at[1].other == at->other && at[1].normal.x == at->normal.x &&
+                              at[1].normal.y == at->normal.y;
+            visit(at, both ? 2 : 1);
+            at += both ? 2 : 1;
+        }
+    }
     Meeting<Real>* begin() const { return entry; }
     Meeting<Real>* end() const { return entry + *used; }
 };
@@ -72,6 +100,7 @@ struct Obstacles {
     const GridShape& tank;
     const Borders<Real>& borders;
     const BodyTable<Real>& bodies;
+    const Walls<Real>& walls;
     Vec2<Face<Real>> fall;  ///< gravity × dt
     Face<Real> dt;
     Face<Real> led_dt;      ///< for so long other bodies have moved on in this substep
@@ -124,6 +153,11 @@ std::int32_t most_looks(const BodyTable<Real>& table);
 inline constexpr std::int32_t kRoundsBefore = 8;
 inline constexpr std::int32_t kRoundsBetween = 1;
 inline constexpr std::int32_t kRoundsAfter = 12;
+
+/// What the films' pressure does to a free body, per impulse that it already has of the cells.
+template <class Real>
+Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
+                           std::uint16_t slot);
 
 /// Goes through the points so often: adds to `load.change` what lets no point come nearer to an
 /// obstacle than it may, and takes back what was too much; the same to `load.stopped`.

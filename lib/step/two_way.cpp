@@ -53,8 +53,9 @@ Obstacles<Real> obstacles_of(const Simulation<Real>& simulation, Seconds<Real> d
     const Vec2<Real> g = simulation.settings.gravity;
     const Face<Real> dt = static_cast<Face<Real>>(dt_s);
     return {simulation.layers.shape, simulation.settings.borders,
-            simulation.bodies,       dt * convert<Face<Real>>(g),
-            dt,                      static_cast<Face<Real>>(simulation.walls_moved_s)};
+            simulation.bodies,       simulation.layers.walls,
+            dt * convert<Face<Real>>(g), dt,
+            static_cast<Face<Real>>(simulation.walls_moved_s)};
 }
 
 template <class Real>
@@ -85,8 +86,8 @@ void press_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& 
     press_tank(simulation, dt_s);
     press_on_bodies(simulation.grid.shape, simulation.layers.walls, simulation.bodies, cells);
     if (simulation.free_bodies != nullptr) {
-        report.bodies_slowed += simulation.free_bodies->finish(obstacles_of(simulation, dt_s),
-                                                                simulation.bodies);
+        report.bodies_slowed += simulation.free_bodies->finish(obstacles_of(simulation, dt_s), cells,
+                                                               simulation.bodies);
     }
 }
 

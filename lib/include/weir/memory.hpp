@@ -113,7 +113,7 @@ inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 96 : 192;
 /// Points at which free bodies are before something, for each body, and one more for their number.
 inline constexpr std::int32_t kMeetingsPerBody = 6;
 template <class Real>
-inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 44 : 80;
+inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 64 : 104;
 /// What is kept of each until the next substep.
 template <class Real>
 inline constexpr std::size_t kPushBytes = sizeof(Real) == 4 ? 24 : 48;
