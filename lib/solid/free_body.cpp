@@ -1,5 +1,7 @@
 #include "solid/free_body.hpp"
 
+#include "base/work.hpp"
+
 #include "math/rotation.hpp"
 #include "solid/body_coupling.hpp"
 
@@ -109,8 +111,8 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
     for_each_free(table, [](const Body<Real>&, BodyLoad<Real>& load) {
         load.change = load.stopped = Twist<Real>{};
     });
-    const std::int32_t cost = find_meetings(obstacles);
-    recall(obstacles);
+    std::int32_t cost = find_meetings(obstacles);
+    cost = minimum(cost, kMostWork / 2) + recall(obstacles);
     stop(obstacles, kRoundsBefore);
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         load.unpressed = whole_twist(load);
@@ -118,6 +120,15 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         set_twist(load, load.unpressed, body);
     });
     return cost;
+}
+
+template <class Real>
+std::int32_t rounds(const BodyTable<Real>& table, std::int32_t half_sweeps, std::int32_t cycles,
+                    bool most) {
+    const Meetings<Real> meetings(table);
+    const std::int32_t points = most ? meetings.room : *meetings.used;
+    return points * (kRoundsBefore + cycles * (kRoundsBefore + half_sweeps * kRoundsBetween) +
+                     kRoundsAfter + kRoundsOfParting);
 }
 
 /// Twist within what a substep can bear; NaN becomes rest.
@@ -167,7 +178,7 @@ std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& 
 template <class Real>
 const FreeBodyStages<Real>& free_body_stages() {
     static constexpr FreeBodyStages<Real> kStages{
-        most_looks<Real>,    accelerate<Real>,   begin_coupling<Real>,
+        most_looks<Real>,    rounds<Real>,       accelerate<Real>,   begin_coupling<Real>,
         yielding<Real>,      set_aside<Real>,    relax_coupled<Real>,
         end_coupling<Real>,  finish<Real>,       move<Real>};
     return kStages;

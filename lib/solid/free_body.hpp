@@ -32,8 +32,11 @@ struct CoupledSolve {
 
 template <class Real>
 struct FreeBodyStages {
-    /// The most that `accelerate` can cost.
+    /// The most that `accelerate` can cost, and all rounds of `stop` in a substep: of those points
+    /// that there are, or of all that there is room for.
     std::int32_t (*most_looks)(const BodyTable<Real>&);
+    std::int32_t (*rounds)(const BodyTable<Real>&, std::int32_t half_sweeps, std::int32_t cycles,
+                           bool most);
     /// Before the pressure: gravity and blows give them a velocity, and what they meet as if there
     /// were no liquid. Returns the cost.
     std::int32_t (*accelerate)(const Obstacles<Real>&, BodyTable<Real>&);

@@ -8,9 +8,8 @@ namespace {
 template <class Real>
 using Wide = Vec2<Face<Real>>;
 
-/// Positions are put right in so many rounds, by such a share of what is wrong, and by no more
-/// than so many cells in a substep.
-constexpr std::int32_t kRoundsOfParting = 4;
+/// Positions are put right by such a share of what is wrong, and by no more than so many cells in a
+/// substep.
 template <class Number>
 constexpr Number kPartedShare = Number(1.0 / 4.0);
 template <class Number>
@@ -20,10 +19,16 @@ constexpr Number kMostParted = Number(1.0 / 16.0);
 template <class Real>
 constexpr Face<Real> kSeparate = Face<Real>(1.0 / 4096.0);
 
+/// So deep bodies may lie in each other, cells: were they parted to the last, what lies on two
+/// points would come free of one, fall on it, and sway.
+template <class Number>
+constexpr Number kAllowed = Number(1.0 / 128.0);
+
 /// Of a gap, what is to be gone at once: what is left of it, or a part of what is too much.
 template <class Number>
 Number parting(Number gap) {
-    return gap > Number(0) ? -gap : minimum(-kPartedShare<Number> * gap, kMostParted<Number>);
+    const Number left = gap + kAllowed<Number>;
+    return left > Number(0) ? -left : minimum(-kPartedShare<Number> * left, kMostParted<Number>);
 }
 
 /// A point is the same as before if it has moved by less, as its body sees it, cells.
@@ -204,11 +209,13 @@ Number named(std::uint16_t slot) {
 /// The push of the same bodies at about the same place; they mostly come in the same order.
 template <class Real>
 const Push<Real>* find_push(const BodyTable<Real>& table, const Meetings<Real>& meetings,
-                            const Meeting<Real>& meeting, const Push<Real>*& cursor) {
+                            const Meeting<Real>& meeting, const Push<Real>*& cursor,
+                            std::int32_t& cost) {
     const Wide<Real> arm = meeting.at - table.load[meeting.slot].at;
     const Push<Real>* const end = meetings.before + meetings.room;
     const Push<Real>* const start = cursor;
     const auto fits = [&](const Push<Real>& push) {
+        ++cost;
         const Wide<Real> off = push.arm - arm;
         return push.slot == named<Face<Real>>(meeting.slot) &&
                push.other == named<Face<Real>>(meeting.other) &&
@@ -248,29 +255,36 @@ void begin_with(const Obstacles<Real>& obstacles, const Push<Real>& kept,
 template <class Real>
 void stop(const Obstacles<Real>& obstacles, std::int32_t rounds) {
     const Meetings<Real> meetings(obstacles.bodies);
-    for (std::int32_t round = 0; round < rounds; ++round) {
-        meetings.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
+    const auto visit = [&](Meeting<Real>* meeting, std::int32_t count) {
+            for (std::int32_t k = 0; k < count; ++k) {
+                rub_there(obstacles, meeting[k]);
+            }
             push_face(obstacles.bodies, meeting, count,
                       [&](const Way<Real>& way, const Meeting<Real>& at) {
                           return least_speed(obstacles, at) - way.speed();
                       });
-            for (std::int32_t k = 0; k < count; ++k) {
-                rub_there(obstacles, meeting[k]);
-            }
-        });
+    };
+    for (std::int32_t round = 0; round < rounds; ++round) {
+        if (round % 2 == 0) {
+            meetings.for_each_face(visit);
+        } else {
+            meetings.for_each_face_back(visit);
+        }
     }
 }
 
 template <class Real>
-void recall(const Obstacles<Real>& obstacles) {
+std::int32_t recall(const Obstacles<Real>& obstacles) {
     const Meetings<Real> meetings(obstacles.bodies);
     const Push<Real>* cursor = meetings.before;
+    std::int32_t cost = 0;
     for (Meeting<Real>& meeting : meetings) {
-        const Push<Real>* push = find_push(obstacles.bodies, meetings, meeting, cursor);
+        const Push<Real>* push = find_push(obstacles.bodies, meetings, meeting, cursor, cost);
         if (push != nullptr && !(meeting.leaves > Face<Real>(0))) {
             begin_with(obstacles, *push, meeting);
         }
     }
+    return cost;
 }
 
 template <class Real>
@@ -310,7 +324,7 @@ void part(const Obstacles<Real>& obstacles) {
 
 #define WEIR_INSTANTIATE(Real)                                   \
     template void stop(const Obstacles<Real>&, std::int32_t);    \
-    template void recall(const Obstacles<Real>&);                \
+    template std::int32_t recall(const Obstacles<Real>&);        \
     template void remember(const Obstacles<Real>&);              \
     template void part(const Obstacles<Real>&);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)

@@ -268,8 +268,9 @@ Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<
 
 template <class Real>
 std::int32_t most_looks(const BodyTable<Real>& table) {
+    const std::int64_t room = Meetings<Real>(table).room;
     std::int64_t all = 0;
-    std::int64_t looks = 0;
+    std::int64_t looks = room * room;  // at what is kept
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         all += table.body[slot].kind != BodyKind::free ? list_length(table.body[slot]) : 0;
     }

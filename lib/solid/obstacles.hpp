@@ -80,15 +80,26 @@ struct Meetings {
         constexpr std::size_t kAlign = world_alignment;
         return (static_cast<std::size_t>(count) * bytes + kAlign - 1) & ~(kAlign - 1);
     }
+    static bool of_one_face(const Meeting<Real>& a, const Meeting<Real>& b) {
+        return a.slot == b.slot && a.other == b.other && a.normal.x == b.normal.x &&
+               a.normal.y == b.normal.y;
+    }
     /// Calls visit(meetings, their number) for one point after the other, or for two of one face.
     template <class Visit>
     void for_each_face(Visit visit) const {
         for (Meeting<Real>* at = begin(); at != end();) {
-            const bool both = at + 1 != end() && at[1].slot == at->slot &&
-                              at[1].other == at->other && at[1].normal.x == at->normal.x &&
-                              at[1].normal.y == at->normal.y;
+            const bool both = at + 1 != end() && of_one_face(at[0], at[1]);
             visit(at, both ? 2 : 1);
             at += both ? 2 : 1;
+        }
+    }
+    /// The same from the last one to the first.
+    template <class Visit>
+    void for_each_face_back(Visit visit) const {
+        for (Meeting<Real>* at = end(); at != begin();) {
+            const bool both = at - 1 != begin() && of_one_face(at[-1], at[-2]);
+            at -= both ? 2 : 1;
+            visit(at, both ? 2 : 1);
         }
     }
     Meeting<Real>* begin() const { return entry; }
@@ -153,6 +164,8 @@ std::int32_t most_looks(const BodyTable<Real>& table);
 inline constexpr std::int32_t kRoundsBefore = 8;
 inline constexpr std::int32_t kRoundsBetween = 1;
 inline constexpr std::int32_t kRoundsAfter = 12;
+/// And so often when bodies are moved apart.
+inline constexpr std::int32_t kRoundsOfParting = 4;
 
 /// What the films' pressure does to a free body, per impulse that it already has of the cells.
 template <class Real>
@@ -164,9 +177,10 @@ Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<
 template <class Real>
 void stop(const Obstacles<Real>& obstacles, std::int32_t rounds);
 
-/// Begins with what the points got in the last substep.
+/// Begins with what the points got in the last substep. Returns the cost: looks at what is kept,
+/// mostly one a point.
 template <class Real>
-void recall(const Obstacles<Real>& obstacles);
+std::int32_t recall(const Obstacles<Real>& obstacles);
 /// Keeps what they got in this one.
 template <class Real>
 void remember(const Obstacles<Real>& obstacles);

@@ -303,10 +303,10 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     clock.charge(Stage::grid_update);
 
     solve_pressure<Solids>(simulation, plan, work);
-    if (two_way != nullptr && work.once(grid.shape.size())) {
+    if (two_way != nullptr) {
         if constexpr (Solids) {
-            two_way->press_bodies(simulation, dt_s, report);
-        } else {
+            two_way->press_bodies(simulation, plan, work, report);
+        } else if (work.once(grid.shape.size())) {
             two_way->press_tank(simulation, dt_s);
         }
     }

@@ -80,8 +80,32 @@ void press_tank(Simulation<Real>& simulation, Seconds<Real> dt_s) {
                   tank_received(simulation.bodies));
 }
 
+/// What the rounds over free bodies' points cost in a substep.
 template <class Real>
-void press_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report) {
+void charge_rounds(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
+    const std::int32_t cycles =
+        simulation.pressure.elasticity != nullptr ? 0 : simulation.pressure.solve.cycles;
+    const auto rounds = [&](bool most) {
+        return simulation.free_bodies->rounds(simulation.bodies, 2 * plan.sweeps, cycles, most);
+    };
+    if (work.once(1)) {
+        work.spend(rounds(false));
+    }
+    if (work.foreseeing()) {
+        work.expect(1, rounds(true));
+    }
+}
+
+template <class Real>
+void press_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                  StepReport& report) {
+    if (simulation.free_bodies != nullptr) {
+        charge_rounds(simulation, plan, work);
+    }
+    if (!work.once(simulation.grid.shape.size())) {
+        return;
+    }
+    const Seconds<Real> dt_s = plan.dt_s;
     const PressedCells<Real> cells = pressed_cells(simulation, dt_s);
     press_tank(simulation, dt_s);
     press_on_bodies(simulation.grid.shape, simulation.layers.walls, simulation.bodies, cells);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "step/simulation.hpp"
+#include "step/time_step_limit.hpp"
 #include "weir/features.hpp"
 
 namespace weir {
@@ -24,7 +25,8 @@ struct detail::TwoWay {
     CoupledSolve<Real> (*coupled_solve)(const Simulation<Real>& simulation, Seconds<Real> dt_s);
     /// After the pressure: its impulse on the tank and on all bodies, and the velocity that free
     /// ones get of it.
-    void (*press_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
+    void (*press_bodies)(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                         StepReport& report);
     /// Free bodies go on, before the particles do, which meet them where they then are.
     void (*move_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
 };

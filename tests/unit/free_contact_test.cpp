@@ -1,0 +1,423 @@
+// Free bodies that meet bodies, each other and the tank.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "test_world.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kDt = 1.0F / 60.0F;
+constexpr double kCell = 0.02;
+constexpr double kG = 9.81;
+
+WorldDef dry_def() {
+    WorldDef def;
+    def.capacity.cells_x = 40;
+    def.capacity.cells_y = 40;
+    def.capacity.particles = 4 * 40 * 40;
+    def.capacity.bodies = 8;
+    def.capacity.vertices = 64;
+    def.capacity.two_way = true;
+    return def;
+}
+
+template <class Real>
+Motion motion_of(const World<Real>& world, BodyId id) {
+    Motion motion;
+    expect_ok(world.motion(id, &motion));
+    return motion;
+}
+
+std::vector<Vec2f> posed(const Ring& ring, const Motion& at) {
+    const float c = std::cos(at.angle_rad);
+    const float s = std::sin(at.angle_rad);
+    std::vector<Vec2f> out;
+    for (const Vec2f p : ring) {
+        out.push_back({at.position_m.x + (c * p.x - s * p.y), at.position_m.y + (s * p.x + c * p.y)});
+    }
+    return out;
+}
+
+/// How deep a point is in a convex ring, m.
+double depth_in(const std::vector<Vec2f>& ring, Vec2f p) {
+    double depth = 1e9;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Vec2f a = ring[k];
+        const Vec2f b = ring[(k + 1) % ring.size()];
+        const double side = static_cast<double>((b.x - a.x) * (p.y - a.y) -
+                                                (b.y - a.y) * (p.x - a.x));
+        depth = std::min(depth, side / static_cast<double>(std::hypot(b.x - a.x, b.y - a.y)));
+    }
+    return depth;
+}
+
+/// How deep convex rings are in each other, cells.
+double overlap_of(const Ring& a, const Motion& at_a, const Ring& b, const Motion& at_b) {
+    const auto one = posed(a, at_a);
+    const auto two = posed(b, at_b);
+    double depth = 0;
+    for (const Vec2f p : one) {
+        depth = std::max(depth, depth_in(two, p));
+    }
+    for (const Vec2f p : two) {
+        depth = std::max(depth, depth_in(one, p));
+    }
+    return depth / kCell;
+}
+
+double speed_of(const Motion& m) {
+    return static_cast<double>(std::hypot(m.velocity_mps.x, m.velocity_mps.y));
+}
+
+/// Of a box of that edge, over its mass.
+double energy_of(const Motion& m, double edge) {
+    const auto spin = static_cast<double>(m.spin_radps);
+    return 0.5 * speed_of(m) * speed_of(m) + 0.5 * spin * spin * edge * edge / 6 +
+           kG * static_cast<double>(m.position_m.y);
+}
+
+template <class Real>
+class FreeContact : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed>;
+TYPED_TEST_SUITE(FreeContact, Scalars);
+
+/// Without friction a ramp is slid down as gravity has it; on a rough one a crate stays.
+TYPED_TEST(FreeContact, CrateOnARampSlidesOrStays) {
+    for (const float friction : {0.0F, 0.8F}) {
+        WorldDef def = dry_def();
+        def.capacity.cells_x = 60;
+        TestWorld<TypeParam> world{def};
+        const Ring slope = {{0, 0}, {1.0F, 0}, {0, 0.5F}};
+        const Ring box = rectangle(0.08F, 0.08F);
+        BodyDef ramp = body_of(slope, {0.02F, 0});
+        ramp.surface.friction = friction;
+        const float tilt = -std::atan(0.5F);
+        const Vec2f normal{-std::sin(tilt), std::cos(tilt)};
+        BodyId ramp_id;
+        BodyId id;
+        expect_ok(world->add_static_body(ramp, &ramp_id));
+        const Vec2f foot{0.12F, 0.45F};
+        expect_ok(world->add_free_body(
+            body_of(box, {foot.x + 0.04F * normal.x, foot.y + 0.04F * normal.y}, tilt), &id));
+        const Motion at = motion_of(*world, ramp_id);
+        const Motion start = motion_of(*world, id);
+        double energy = energy_of(start, 0.08);
+        double t = 0;
+        for (int k = 0; k < 30; ++k) {
+            t += static_cast<double>(world->step(kDt).dt_s);
+            const Motion m = motion_of(*world, id);
+            EXPECT_LT(overlap_of(box, m, slope, at), 0.01);
+            EXPECT_LT(energy_of(m, 0.08), energy + 1e-4);
+            energy = energy_of(m, 0.08);
+        }
+        const Motion m = motion_of(*world, id);
+        const double way = static_cast<double>(
+            std::hypot(m.position_m.x - start.position_m.x, m.position_m.y - start.position_m.y));
+        EXPECT_NEAR(static_cast<double>(m.angle_rad), static_cast<double>(tilt), 2e-3);
+        if (friction > 0) {
+            EXPECT_LT(way, 0.05 * kCell);
+        } else {
+            EXPECT_NEAR(way / (0.5 * kG * std::sqrt(0.2) * t * t), 1.0, 0.05);
+        }
+    }
+}
+
+/// Four crates on each other stand as they were put, and do not sink into each other.
+TYPED_TEST(FreeContact, StackStands) {
+    for (const float density : {0.5F, 3.0F}) {
+        TestWorld<TypeParam> world{dry_def()};
+        const Ring box = rectangle(0.1F, 0.1F);
+        constexpr int kCrates = 4;
+        BodyId id[kCrates];
+        for (int k = 0; k < kCrates; ++k) {
+            BodyDef crate = body_of(box, {k % 2 == 0 ? 0.3F : 0.31F,
+                                          0.052F + 0.103F * static_cast<float>(k)});
+            crate.density_ratio = density;
+            crate.surface.friction = 0.4F;
+            expect_ok(world->add_free_body(crate, &id[k]));
+        }
+        double deepest = 0;
+        for (int step = 0; step < 600; ++step) {
+            world->step(kDt);
+            for (int k = 0; k < kCrates; ++k) {
+                const Motion m = motion_of(*world, id[k]);
+                if (k > 0) {
+                    deepest = std::max(deepest,
+                                       overlap_of(box, m, box, motion_of(*world, id[k - 1])));
+                }
+                if (step > 300) {
+                    EXPECT_LT(speed_of(m), 1e-3) << k;
+                }
+            }
+        }
+        EXPECT_LT(deepest, 0.05);
+        for (int k = 0; k < kCrates; ++k) {
+            const Motion m = motion_of(*world, id[k]);
+            EXPECT_NEAR(m.position_m.x, k % 2 == 0 ? 0.3F : 0.31F, 5e-4F) << k;
+            EXPECT_NEAR(m.position_m.y, 0.05F + 0.1F * static_cast<float>(k), 5e-4F) << k;
+            EXPECT_NEAR(m.angle_rad, 0.0F, 2e-3F) << k;
+        }
+    }
+}
+
+/// Two bodies in empty space: what one loses the other gets, about any point, and none is thrown
+/// off with more than there was.
+TYPED_TEST(FreeContact, WhatOneLosesTheOtherGets) {
+    for (const float restitution : {0.0F, 0.5F, 1.0F}) {
+        for (const float offset : {0.0F, 0.045F}) {
+            WorldDef def = dry_def();
+            def.gravity_mps2 = {0, 0};
+            TestWorld<TypeParam> world{def};
+            const Ring box = rectangle(0.1F, 0.08F);
+            const Ring bar = rectangle(0.2F, 0.06F);
+            BodyDef one = body_of(box, {0.25F, 0.4F}, 0.3F);
+            one.motion.velocity_mps = {0.6F, 0.1F};
+            one.motion.spin_radps = 2.0F;
+            one.surface.restitution = restitution;
+            one.surface.friction = 0.3F;
+            BodyDef other = body_of(bar, {0.5F, 0.42F + offset}, 1.3F);
+            other.motion.velocity_mps = {-0.3F, 0.0F};
+            other.density_ratio = 1.7F;
+            BodyId id[2];
+            expect_ok(world->add_free_body(one, &id[0]));
+            expect_ok(world->add_free_body(other, &id[1]));
+            double sum[2][4];  // momentum, angular momentum about the tank's corner, energy
+            for (int after = 0; after < 2; ++after) {
+                std::fill(sum[after], sum[after] + 4, 0.0);
+                for (const BodyId each : id) {
+                    BodyMass mass;
+                    expect_ok(world->mass(each, &mass));
+                    const Motion m = motion_of(*world, each);
+                    const auto kg = static_cast<double>(mass.mass_m2);
+                    const auto x = static_cast<double>(m.position_m.x);
+                    const auto y = static_cast<double>(m.position_m.y);
+                    const auto u = static_cast<double>(m.velocity_mps.x);
+                    const auto v = static_cast<double>(m.velocity_mps.y);
+                    const double turn = static_cast<double>(mass.inertia_m4) *
+                                        static_cast<double>(m.spin_radps);
+                    sum[after][0] += kg * u;
+                    sum[after][1] += kg * v;
+                    sum[after][2] += kg * (x * v - y * u) + turn;
+                    sum[after][3] += 0.5 * kg * (u * u + v * v) +
+                                     0.5 * turn * static_cast<double>(m.spin_radps);
+                }
+                for (int k = 0; k < 24 && after == 0; ++k) {
+                    world->step(kDt);
+                }
+            }
+            const double much = 0.013 * 0.6;  // of momentum
+            const double fine = std::is_same_v<TypeParam, Fixed> ? 2e-3 : 2e-5;
+            EXPECT_NEAR(sum[1][0], sum[0][0], fine * much);
+            EXPECT_NEAR(sum[1][1], sum[0][1], fine * much);
+            EXPECT_NEAR(sum[1][2], sum[0][2], fine * much);
+            EXPECT_LT(sum[1][3], sum[0][3] * (1 + 1e-3));
+            EXPECT_GT(std::fabs(sum[1][3] - sum[0][3]), restitution < 1 ? 0.05 * sum[0][3] : -1.0)
+                << "they did not meet";
+        }
+    }
+}
+
+/// From a height, onto a static body: it comes back to the square of the restitution of it.
+TYPED_TEST(FreeContact, BouncesAsHighAsItsRestitution) {
+    TestWorld<TypeParam> world{dry_def()};
+    const Ring slab = rectangle(0.4F, 0.06F);
+    BodyDef floor = body_of(slab, {0.4F, 0.1F});
+    floor.surface.restitution = 0.7F;
+    BodyId id;
+    expect_ok(world->add_static_body(floor, &id));
+    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.4F, 0.45F}), &id));
+    float lowest = 1;
+    float highest = 0;
+    for (int k = 0; k < 40; ++k) {
+        world->step(kDt);
+        const Motion m = motion_of(*world, id);
+        lowest = std::min(lowest, m.position_m.y);
+        highest = m.velocity_mps.y > 0 || highest > 0 ? std::max(highest, m.position_m.y) : 0;
+    }
+    EXPECT_GT(lowest, 0.15F - 1e-4F);
+    EXPECT_NEAR((highest - 0.15F) / 0.3F, 0.49F, 0.03F);
+}
+
+/// Pressed into a notch that is too narrow for it, a crate comes to rest.
+TYPED_TEST(FreeContact, WedgedCrateComesToRest) {
+    TestWorld<TypeParam> world{dry_def()};
+    const Ring left = {{0, 0}, {0.15F, 0}, {0, 0.5F}};
+    const Ring right = {{0, 0}, {0, 0.5F}, {-0.15F, 0}};
+    const Ring box = rectangle(0.16F, 0.16F);
+    BodyId walls[2];
+    BodyId id;
+    expect_ok(world->add_static_body(body_of(left, {0.2F, 0}), &walls[0]));
+    expect_ok(world->add_static_body(body_of(right, {0.5F, 0}), &walls[1]));
+    BodyDef crate = body_of(box, {0.35F, 0.55F}, 0.1F);
+    crate.motion.velocity_mps = {0, -2.0F};
+    expect_ok(world->add_free_body(crate, &id));
+    const Motion at[2] = {motion_of(*world, walls[0]), motion_of(*world, walls[1])};
+    double energy = 1e9;
+    for (int k = 0; k < 300; ++k) {
+        world->step(kDt);
+        const Motion m = motion_of(*world, id);
+        EXPECT_LT(energy_of(m, 0.16), energy + 2e-3);
+        energy = std::min(energy, energy_of(m, 0.16));
+        EXPECT_LT(overlap_of(box, m, left, at[0]), k < 200 ? 0.3 : 0.05);
+        EXPECT_LT(overlap_of(box, m, right, at[1]), k < 200 ? 0.3 : 0.05);
+    }
+    EXPECT_LT(speed_of(motion_of(*world, id)), 1e-3);
+    EXPECT_GT(motion_of(*world, id).position_m.y, 0.1F) << "it fell through";
+}
+
+/// Moving bodies push, lift and carry; a belt takes along what lies on it.
+TYPED_TEST(FreeContact, MovingBodiesPushLiftAndCarry) {
+    TestWorld<TypeParam> world{dry_def()};
+    const Ring slab = rectangle(0.3F, 0.04F);
+    const Ring post = rectangle(0.04F, 0.2F);
+    BodyDef lift = body_of(slab, {0.2F, 0.2F});
+    lift.motion.velocity_mps = {0, 0.2F};
+    BodyDef pusher = body_of(post, {0.45F, 0.1F});
+    pusher.motion.velocity_mps = {0.1F, 0};
+    BodyDef belt = body_of(slab, {0.2F, 0.02F});
+    belt.surface.friction = 0.6F;
+    belt.surface.conveyor_mps = -0.15F;
+    BodyId id[6];
+    expect_ok(world->add_moving_body(lift, &id[0]));
+    expect_ok(world->add_moving_body(pusher, &id[1]));
+    expect_ok(world->add_static_body(belt, &id[2]));
+    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.2F, 0.24F}), &id[3]));
+    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.5F, 0.02F}), &id[4]));
+    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.12F, 0.06F}), &id[5]));
+    for (int k = 0; k < 60; ++k) {
+        world->step(kDt);
+    }
+    const Motion lifted = motion_of(*world, id[3]);
+    EXPECT_NEAR(lifted.position_m.y - motion_of(*world, id[0]).position_m.y, 0.04F, 2e-4F);
+    EXPECT_NEAR(lifted.velocity_mps.y, 0.2F, 2e-3F);
+    const Motion pushed = motion_of(*world, id[4]);
+    EXPECT_NEAR(pushed.position_m.x - motion_of(*world, id[1]).position_m.x, 0.04F, 2e-4F);
+    EXPECT_NEAR(pushed.velocity_mps.x, 0.1F, 2e-3F);
+    const Motion carried = motion_of(*world, id[5]);
+    EXPECT_NEAR(carried.velocity_mps.x, 0.15F, 2e-3F);
+    EXPECT_NEAR(carried.position_m.y, 0.06F, 2e-4F);
+}
+
+/// A line without thickness is a shelf; a cup with a hollow holds what falls into it.
+TYPED_TEST(FreeContact, ShelvesAndCupsHold) {
+    WorldDef def = dry_def();
+    def.capacity.wall_edges = 400;
+    TestWorld<TypeParam> world{def};
+    const Ring shelf = {{0, 0}, {0.15F, 0}, {0.3F, 0.02F}};
+    const Ring cup = {{0, 0},           {0.3F, 0},        {0.3F, 0.2F}, {0.26F, 0.2F},
+                      {0.26F, 0.04F}, {0.04F, 0.04F}, {0.04F, 0.2F}, {0, 0.2F}};
+    BodyDef line = body_of(shelf, {0.04F, 0.3F});
+    line.open = true;
+    line.surface.friction = 0.5F;
+    BodyId id[4];
+    expect_ok(world->add_static_body(line, &id[0]));
+    expect_ok(world->add_moving_body(body_of(cup, {0.44F, 0.1F}), &id[1]));
+    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.1F, 0.4F}), &id[2]));
+    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.6F, 0.5F}, 0.4F), &id[3]));
+    for (int k = 0; k < 180; ++k) {
+        world->step(kDt);
+    }
+    EXPECT_NEAR(motion_of(*world, id[2]).position_m.y, 0.32F, 5e-4F);
+    EXPECT_NEAR(motion_of(*world, id[3]).position_m.y, 0.16F, 5e-4F);
+}
+
+template <class Real>
+double volume_left(World<Real>& world) {
+    Diagnostics now;
+    expect_ok(world.diagnose(&now));
+    return now.volume_m2 / now.mass_m2;
+}
+
+/// Light crates in a tank that sways, thrown against each other, the walls and the floor.
+TYPED_TEST(FreeContact, FloatingCratesLeaveTheLiquidItsVolume) {
+    WorldDef def = dry_def();
+    def.capacity.cells_y = 30;
+    TestWorld<TypeParam> world{def};
+    expect_ok(world->fill({{0, 0}, {0.8F, 0.24F}}));
+    const Ring box = rectangle(0.1F, 0.1F);
+    BodyId id[3];
+    for (int k = 0; k < 3; ++k) {
+        expect_ok(world->add_free_body(body_of(box, {0.29F + 0.11F * static_cast<float>(k), 0.31F}),
+                                       &id[k]));
+    }
+    for (int k = 0; k < 600; ++k) {
+        const float sway = std::sin(6.2831853F * static_cast<float>(k) * kDt / 1.1F);
+        expect_ok(world->set_gravity({k < 400 ? 2.0F * sway : 0.0F, -9.81F}));
+        world->step(kDt);
+    }
+    EXPECT_GT(volume_left(*world), 0.98);
+    for (const BodyId each : id) {
+        EXPECT_GT(motion_of(*world, each).position_m.y, 0.15F) << "it does not float";
+    }
+}
+
+/// Flat on the floor, where no cell under it holds liquid, a light body rises all the same, and a
+/// heavy one does not; nor does either take liquid.
+TYPED_TEST(FreeContact, LightBodyRisesFromTheFloor) {
+    for (const float density : {0.4F, 2.0F}) {
+        WorldDef def = dry_def();
+        def.capacity.cells_x = 24;
+        def.capacity.cells_y = 20;
+        TestWorld<TypeParam> world{def};
+        const Ring box = rectangle(0.1F, 0.06F);
+        BodyDef body = body_of(box, {0.24F, 0.03F});
+        body.density_ratio = density;
+        BodyId id;
+        expect_ok(world->add_free_body(body, &id));
+        expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
+        for (int k = 0; k < 300; ++k) {
+            world->step(kDt);
+        }
+        const float y = motion_of(*world, id).position_m.y;
+        if (density < 1) {
+            EXPECT_GT(y, 0.2F);
+        } else {
+            EXPECT_NEAR(y, 0.03F, 1e-3F);
+        }
+        EXPECT_GT(volume_left(*world), 0.98);
+    }
+}
+
+/// A heap of more points than there is room for stays within the tank and its work bound, and a
+/// snapshot of it goes on with the same bits.
+TYPED_TEST(FreeContact, HeapIsBoundedAndGoesOnFromASnapshot) {
+    TestWorld<TypeParam> world{dry_def()};
+    expect_ok(world->fill({{0, 0}, {0.2F, 0.3F}}));
+    Ring wheel;
+    for (int k = 0; k < 7; ++k) {
+        const float angle = 6.2831853F * static_cast<float>(k) / 7;
+        wheel.push_back({0.08F * std::cos(angle), 0.08F * std::sin(angle)});
+    }
+    BodyId id[8];
+    for (int k = 0; k < 8; ++k) {
+        BodyDef body = body_of(wheel, {0.1F + 0.17F * static_cast<float>(k % 4),
+                                       0.15F + 0.18F * static_cast<float>(k / 4)});
+        body.density_ratio = k % 2 == 0 ? 0.3F : 3.0F;
+        expect_ok(world->add_free_body(body, &id[k]));
+    }
+    const auto run = [](World<TypeParam>& each) {
+        for (int k = 0; k < 60; ++k) {
+            WorkBound bound;
+            expect_ok(each.work_bound(kDt, &bound));
+            const StepReport report = each.step(kDt);
+            EXPECT_LE(work_of(report), bound.step);
+        }
+    };
+    run(*world);
+    std::vector<std::byte> kept(snapshot_bytes<TypeParam>(dry_def().capacity));
+    std::size_t written = 0;
+    expect_ok(world->save(kept.data(), kept.size(), &written));
+    TestWorld<TypeParam> twin{dry_def()};
+    expect_ok(twin->restore(kept.data(), written));
+    run(*world);
+    run(*twin);
+    EXPECT_EQ(world->state_hash(), twin->state_hash());
+    EXPECT_TRUE(all_inside(*world));
+}
+
+}  // namespace
+}  // namespace weir
