@@ -1,9 +1,8 @@
-// Free bodies that meet each other: box2d_raft SHEET.png ANIMATION.gif
-// The library solves for liquid and free bodies as one system, so that light ones are stable; of
-// other bodies they know nothing. Box2D does what is between them (contacts, friction, a hinge):
-// every frame it gets the velocities that the liquid left, and gives back poses and velocities.
-// To hand forces over instead, a frame late, would throw bodies about that are lighter than the
-// liquid which they set in motion.
+// Liquid with free bodies, and joints between them: box2d_raft SHEET.png ANIMATION.gif
+// The library solves for liquid, free bodies and what these meet as one system; of joints it knows
+// nothing. Box2D does the raft's hinge: every frame it gets the way that the planks went, and gives
+// back poses and velocities. To hand forces over instead, a frame late, would throw bodies about
+// that are lighter than the liquid which they set in motion.
 #include <box2d/box2d.h>
 
 #include <cmath>
@@ -29,7 +28,7 @@ constexpr float kPi = 3.14159265F;
 
 struct Solid {
     std::vector<weir::Vec2f> ring;
-    b2Body* body = nullptr;
+    b2Body* body = nullptr;  ///< null: it has no joint
     weir::BodyId id;
     weir::Motion motion;  ///< at the end of the last frame
     bool fixed = false;
@@ -61,27 +60,19 @@ public:
         memory_.resize(weir::world_bytes<float>(c) / sizeof(Line) + 1);
         require(liquid_.init(def, memory_.data(), memory_.size() * sizeof(Line)));
 
-        b2BodyDef tank;
-        b2Body* walls = engine_.CreateBody(&tank);
-        const b2Vec2 corner[] = {{0, 0}, {0, 9}, {kWidth, 9}, {kWidth, 0}};  // solid outside
-        b2ChainShape chain;
-        chain.CreateLoop(corner, 4);
-        walls->CreateFixture(&chain, 0.0F);
-
-        add({{3.2F, 0}, {4.0F, 0}, {4.0F, 0.5F}}, {0, 0}, true);  // a beach
+        add({{3.2F, 0}, {4.0F, 0}, {4.0F, 0.5F}}, {0, 0}, Kind::fixed);  // a beach
         const std::vector<weir::Vec2f> crate = box(0.26F, 0.26F);
         for (int row = 0; row < 3; ++row) {
             for (int k = 0; k < 3 - row; ++k) {
                 add(crate, {1.9F + 0.28F * static_cast<float>(k) + 0.14F * static_cast<float>(row),
-                            0.50F + 0.27F * static_cast<float>(row)}, false);
+                            0.50F + 0.27F * static_cast<float>(row)}, Kind::alone);
             }
         }
         const std::vector<weir::Vec2f> plank = box(0.40F, 0.08F);
-        b2Body* left = add(plank, {1.10F, 0.5F}, false);
-        b2Body* right = add(plank, {1.52F, 0.5F}, false);
+        b2Body* left = add(plank, {1.10F, 0.5F}, Kind::jointed);
+        b2Body* right = add(plank, {1.52F, 0.5F}, Kind::jointed);
         b2RevoluteJointDef hinge;
         hinge.Initialize(left, right, {1.31F, 0.5F});
-        hinge.collideConnected = true;
         engine_.CreateJoint(&hinge);
         require(liquid_.fill({{0, 0}, {0.6F, 1.2F}}));  // the dam that breaks
         require(liquid_.fill({{0.6F, 0}, {kWidth, 0.4F}}));
@@ -90,13 +81,13 @@ public:
     void step() {
         liquid_.step(kFrame);
         for (Solid& solid : solids_) {
-            if (!solid.fixed) {
+            if (solid.body != nullptr) {
                 hand_over(solid);
             }
         }
         engine_.Step(kFrame, 8, 3);
         for (Solid& solid : solids_) {
-            if (!solid.fixed) {
+            if (solid.body != nullptr) {
                 take_back(solid);
             }
         }
@@ -107,9 +98,13 @@ public:
         for (const Solid& solid : solids_) {
             weir_picture::Polygon polygon;
             polygon.moving = !solid.fixed;
+            weir::Motion at;
+            require(liquid_.motion(solid.id, &at));
+            const float c = std::cos(at.angle_rad);
+            const float s = std::sin(at.angle_rad);
             for (const weir::Vec2f p : solid.ring) {
-                const b2Vec2 at = solid.body->GetWorldPoint({p.x, p.y});
-                polygon.points.push_back({at.x / kCell, at.y / kCell});
+                polygon.points.push_back({(at.position_m.x + (c * p.x - s * p.y)) / kCell,
+                                          (at.position_m.y + (s * p.x + c * p.y)) / kCell});
             }
             polygons.push_back(polygon);
         }
@@ -125,34 +120,45 @@ public:
     }
 
 private:
-    b2Body* add(const std::vector<weir::Vec2f>& ring, weir::Vec2f at, bool fixed) {
+    enum class Kind { fixed, alone, jointed };
+
+    b2Body* add(const std::vector<weir::Vec2f>& ring, weir::Vec2f at, Kind kind) {
         Solid solid;
         solid.ring = ring;
-        solid.fixed = fixed;
+        solid.fixed = kind == Kind::fixed;
         solid.motion.position_m = at;
+        if (kind == Kind::jointed) {
+            solid.body = add_to_engine(ring, at);
+        }
+        weir::BodyDef body;
+        body.polygon = {ring.data(), static_cast<std::int32_t>(ring.size())};
+        body.motion = solid.motion;
+        body.density_ratio = kWood;
+        body.surface.friction = 0.4F;
+        require(solid.fixed ? liquid_.add_static_body(body, &solid.id)
+                            : liquid_.add_free_body(body, &solid.id));
+        solids_.push_back(solid);
+        return solid.body;
+    }
+
+    /// Of the shape the engine needs the mass; what it meets is the library's.
+    b2Body* add_to_engine(const std::vector<weir::Vec2f>& ring, weir::Vec2f at) {
         b2BodyDef def;
-        def.type = fixed ? b2_staticBody : b2_dynamicBody;
+        def.type = b2_dynamicBody;
         def.position = {at.x, at.y};
         def.allowSleep = false;
-        solid.body = engine_.CreateBody(&def);
+        b2Body* body = engine_.CreateBody(&def);
         std::vector<b2Vec2> points;
         for (const weir::Vec2f p : ring) {
             points.push_back({p.x, p.y});
         }
         b2PolygonShape shape;
         shape.Set(points.data(), static_cast<int>(points.size()));
-        solid.body->CreateFixture(&shape, kWood)->SetFriction(0.4F);
-        weir::BodyDef body;
-        body.polygon = {ring.data(), static_cast<std::int32_t>(ring.size())};
-        body.motion = solid.motion;
-        body.density_ratio = kWood;
-        require(fixed ? liquid_.add_static_body(body, &solid.id)
-                      : liquid_.add_free_body(body, &solid.id));
-        solids_.push_back(solid);
-        return solid.body;
+        body->CreateFixture(&shape, kWood)->SetSensor(true);
+        return body;
     }
 
-    /// Where the liquid and gravity took a body is the way that it would go without the others.
+    /// Where the library took a body is the way that it would go without its joint.
     void hand_over(Solid& solid) {
         weir::Motion now;
         require(liquid_.motion(solid.id, &now));

@@ -77,7 +77,8 @@ void move(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seconds<Real
         const Twist<Real>& parted = load.change;
         const Wide<Real> centre = (convert<Face<Real>>(body.position) + arm_of_centre(body, load)) +
                                   (obstacles.dt * twist.velocity + parted.velocity);
-        body.angle = wrapped_angle(body.angle + (dt_s * body.spin + static_cast<Real>(parted.spin)));
+        const Real turn = dt_s * body.spin + static_cast<Real>(parted.spin);
+        body.angle = wrapped_angle(body.angle + turn);
         body.position = convert<Real>(centre - arm_of_centre(body, load));
         place(table, body);
         if (near_walls(s, body, Real(1))) {

@@ -17,6 +17,10 @@ using Wide = Vec2<Face<Real>>;
 template <class Real>
 constexpr Face<Real> kNear = Face<Real>(1.0 / 4.0);
 
+/// From a wall to the cell before it, cells.
+template <class Real>
+constexpr Face<Real> kHair = Face<Real>(1.0 / 64.0);
+
 /// Case of a cell of which all corners are inside.
 constexpr std::uint8_t kAllInside = 15;
 
@@ -77,8 +81,7 @@ public:
             const Number size = length(way);
             if (meeting[0].gap < kNear<Real> && meeting[count - 1].gap < kNear<Real> &&
                 size > Number(0)) {
-                lay_film((Number(1) / size) * way, size, meeting[1]);
-                lay_film((Number(-1) / size) * way, size, meeting[0]);
+                lay_film((Number(1) / size) * way, size, meeting);
             }
         });
     }
@@ -183,25 +186,33 @@ private:
         keep(meeting);
     }
 
-    /// At one end of a face, given the way out from its middle and the whole length.
-    void lay_film(Wide<Real> out, Number size, Meeting<Real>& meeting) const {
-        constexpr Number kBeside = Number(0.3);
-        const Wide<Real> before = meeting.at + kBeside * (out + meeting.normal);
-        meeting.middle = meeting.at - (Number(0.25) * size) * out;
+    /// Cell of a place, if that is in the tank and not all solid; otherwise negative.
+    std::int32_t open_cell_at(Wide<Real> x) const {
         const GridShape& s = obstacles_.tank;
-        const auto cell_at = [&](Wide<Real> x) {
-            return s.index(floor_to_int(x.x), floor_to_int(x.y));
-        };
-        if (before.x > Number(0) && before.x < static_cast<Number>(s.nx) && before.y > Number(0) &&
-            before.y < static_cast<Number>(s.ny)) {
-            meeting.film = Number(0.5) * size;
-            meeting.film_cell = cell_at(before);
-            const auto in_tank = [](Number x, std::int32_t cells) {
-                return clamp(x, Number(0), static_cast<Number>(cells) - Number(0.5));
-            };
-            const std::int32_t under = cell_at({in_tank(meeting.middle.x, s.nx),
-                                                in_tank(meeting.middle.y, s.ny)});
-            meeting.under = obstacles_.walls.cell_case[under] == kAllInside ? -1 : under;
+        if (x.x < Number(0) || x.x >= static_cast<Number>(s.nx) || x.y < Number(0) ||
+            x.y >= static_cast<Number>(s.ny)) {
+            return -1;
+        }
+        const std::int32_t cell = s.index(floor_to_int(x.x), floor_to_int(x.y));
+        return obstacles_.walls.cell_case[cell] == kAllInside ? -1 : cell;
+    }
+
+    /// To both ends of a face its half of the film, or all to the one that is open.
+    void lay_film(Wide<Real> way, Number size, Meeting<Real>* meeting) const {
+        constexpr Number kBeside = Number(0.3);
+        const Wide<Real> out[2] = {Number(-1) * way, way};
+        std::int32_t cell[2];
+        for (std::int32_t k = 0; k < 2; ++k) {
+            cell[k] = open_cell_at(meeting[k].at + kBeside * (out[k] + meeting[k].normal));
+        }
+        for (std::int32_t k = 0; k < 2; ++k) {
+            if (cell[k] >= 0) {
+                meeting[k].film = cell[1 - k] >= 0 ? Number(0.5) * size : size;
+                meeting[k].film_cell = cell[k];
+                meeting[k].middle = meeting[k].at - (Number(0.5) * meeting[k].film) * out[k];
+                meeting[k].under =
+                    open_cell_at(meeting[k].middle + kHair<Real> * meeting[k].normal);
+            }
         }
     }
 

@@ -237,6 +237,16 @@ constexpr void place(Block block, Owner owner, Kept kept, std::size_t element_by
     result.owner_bytes[static_cast<std::size_t>(owner)] += bytes;
     result.total_bytes += bytes;
 }
+
+/// Where free bodies meet something. In packed worlds there are none.
+template <class Real>
+constexpr void place_meetings(const Capacity& capacity, Layout& result) {
+    const bool free_bodies = capacity.two_way && !Stored<Real>::shares_momentum;
+    const std::int32_t room = free_bodies ? 1 + kMeetingsPerBody * capacity.bodies : 0;
+    const auto elements = static_cast<std::size_t>(room);
+    place(Block::body_push, Owner::bodies, Kept::whole, kPushBytes<Real>, elements, result);
+    place(Block::body_meeting, Owner::bodies, Kept::nothing, kMeetingBytes<Real>, elements, result);
+}
 }  // namespace detail
 
 /// Numbers of the pressure's coarse grid, for each of its cells.
@@ -268,22 +278,18 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t named_cells = keeps_names<Real>(capacity) ? solid_cells : 0;
     const std::size_t named_moving = keeps_names<Real>(capacity) ? moving_cells : 0;
     const std::size_t near_words = capacity.bodies > 0 ? count(near_entries<Real>(capacity)) : 0;
-    const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
-    const std::size_t thin = wall_edges > 0 ? 1 : 0;
+    const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0,
+                      thin = wall_edges > 0 ? 1 : 0;
     const std::size_t loads = capacity.two_way ? count(capacity.bodies) + 1 : 0;
-    const std::size_t meetings = loads > 0 && !Stored<Real>::shares_momentum
-                                     ? 1 + count(kMeetingsPerBody) * count(capacity.bodies)
-                                     : 0;
-    const std::size_t mixed_cells = capacity.second_liquid ? cells : 0;
-    const std::size_t kept_cells = capacity.sleeping_regions ? cells : 0;
+    const std::size_t mixed_cells = capacity.second_liquid ? cells : 0,
+                      kept_cells = capacity.sleeping_regions ? cells : 0;
     const std::size_t tiles = capacity.sleeping_regions ? count(coarse_cells(capacity.cells_x)) *
                                                               count(coarse_cells(capacity.cells_y))
                                                         : 0;
-    const std::size_t point = 2 * sizeof(Real);
-    const std::size_t bodies = count(capacity.bodies), index = sizeof(std::uint16_t);
+    const std::size_t point = 2 * sizeof(Real), index = sizeof(std::uint16_t);
+    const std::size_t bodies = count(capacity.bodies);
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
-    const std::size_t speed = sizeof(VelocityOf<Real>);
-    const std::size_t distance = sizeof(DistanceOf<Real>);
+    const std::size_t speed = sizeof(VelocityOf<Real>), distance = sizeof(DistanceOf<Real>);
     const std::size_t share = sizeof(ShareOf<Real>);
     Layout result;
     const auto add = [&result](Block block, Owner owner, Kept kept, std::size_t element_bytes,
@@ -305,8 +311,7 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
         kScratchPerVertex * vertices);
     add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
-    add(Block::body_push, Owner::bodies, Kept::whole, kPushBytes<Real>, meetings);
-    add(Block::body_meeting, Owner::bodies, Kept::nothing, kMeetingBytes<Real>, meetings);
+    detail::place_meetings<Real>(capacity, result);
     add(Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0);
     add(Block::static_distance, Owner::contour, Kept::redrawn, distance, moving_cells);
     add(Block::static_body, Owner::contour, Kept::redrawn, sizeof(SlotOf<Real>), named_moving);

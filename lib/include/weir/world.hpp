@@ -48,10 +48,12 @@ public:
     Status add_static_body(const BodyDef& def, BodyId* id);
     /// A solid that moves as told; it is rasterized again in each step in which it moved.
     Status add_moving_body(const BodyDef& def, BodyId* id);
-    /// A solid that gravity and the liquid move, and that stops at the tank's walls; otherwise a
-    /// moving body. It knows no other bodies: for contacts between them couple a physics engine.
-    /// Free bodies inside each other, or in a body of another kind, press liquid together, and so
-    /// does a light one that lies flat on the tank's floor.
+    /// A solid that gravity and the liquid move, and that meets the tank's walls, bodies of all
+    /// kinds and its like; otherwise a moving body. Where two surfaces meet the larger restitution
+    /// and the larger friction count, at the tank's walls too; conveyors take it along.
+    /// Bodies that are in each other are moved apart, by at most 1/16 cell in a substep. A body has
+    /// room for 6 points at which it meets something, which all share; of more the nearest count.
+    /// Joints, and whatever else moves bodies, are for a physics engine (`examples/box2d`).
     /// Any density is stable with Pressure::projection, down to about a tenth of the liquid's with
     /// the other. Wants `capacity.two_way`.
     Status add_free_body(const BodyDef& def, BodyId* id);
