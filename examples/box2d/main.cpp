@@ -73,6 +73,9 @@ public:
         b2Body* right = add(plank, {1.52F, 0.5F}, Kind::jointed);
         b2RevoluteJointDef hinge;
         hinge.Initialize(left, right, {1.31F, 0.5F});
+        hinge.enableLimit = true;  // further the planks would be in each other
+        hinge.lowerAngle = -0.5F;
+        hinge.upperAngle = 0.5F;
         engine_.CreateJoint(&hinge);
         require(liquid_.fill({{0, 0}, {0.6F, 1.2F}}));  // the dam that breaks
         require(liquid_.fill({{0.6F, 0}, {kWidth, 0.4F}}));

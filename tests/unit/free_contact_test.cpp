@@ -269,6 +269,28 @@ TYPED_TEST(FreeContact, WedgedCrateComesToRest) {
     EXPECT_GT(motion_of(*world, id).position_m.y, 0.1F) << "it fell through";
 }
 
+/// Put into each other, bodies are moved apart, and none of them is faster for it.
+TYPED_TEST(FreeContact, BodiesInEachOtherAreMovedApart) {
+    WorldDef def = dry_def();
+    def.gravity_mps2 = {0, 0};
+    TestWorld<TypeParam> world{def};
+    const Ring box = rectangle(0.1F, 0.1F);
+    BodyId id[3];
+    expect_ok(world->add_static_body(body_of(box, {0.3F, 0.4F}), &id[0]));
+    expect_ok(world->add_free_body(body_of(box, {0.385F, 0.41F}, 0.1F), &id[1]));
+    expect_ok(world->add_free_body(body_of(box, {0.46F, 0.38F}), &id[2]));
+    for (int k = 0; k < 120; ++k) {
+        world->step(kDt);
+        EXPECT_LT(speed_of(motion_of(*world, id[1])), 1e-3);
+        EXPECT_LT(speed_of(motion_of(*world, id[2])), 1e-3);
+    }
+    const Motion at[3] = {motion_of(*world, id[0]), motion_of(*world, id[1]),
+                          motion_of(*world, id[2])};
+    EXPECT_LT(overlap_of(box, at[0], box, at[1]), 0.03);
+    EXPECT_LT(overlap_of(box, at[1], box, at[2]), 0.03);
+    EXPECT_LT(at[2].position_m.x, 0.55F) << "it was thrown off";
+}
+
 /// Moving bodies push, lift and carry; a belt takes along what lies on it.
 TYPED_TEST(FreeContact, MovingBodiesPushLiftAndCarry) {
     TestWorld<TypeParam> world{dry_def()};
