@@ -83,7 +83,7 @@ double energy_of(const Motion& m, double edge) {
 template <class Real>
 class FreeContact : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(FreeContact, Scalars);
+TYPED_TEST_SUITE(FreeContact, Scalars, );
 
 /// Without friction a ramp is slid down as gravity has it; on a rough one a crate stays.
 TYPED_TEST(FreeContact, CrateOnARampSlidesOrStays) {

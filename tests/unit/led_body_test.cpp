@@ -33,7 +33,7 @@ double volume_left(World<Real>& world) {
 template <class Real>
 class LedBody : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(LedBody, Scalars);
+TYPED_TEST_SUITE(LedBody, Scalars, );
 
 /// It lies flat, the liquid around it keeps its volume, and nothing lifts it again.
 TYPED_TEST(LedBody, SunkenBodyLeavesTheLiquidItsVolume) {
