@@ -12,6 +12,7 @@ set(weir_boards "" CACHE INTERNAL "The boards this build makes images for")
 #     board_processor  CMAKE_SYSTEM_PROCESSOR of the toolchain file
 #     board_sources    files more, relative to the calling folder (a timer), if any
 #     board_ram_end    the first address past its RAM, hexadecimal without 0x: tests store there
+#     board_port       a file in place of port.cpp and semihosting.cpp, relative as well, if any
 #     board_small      yes: runs only what was made for it, tests that want more memory pass it by
 #   Objects, not an archive: start-up code and memcpy then link whatever the order of the libraries.
 function(weir_add_boards)
@@ -21,6 +22,7 @@ function(weir_add_boards)
   foreach(board ${arg_BOARDS})
     unset(board_small)
     unset(board_sources)
+    set(board_port ${WEIR_BARE_METAL_DIR}/port.cpp ${WEIR_BARE_METAL_DIR}/semihosting.cpp)
     include(${folder}/boards/${board}/board.cmake)
     if(NOT board_processor STREQUAL CMAKE_SYSTEM_PROCESSOR)
       continue()
@@ -28,9 +30,8 @@ function(weir_add_boards)
     if(NOT board_small)
       list(APPEND boards ${board})
     endif()
-    add_library(weir_port_${board} OBJECT ${arg_SOURCES} ${board_sources}
-      ${WEIR_BARE_METAL_DIR}/memory.cpp ${WEIR_BARE_METAL_DIR}/port.cpp
-      ${WEIR_BARE_METAL_DIR}/semihosting.cpp ${WEIR_BARE_METAL_DIR}/start.cpp)
+    add_library(weir_port_${board} OBJECT ${arg_SOURCES} ${board_sources} ${board_port}
+      ${WEIR_BARE_METAL_DIR}/memory.cpp ${WEIR_BARE_METAL_DIR}/start.cpp)
     target_include_directories(weir_port_${board} PRIVATE
       ${folder} ${folder}/boards/${board} ${WEIR_BARE_METAL_DIR})
     target_link_libraries(weir_port_${board} PUBLIC weir_port_interface PRIVATE weir_core_flags)

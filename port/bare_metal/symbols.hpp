@@ -9,6 +9,8 @@ extern "C" {
 extern std::uint32_t port_code_start[];
 extern std::uint32_t port_code_length[];
 extern std::uint32_t port_code_bytes[];
+extern std::uint32_t port_devices_start[];
+extern std::uint32_t port_devices_length[];
 extern std::uint32_t port_ram_start[];
 extern std::uint32_t port_ram_length[];
 extern std::uint32_t port_ram_bytes[];
