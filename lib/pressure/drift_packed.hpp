@@ -42,6 +42,12 @@ inline constexpr std::int32_t kStirred = 128;
 inline constexpr std::int32_t kMostPrice = 32;
 inline constexpr std::int32_t kMostRefund = 76;
 
+/// Mean excess from which on a patch is crowded. While there is such a one packed liquid is not led
+/// to rest: what a body had stamped on would stay up to 12 % too dense for good.
+inline constexpr std::int32_t kCrowded = 20;
+
+inline bool is_crowded(std::int32_t mean) { return mean >= kCrowded && mean != kSolidPatch; }
+
 /// What a patch's drift does.
 struct Deeds {
     SumOfProducts lifted;  ///< rises of the excess × those of the pressure, 2^−25

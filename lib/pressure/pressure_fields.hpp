@@ -59,6 +59,7 @@ struct PressureFields {
     std::uint16_t drift_turn = 0;
     /// Substeps since leaning surfaces were quieted, kQuietEvery if there was none.
     std::uint16_t quiet_turn = 0;
+    bool crowded = false;              ///< some of packed liquid, as the last drift found
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most 1: less if gravity has become weaker since it was
     /// solved for, or sound slower.

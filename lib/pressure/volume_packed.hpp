@@ -93,6 +93,7 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
     if (work.once(1)) {
         overfull = maximum(fields.drift_turn - 1, 0);
         fields.drift_turn = fields.drift_turn == 0 ? 1 : 0;
+        fields.crowded = fields.crowded && fields.drift_turn == 0;
     }
     if (fields.drift_turn == 0 && !work.foreseeing()) {
         return;
@@ -106,8 +107,9 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
         extend_cells(borders, s, fields.divergence);
     }
     for_each_patch(s, big, work, [&](const Patch& patch) {
-        fields.coarse.correction[patch.q].raw =
-            packed::average<Solids>(s, walls, patch, fields, overfull);
+        const std::int32_t mean = packed::average<Solids>(s, walls, patch, fields, overfull);
+        fields.coarse.correction[patch.q].raw = mean;
+        fields.crowded = fields.crowded || packed::is_crowded(mean);
     });
     if (work.once(big.border())) {
         fields.drift_turn = static_cast<std::uint16_t>(minimum(overfull + 1, 0xFFFF));

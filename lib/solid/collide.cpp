@@ -19,6 +19,11 @@ constexpr Real kFastestWayOut = Real(1);
 template <class Real>
 constexpr Real kClearance = Real(Stored<Real>::coarse ? 1.0 / 64.0 : 1.0 / 1024.0);
 
+/// Set to the contour itself, all that come to a corner, or that a body pushes along, would meet in
+/// one place, and never part again: so much of their way back they go further.
+template <class Real>
+constexpr Real kBeyond = Real(0.5);
+
 /// In a corner a particle that is set back to one wall may be behind the next: so often.
 constexpr std::int32_t kMostWalls = 4;
 
@@ -65,11 +70,13 @@ template <class Real>
         blows.slot[blows.count] = at.slot;
         blows.normal[blows.count] = normal;
         ++blows.count;
-        to = within_tank(scene.shape, to + minimum(way, kFastestWayOut<Real>) * normal);
+        const Vec2<Real> wall = to + minimum(way, kFastestWayOut<Real>) * normal;
         const Body<Real>& body = scene.walls.body[at.slot];
+        const Real beyond = binary ? Real(0) : Real(0) - kBeyond<Real> * at.hit.distance;
+        to = within_tank(scene.shape, wall + beyond * normal);
         at = standing(scene.shape, scene.walls, to);
         if (!binary && !at.inside &&
-            on_other_side(scene, to, normal, carried(scene, body, before))) {
+            on_other_side(scene, wall, normal, carried(scene, body, before))) {
             return false;
         }
     }
@@ -166,7 +173,10 @@ template <class Real>
         blow(scene, k, slot, from, Vec2<Real>(velocity_at(body, from)));
         ++scene.result.stuck;
     } else {
-        scene.particles.position[k] = place;
+        const Vec2<Real> further =
+            within_tank(scene.shape, place + Real(0.25) * kBeyond<Real> * way);
+        const bool blocked = is_inside(scene.shape, scene.walls, further);
+        scene.particles.position[k] = blocked ? place : further;
         answer(scene, k, slot, place, normal);
     }
     return true;

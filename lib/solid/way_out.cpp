@@ -6,9 +6,21 @@ namespace weir {
 
 namespace {
 
-/// The places of a cell, as parts of its edge: off its rim, so that rounding keeps them in it.
+/// The places of a cell along one axis, as parts of its edge: near its rim, but off it, so that
+/// rounding keeps them in it, and where the particle is in its own cell, so that particles that go
+/// out side by side do not meet.
 template <class Real>
-constexpr Real kPlaces[3] = {Real(0.0625), Real(0.5), Real(0.9375)};
+struct Places {
+    Real part[3];
+
+    explicit Places(Real from)
+        : part{kOffRim, clamp(from - static_cast<Real>(static_cast<std::int32_t>(from)), kOffRim,
+                              Real(1) - kOffRim),
+               Real(1) - kOffRim} {}
+
+private:
+    static constexpr Real kOffRim = Real(0.0625);
+};
 
 template <class Real>
 struct Nearest {
@@ -26,8 +38,8 @@ void look_into(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std
     if (which == kCellInside) {
         return;
     }
-    for (const Real part_y : kPlaces<Real>) {
-        for (const Real part_x : kPlaces<Real>) {
+    for (const Real part_y : Places<Real>(from.y).part) {
+        for (const Real part_x : Places<Real>(from.x).part) {
             const Vec2<Real> place{static_cast<Real>(i) + part_x, static_cast<Real>(j) + part_y};
             const Vec2<Real> way = place - from;
             const Product<Real> square = dot(way, way);

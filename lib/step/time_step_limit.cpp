@@ -112,8 +112,8 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);
     plan.surface_tension =
         minimum(settings.surface_tension, kCapillary<Real> / (plan.dt_s * plan.dt_s));
-    plan.settling = Stored<Real>::coarse && speed <= kSettling<Real> &&
-                    kSettling<Real> <= gravity * plan.dt_s;
+    plan.settling = Stored<Real>::coarse && !simulation.pressure.crowded &&
+                    speed <= kSettling<Real> && kSettling<Real> <= gravity * plan.dt_s;
     return plan;
 }
 

@@ -79,7 +79,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             contacts, gathered, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, drift_turn, quiet_turn, last_dt, change,
+                            on_surface, leaps, drift_turn, quiet_turn, crowded, last_dt, change,
                             sound_speed, cell_weight, solve, elasticity,
                             second_liquid] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
@@ -98,6 +98,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(on_surface, false, true);
     stream.member(drift_turn, 0, 0xFFFF);
     stream.member(quiet_turn, 0, kQuietEvery);
+    stream.member(crowded, false, true);
     stream.member(still_s, 0.0F, def.sleep.after_s);
     any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);

@@ -134,10 +134,10 @@ TEST(Collide, RestitutionOneMirrors) {
             const Vec2<double> expected = v - 2.0 * dot(v, n) * n;
             EXPECT_NEAR(static_cast<double>(w.x), expected.x, 2.0e-4);
             EXPECT_NEAR(static_cast<double>(w.y), expected.y, 2.0e-4);
-            // Set back to the wall, a hair in front of it, along the normal.
+            // Set back along the normal, half as far before the wall, and a hair, as it was behind.
             const Vec2<double> from_wall = convert<double>(x) - Vec2<double>{16.0, 16.0};
-            EXPECT_GT(dot(from_wall, n), 0.0);
-            EXPECT_LT(dot(from_wall, n), 0.002);
+            EXPECT_GT(dot(from_wall, n), 0.1);
+            EXPECT_LT(dot(from_wall, n), 0.102);
             EXPECT_NEAR(cross(from_wall, n), 0.0, 1.0e-4);
         }
     }
