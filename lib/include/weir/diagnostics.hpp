@@ -1,6 +1,8 @@
 // What the liquid holds, on demand: for tests, tuning and curiosity, never needed by a step.
 #pragma once
 
+#include <cstdint>
+
 #include "weir/types.hpp"
 
 namespace weir {
@@ -19,6 +21,14 @@ struct Diagnostics {
     double largest_density = 0.0;  ///< of any cell; 1 = at rest
     /// Largest |∇·u| of the velocity that the particles carry over the cells that hold liquid, 1/s.
     double divergence_per_s = 0.0;
+};
+
+/// What of the liquid is in a box (`World::liquid_in`).
+struct LiquidIn {
+    std::int32_t particles = 0;
+    float area_m2 = 0.0F;  ///< that it fills at rest: particles × cell² / particles_per_cell
+    Vec2f centroid_m;      ///< mean place; 0 if there is none
+    Vec2f velocity_mps;    ///< mean, as from the last step; 0 if there is none
 };
 
 }  // namespace weir

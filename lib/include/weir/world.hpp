@@ -91,6 +91,12 @@ public:
     /// Removes the particle at that place in the views; the last particle takes its place, but
     /// after `let_regions_sleep` a sleeper's is taken by another sleeper, and that one's by it.
     Status remove_particle(std::int32_t index);
+    /// Removes what is in a box: an outlet, a cup that is drunk from. Looks at each particle once.
+    /// @param removed number of particles, may be null.
+    Status drain(const Box& box_m, std::int32_t* removed = nullptr);
+    /// How much liquid is in a box, where, and how fast: a scale under a cup, a flow meter in a
+    /// pipe, the current that carries a leaf. Looks at each particle once.
+    Status liquid_in(const Box& box_m, LiquidIn* found) const;
 
     Status set_gravity(Vec2f gravity_mps2);
 

@@ -1,0 +1,159 @@
+// Liquid in a box: counted, measured, taken out.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "test_world.hpp"
+#include "weir/weir.hpp"
+
+namespace weir {
+namespace {
+
+constexpr std::int32_t kCells = 16;
+constexpr float kCell_m = 0.02F;
+constexpr float kSide = kCells * kCell_m;
+
+WorldDef tank() {
+    WorldDef def = small_def();
+    def.capacity.cells_x = def.capacity.cells_y = kCells;
+    def.capacity.particles = 4 * kCells * kCells;
+    def.cell_m = kCell_m;
+    return def;
+}
+
+template <class Real>
+LiquidIn found_in(const World<Real>& world, const Box& box) {
+    LiquidIn found;
+    expect_ok(world.liquid_in(box, &found));
+    return found;
+}
+
+template <class Real>
+class LiquidBox : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
+TYPED_TEST_SUITE(LiquidBox, Scalars, );
+
+TYPED_TEST(LiquidBox, KnowsHowMuchWhereAndHowFast) {
+    TestWorld<TypeParam> world(tank());
+    expect_ok(world->fill({{0.1F, 0.1F}, {0.18F, 0.2F}}));
+    for (int step = 0; step < 5; ++step) {
+        world->step(0.01F);  // it falls freely
+    }
+    const LiquidIn all = found_in(*world, {{0.0F, 0.0F}, {kSide, kSide}});
+    EXPECT_EQ(all.particles, world->particle_positions().size);
+    EXPECT_NEAR(all.area_m2, 0.08F * 0.1F, 1e-6F);
+    EXPECT_NEAR(all.centroid_m.x, 0.14F, 1e-4F);
+    EXPECT_NEAR(all.centroid_m.y, 0.15F - 0.5F * 9.81F * 0.05F * 0.05F, 0.003F);
+    EXPECT_NEAR(all.velocity_mps.x, 0.0F, 1e-3F);
+    EXPECT_NEAR(all.velocity_mps.y, -9.81F * 0.05F, 2e-3F);
+    const LiquidIn none = found_in(*world, {{0.25F, 0.0F}, {kSide, kSide}});
+    EXPECT_EQ(none.particles, 0);
+    EXPECT_EQ(none.area_m2, 0.0F);
+    EXPECT_EQ(none.velocity_mps.y, 0.0F);
+}
+
+/// Every particle is in one of the boxes that a tank is cut into.
+TYPED_TEST(LiquidBox, BoxesSideBySideShareNothing) {
+    TestWorld<TypeParam> world(tank());
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
+    for (int step = 0; step < 20; ++step) {
+        world->step(0.01F);
+    }
+    const std::int32_t before = world->particle_positions().size;
+    std::int32_t sum = 0;
+    for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 4; ++i) {
+            const float edge = kSide / 4;
+            const Box box{{static_cast<float>(i) * edge, static_cast<float>(j) * edge},
+                          {static_cast<float>(i + 1) * edge, static_cast<float>(j + 1) * edge}};
+            const LiquidIn found = found_in(*world, box);
+            std::int32_t removed = -1;
+            expect_ok(world->drain(box, &removed));
+            EXPECT_EQ(removed, found.particles);
+            EXPECT_EQ(found_in(*world, box).particles, 0);
+            sum += removed;
+        }
+    }
+    EXPECT_EQ(sum, before);
+    EXPECT_EQ(world->particle_positions().size, 0);
+}
+
+/// What is drained from a pool's corner flows in again, until there is none.
+TYPED_TEST(LiquidBox, AnOutletEmptiesAPool) {
+    TestWorld<TypeParam> world(tank());
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 4}}));
+    const std::int32_t before = world->particle_positions().size;
+    std::int32_t gone = 0;
+    for (int step = 0; step < 600; ++step) {
+        world->step(0.01F);
+        std::int32_t removed = 0;
+        expect_ok(world->drain({{0.0F, 0.0F}, {2 * kCell_m, 2 * kCell_m}}, &removed));
+        gone += removed;
+    }
+    EXPECT_EQ(world->particle_positions().size, before - gone);
+    EXPECT_GT(gone, before * 3 / 4);
+}
+
+TYPED_TEST(LiquidBox, SleepersAreTakenOutAndWakeTheirNeighbours) {
+    WorldDef def = tank();
+    def.capacity.cells_x = 64;
+    def.capacity.sleeping_regions = true;
+    def.sleep.speed_mps = 0.05F;
+    TestWorld<TypeParam> world(def);
+    const float width = 64 * kCell_m;
+    const Ring wall = rectangle(8 * kCell_m, kSide);
+    BodyId id;
+    expect_ok(world->add_static_body(body_of(wall, {width / 2, kSide / 2}), &id));
+    expect_ok(world->let_regions_sleep());
+    expect_ok(world->fill({{0.0F, 0.0F}, {28 * kCell_m, 0.08F}}));
+    expect_ok(world->fill({{36 * kCell_m, 0.0F}, {width, 0.08F}}));
+    const Box right{{width / 2, 0.0F}, {width, kSide}};
+    const Box left{{0.0F, 0.0F}, {width / 2, kSide}};
+    const Box beside_wall{{width / 2, 0.0F}, {40 * kCell_m, kSide}};
+    StepReport report;
+    for (int step = 0; step < 300; ++step) {
+        report = world->step(0.01F);
+    }
+    EXPECT_GT(report.particles_asleep, 0);
+    const std::int32_t kept = found_in(*world, left).particles;
+    const std::int32_t there = found_in(*world, right).particles;
+    std::int32_t removed = 0;
+    expect_ok(world->drain(beside_wall, &removed));
+    EXPECT_GT(removed, 40);
+    EXPECT_EQ(found_in(*world, left).particles, kept);
+    EXPECT_EQ(found_in(*world, right).particles, there - removed);
+    for (int step = 0; step < 100; ++step) {
+        world->step(0.01F);
+    }
+    EXPECT_GT(found_in(*world, beside_wall).particles, 20);  // it flowed in
+    EXPECT_EQ(world->particle_positions().size, kept + there - removed);
+}
+
+TYPED_TEST(LiquidBox, RefusesAndChangesNothing) {
+    TestWorld<TypeParam> world(tank());
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
+    const std::uint64_t before = world->state_hash();
+    const Box box{{0.0F, 0.0F}, {kSide, kSide}};
+    LiquidIn found;
+    EXPECT_EQ(world->liquid_in(box, nullptr), Status::output_missing);
+    EXPECT_EQ(world->drain({{0.1F, 0.1F}, {0.1F, 0.2F}}), Status::box_is_empty);
+    EXPECT_EQ(world->drain({{0.1F, 0.1F}, {2 * kSide, 0.2F}}), Status::box_outside_domain);
+    EXPECT_EQ(world->liquid_in({{-0.1F, 0.1F}, {0.1F, 0.2F}}, &found), Status::box_outside_domain);
+    StepReport report;
+    expect_ok(world->begin_step(0.01F, &report));
+    EXPECT_EQ(world->drain(box), Status::step_in_progress);
+    EXPECT_EQ(world->liquid_in(box, &found), Status::step_in_progress);
+    World<TypeParam> none;
+    EXPECT_EQ(none.drain(box), Status::not_initialised);
+    EXPECT_EQ(found.particles, 0);
+    while (!world->advance(1000)) {
+    }
+    TestWorld<TypeParam> other(tank());
+    expect_ok(other->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
+    EXPECT_EQ(other->state_hash(), before);
+    other->step(0.01F);
+    EXPECT_EQ(other->state_hash(), world->state_hash());
+}
+
+}  // namespace
+}  // namespace weir
