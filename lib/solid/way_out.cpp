@@ -32,14 +32,15 @@ struct Nearest {
 /// `Whole`: all of the tank is stored.
 template <bool Whole, class Real>
 void look_into(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std::int32_t j,
-               Vec2<Real> from, Nearest<Real>& nearest) {
+               Vec2<Real> from, const Places<Real>& along_x, const Places<Real>& along_y,
+               Nearest<Real>& nearest) {
     const std::uint8_t which =
         Whole ? walls.cell_case[s.index(i, j)] : case_in_window(s, walls, i, j);
     if (which == kCellInside) {
         return;
     }
-    for (const Real part_y : Places<Real>(from.y).part) {
-        for (const Real part_x : Places<Real>(from.x).part) {
+    for (const Real part_y : along_y.part) {
+        for (const Real part_x : along_x.part) {
             const Vec2<Real> place{static_cast<Real>(i) + part_x, static_cast<Real>(j) + part_y};
             const Vec2<Real> way = place - from;
             const Product<Real> square = dot(way, way);
@@ -62,6 +63,8 @@ bool search(const GridShape& s, const Walls<Real>& walls, Vec2<Real> point, std:
             Vec2<Real>& place) {
     const auto ci = static_cast<std::int32_t>(point.x);
     const auto cj = static_cast<std::int32_t>(point.y);
+    const Places<Real> along_x(point.x);
+    const Places<Real> along_y(point.y);
     Nearest<Real> nearest;
     for (std::int32_t ring = 0; ring <= reach; ++ring) {
         // Cells of a ring are at least ring − 1 cells away.
@@ -76,7 +79,7 @@ bool search(const GridShape& s, const Walls<Real>& walls, Vec2<Real> point, std:
             const std::int32_t step = whole_row || ring == 0 ? 1 : 2 * ring;
             for (std::int32_t i = ci - ring; i <= ci + ring; i += step) {
                 if (i >= 0 && i < s.nx) {
-                    look_into<Whole>(s, walls, i, j, point, nearest);
+                    look_into<Whole>(s, walls, i, j, point, along_x, along_y, nearest);
                 }
             }
         }
