@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grid/borders.hpp"
+#include "pressure/drift_weights.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/volume_lanes.hpp"
 
@@ -100,10 +101,6 @@ struct Drift {
     }
 };
 
-/// Fixed point does without: squares of velocities are wider than its numbers.
-template <class Real>
-inline constexpr bool kPaysForLifting = sizeof(Product<Real>) == sizeof(Real);
-
 /// Sum of squares of a patch's excess from which on it counts as stirred: 0.025 a cell. A lattice
 /// that a wave passes has a tenth of that.
 template <class Real>
@@ -165,7 +162,7 @@ struct Ways {
 /// What the drift of a patch does, summed by column, where `weighed` asks for it.
 template <bool Weighed, bool Solids, class Real>
 [[gnu::noinline]] void find_ways(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid,
-                      Ways<Real>& ways, Weights<Real>& sums) {
+                                 Ways<Real>& ways, Weights<SumOf<Real>>& sums) {
     const VelocityOf<Real>* e = drift.fields.divergence;
     const Real* p = drift.fields.pressure;
     const VelocityOf<Real>* u = grid.u;
@@ -174,10 +171,10 @@ template <bool Weighed, bool Solids, class Real>
     const Vec2<Real> gravity = drift.weight;
     Real* way = ways.of;
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
-        Real lifted = Real(0);
-        Real raised = Real(0);
-        Real moving = Real(0);
-        Real disorder = Real(0);
+        SumOf<Real> lifted{};
+        SumOf<Real> raised{};
+        SumOf<Real> moving{};
+        SumOf<Real> disorder{};
         const Real along_x = drift.along_x[x];
         const std::int32_t under = drift.shape.index(drift.patch.i + x, drift.patch.j - 1);
         Real here = e[under];
@@ -187,9 +184,9 @@ template <bool Weighed, bool Solids, class Real>
         const auto add = [&](Real way_here, Real rise, Real weight, Real velocity) {
             *way++ = way_here;
             if (Weighed) {
-                lifted += way_here * rise;
-                raised += weight * way_here;
-                moving += velocity * velocity;
+                lifted += summand(way_here, rise);
+                raised += summand(weight, way_here);
+                moving += summand(velocity, velocity);
             }
         };
         drift.for_each_face(
@@ -208,7 +205,7 @@ template <bool Weighed, bool Solids, class Real>
                 pressure_below = pressure;
                 pressure = p[c];
                 if (Weighed) {
-                    disorder += here * here;
+                    disorder += summand(here, here);
                 }
             });
         if (Weighed) {
@@ -256,24 +253,23 @@ inline bool slows_down(Drift<Solids, Real>& drift, const Weights<Real>& sums) {
 template <bool Solids, class Real>
 inline void drift_any(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>& grid) {
     Ways<Real> ways;
-    Weights<Real> sums;
-    if constexpr (kPaysForLifting<Real>) {
-        if (pays) {
-            find_ways<true>(drift, grid, ways, sums);
-            const Real price = price_of(sums, most_refund(drift.fields));
-            if (slows_down(drift, sums)) {
-                find_ways<false>(drift, grid, ways, sums);
-            }
-            if (price != Real(0)) {
-                drift_columns<true>(drift, ways, price, grid);
-            } else {
-                drift_columns<false>(drift, ways, price, grid);
-            }
-            return;
-        }
+    Weights<SumOf<Real>> sums;
+    if (!pays) {
+        find_ways<false>(drift, grid, ways, sums);
+        drift_columns<false>(drift, ways, Real(0), grid);
+        return;
     }
-    find_ways<false>(drift, grid, ways, sums);
-    drift_columns<false>(drift, ways, Real(0), grid);
+    find_ways<true>(drift, grid, ways, sums);
+    const Weights<Real> weights = weights_of<Real>(sums);
+    const Real price = price_of(weights, most_refund(drift.fields));
+    if (slows_down(drift, weights)) {
+        find_ways<false>(drift, grid, ways, sums);
+    }
+    if (price != Real(0)) {
+        drift_columns<true>(drift, ways, price, grid);
+    } else {
+        drift_columns<false>(drift, ways, price, grid);
+    }
 }
 
 #if WEIR_HAS_LANES
