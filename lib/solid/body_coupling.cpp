@@ -44,14 +44,11 @@ struct Levers {
 
 template <class Real>
 void add_film(const CoupledSolve<Real>& solve, const Meeting<Real>& meeting,
-              std::uint16_t slot, Face<Real> sign, Levers<Real>& levers) {
-    if (slot == kNoBody || !solve.walls.load[slot].is_free()) {
-        return;
-    }
-    Impulse<Real>* reach = levers.of(slot);
+              Levers<Real>& levers) {
+    Impulse<Real>* reach = levers.of(meeting.slot);
     if (reach != nullptr) {
-        const BodyLoad<Real>& load = solve.walls.load[slot];
-        const Impulse<Real> film = meeting.pushes(load, sign);
+        const BodyLoad<Real>& load = solve.walls.load[meeting.slot];
+        const Impulse<Real> film = meeting.pushes(load, Face<Real>(1));
         levers.before += flow(film, load.unpressed);
         reach->add(film);
     }
@@ -69,12 +66,11 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::int32_t i, std::int
         }
     });
     const std::int32_t cell = solve.shape.index(i, j);
-    for (const Meeting<Real>& meeting : Meetings<Real>(solve.obstacles.bodies)) {
+    Meetings<Real>(solve.obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
         if (meeting.film_cell == cell && meeting.is_wet(solve.cells)) {
-            add_film(solve, meeting, meeting.slot, Face<Real>(1), levers);
-            add_film(solve, meeting, meeting.other, Face<Real>(-1), levers);
+            add_film(solve, meeting, levers);
         }
-    }
+    });
     return levers;
 }
 
@@ -82,9 +78,8 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::int32_t i, std::int
 template <class Real>
 bool is_pressed(const CoupledSolve<Real>& solve, std::int32_t cell) {
     bool film = false;
-    for (const Meeting<Real>& meeting : Meetings<Real>(solve.obstacles.bodies)) {
-        film = film || (meeting.film > Face<Real>(0) && meeting.film_cell == cell);
-    }
+    Meetings<Real>(solve.obstacles.bodies).for_each_film(
+        [&](const Meeting<Real>& meeting) { film = film || meeting.film_cell == cell; });
     return film || !untouched(solve.walls, cell, cell + solve.shape.stride);
 }
 

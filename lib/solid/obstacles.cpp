@@ -74,9 +74,15 @@ public:
         cost_ += table_.capacity;
     }
 
-    /// Between faces that lie on each other.
+    /// Under faces that lie on something. Between free bodies there is none: those that come and go
+    /// pumped liquid together there (ten crates of 0.9 in a pool lost a quarter of its volume).
     void lay_films() const {
+        *list_.films = 0;
         list_.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
+            const std::uint16_t other = meeting[0].other;
+            if (other != kNoBody && is_free_body(table_, other)) {
+                return;
+            }
             const Wide<Real> way = meeting[count - 1].at - meeting[0].at;
             const Number size = length(way);
             if (meeting[0].gap < kNear<Real> && meeting[count - 1].gap < kNear<Real> &&
@@ -212,6 +218,7 @@ private:
                 meeting[k].middle = meeting[k].at - (Number(0.5) * meeting[k].film) * out[k];
                 meeting[k].under =
                     open_cell_at(meeting[k].middle + kHair<Real> * meeting[k].normal);
+                ++*list_.films;
             }
         }
     }
@@ -260,9 +267,9 @@ Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<
                            std::uint16_t slot) {
     using Number = Face<Real>;
     Impulse<Real> sum;
-    for (const Meeting<Real>& meeting : Meetings<Real>(obstacles.bodies)) {
-        if ((meeting.slot != slot && meeting.other != slot) || !meeting.is_wet(cells)) {
-            continue;
+    Meetings<Real>(obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
+        if (meeting.slot != slot || !meeting.is_wet(cells)) {
+            return;
         }
         const std::int32_t stride = obstacles.tank.stride;
         const std::int32_t inner = meeting.film_cell - obstacles.tank.index(0, 0);
@@ -271,9 +278,8 @@ Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<
         const Number pressure =
             static_cast<Number>(cells.pressure[meeting.film_cell]) +
             dot(convert<Number>(cells.gravity_dt), meeting.middle - centre);
-        sum.add(meeting.pushes(obstacles.bodies.load[slot],
-                               meeting.slot == slot ? pressure : -pressure));
-    }
+        sum.add(meeting.pushes(obstacles.bodies.load[slot], pressure));
+    });
     return sum;
 }
 

@@ -24,8 +24,8 @@ struct Meeting {
     Face<Real> rub;           ///< and along the surface
     std::uint16_t slot;
     std::uint16_t other;      ///< kNoBody: the tank
-    /// Where a face lies on another one there is a film of liquid, which has the pressure of the
-    /// cell before its end: how much of the face that is, from this point to the middle.
+    /// Where a face lies on what is not free there is a film of liquid, which has the pressure of
+    /// the cell before its end: how much of the face that is, from this point to the middle.
     Face<Real> film = Face<Real>(0);
     std::int32_t film_cell = 0;
     std::int32_t under = 0;   ///< the cell of its middle, where it is open; otherwise negative
@@ -35,7 +35,7 @@ struct Meeting {
         return film > Face<Real>(0) && cells.level[film_cell] > Real(0) &&
                (under < 0 || !(cells.level[under] > Real(0)));
     }
-    /// How the film's pressure pushes the free body, and less than 0 times that the other.
+    /// How the film's pressure pushes the free body.
     Impulse<Real> pushes(const BodyLoad<Real>& load, Face<Real> times) const {
         Impulse<Real> reach;
         reach.add((times * film) * normal, middle - load.at);
@@ -63,6 +63,7 @@ template <class Real>
 struct Meetings {
     Meeting<Real>* entry;
     std::int32_t* used;
+    std::int32_t* films;  ///< how many of them have one
     Push<Real>* before;  ///< of the last substep; there is room for one more
     std::int32_t room;
 
@@ -73,6 +74,7 @@ struct Meetings {
         before = reinterpret_cast<Push<Real>*>(at);
         at += blocks(room + 1, kPushBytes<Real>);
         used = reinterpret_cast<std::int32_t*>(at);
+        films = used + 1;
         entry = reinterpret_cast<Meeting<Real>*>(at + kMeetingBytes<Real>);
     }
     /// Bytes of so many, as `layout` places them.
@@ -100,6 +102,17 @@ struct Meetings {
             const bool both = at - 1 != begin() && of_one_face(at[-1], at[-2]);
             at -= both ? 2 : 1;
             visit(at, both ? 2 : 1);
+        }
+    }
+    /// Calls visit(meeting) for those with a film.
+    template <class Visit>
+    void for_each_film(Visit visit) const {
+        std::int32_t left = *films;
+        for (const Meeting<Real>* at = begin(); left > 0; ++at) {
+            if (at->film > Face<Real>(0)) {
+                --left;
+                visit(*at);
+            }
         }
     }
     Meeting<Real>* begin() const { return entry; }

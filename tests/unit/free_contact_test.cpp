@@ -377,6 +377,40 @@ TYPED_TEST(FreeContact, FloatingCratesLeaveTheLiquidItsVolume) {
     }
 }
 
+/// Ten crates that nearly sink, dropped into a narrow pool. As long as there were films between them,
+/// too, liquid was pumped together in the gaps: a quarter of it and more was lost for good.
+TYPED_TEST(FreeContact, CrowdLeavesTheLiquidItsVolume) {
+    WorldDef def = dry_def();
+    def.capacity.cells_x = 20;
+    def.capacity.cells_y = 64;
+    def.capacity.bodies = 10;
+    TestWorld<TypeParam> world{def};
+    const Ring box = rectangle(0.06F, 0.06F);
+    BodyId id[10];
+    for (int k = 0; k < 10; ++k) {
+        const Vec2f at{0.05F + 0.1F * static_cast<float>(k % 4),
+                       0.4F + 0.096F * static_cast<float>(k / 4)};
+        BodyDef crate = body_of(box, at, 0.3F * static_cast<float>(k % 5) - 0.6F);
+        crate.density_ratio = 0.9F;
+        expect_ok(world->add_free_body(crate, &id[k]));
+    }
+    std::int32_t added = 0;
+    expect_ok(world->fill({{0, 0}, {0.4F, 0.3F}}, &added));
+    for (int step = 0; step < 1200; ++step) {
+        world->step(kDt);
+    }
+    for (const BodyId each : id) {
+        expect_ok(world->remove_body(each));
+    }
+    for (int step = 0; step < 900; ++step) {
+        world->step(kDt);
+    }
+    EXPECT_GE(world->particle_positions().size, added - 2);
+    LiquidIn all;
+    expect_ok(world->liquid_in({{0, 0}, {0.4F, 64 * 0.02F}}, &all));
+    EXPECT_NEAR(all.centroid_m.y, 0.15F, 0.0025F);
+}
+
 /// Flat on the floor, where no cell under it holds liquid, a light body rises all the same, and a
 /// heavy one does not; nor does either take liquid.
 TYPED_TEST(FreeContact, LightBodyRisesFromTheFloor) {

@@ -55,7 +55,8 @@ public:
     /// room for 6 points at which it meets something, which all share; of more the nearest count.
     /// Joints, and whatever else moves bodies, are for a physics engine (`examples/box2d`).
     /// Any density is stable with Pressure::projection, down to about a tenth of the liquid's with
-    /// the other. Wants `capacity.two_way`.
+    /// the other. What is over 40 times as heavy as what it lies on wants steps below 1/60 s.
+    /// Wants `capacity.two_way`; not in `SmallFixed` (`Status::free_body_in_small_world`).
     Status add_free_body(const BodyDef& def, BodyId* id);
     /// Places a moving body and sets its velocity and spin, which it keeps until told otherwise.
     /// Another position than it had is a leap, which presses together the liquid that was there:
