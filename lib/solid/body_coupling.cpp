@@ -7,9 +7,6 @@ namespace weir {
 namespace {
 
 template <class Real>
-using Wide = Vec2<Face<Real>>;
-
-template <class Real>
 Face<Real> flow(const Impulse<Real>& reach, const Twist<Real>& twist) {
     return dot(reach.linear, twist.velocity) + reach.angular * twist.spin;
 }

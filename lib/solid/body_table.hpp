@@ -10,6 +10,10 @@
 
 namespace weir {
 
+/// A place or a way in the numbers of the public face, for sums that fixed point would saturate.
+template <class Real>
+using Wide = Vec2<Face<Real>>;
+
 enum class BodyKind : std::uint8_t { free, fixed, moving };
 
 /// How far a body's furthest point goes along an axis at most, if its position goes that way and

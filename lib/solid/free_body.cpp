@@ -12,9 +12,6 @@ namespace {
 /// Bodies are slowed to this many cells a substep, as particles are.
 constexpr std::int32_t kLongestWay = 2;
 
-template <class Real>
-using Wide = Vec2<Face<Real>>;
-
 /// Velocity of the centre of mass, from that of the body's origin.
 template <class Real>
 Twist<Real> twist_of(const Body<Real>& body, const BodyLoad<Real>& load) {
@@ -108,8 +105,6 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         twist.velocity = (twist.velocity + obstacles.fall) + share * blown.velocity;
         twist.spin += share * blown.spin;
         load.unpressed = twist;
-    });
-    for_each_free(table, [](const Body<Real>&, BodyLoad<Real>& load) {
         load.change = load.stopped = Twist<Real>{};
     });
     std::int32_t cost = find_meetings(obstacles);

@@ -5,9 +5,6 @@ namespace weir {
 
 namespace {
 
-template <class Real>
-using Wide = Vec2<Face<Real>>;
-
 /// Positions are put right by such a share of what is wrong, and by no more than so many cells in a
 /// substep.
 template <class Number>
@@ -256,13 +253,13 @@ template <class Real>
 void stop(const Obstacles<Real>& obstacles, std::int32_t rounds) {
     const Meetings<Real> meetings(obstacles.bodies);
     const auto visit = [&](Meeting<Real>* meeting, std::int32_t count) {
-            for (std::int32_t k = 0; k < count; ++k) {
-                rub_there(obstacles, meeting[k]);
-            }
-            push_face(obstacles.bodies, meeting, count,
-                      [&](const Way<Real>& way, const Meeting<Real>& at) {
-                          return least_speed(obstacles, at) - way.speed();
-                      });
+        for (std::int32_t k = 0; k < count; ++k) {
+            rub_there(obstacles, meeting[k]);
+        }
+        push_face(obstacles.bodies, meeting, count,
+                  [&](const Way<Real>& way, const Meeting<Real>& at) {
+                      return least_speed(obstacles, at) - way.speed();
+                  });
     };
     for (std::int32_t round = 0; round < rounds; ++round) {
         if (round % 2 == 0) {

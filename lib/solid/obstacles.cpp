@@ -4,13 +4,9 @@
 #include "base/work.hpp"
 #include "solid/piece_contact.hpp"
 
-
 namespace weir {
 
 namespace {
-
-template <class Real>
-using Wide = Vec2<Face<Real>>;
 
 /// Points are listed that are so near, besides what their speed brings near: the pressure may
 /// change it. Cells.

@@ -69,18 +69,15 @@ struct Meetings {
 
     explicit Meetings(const BodyTable<Real>& table)
         : room(kMeetingsPerBody * table.capacity) {
+        const auto loads = static_cast<std::size_t>(table.capacity + 1);
+        const auto pushes = static_cast<std::size_t>(room + 1);
         std::byte* at = reinterpret_cast<std::byte*>(table.load);
-        at += blocks(table.capacity + 1, kBodyLoadBytes<Real>);
+        at += detail::block_bytes(kBodyLoadBytes<Real>, loads);
         before = reinterpret_cast<Push<Real>*>(at);
-        at += blocks(room + 1, kPushBytes<Real>);
+        at += detail::block_bytes(kPushBytes<Real>, pushes);
         used = reinterpret_cast<std::int32_t*>(at);
         films = used + 1;
         entry = reinterpret_cast<Meeting<Real>*>(at + kMeetingBytes<Real>);
-    }
-    /// Bytes of so many, as `layout` places them.
-    static std::size_t blocks(std::int32_t count, std::size_t bytes) {
-        constexpr std::size_t kAlign = world_alignment;
-        return (static_cast<std::size_t>(count) * bytes + kAlign - 1) & ~(kAlign - 1);
     }
     static bool of_one_face(const Meeting<Real>& a, const Meeting<Real>& b) {
         return a.slot == b.slot && a.other == b.other && a.normal.x == b.normal.x &&

@@ -4,9 +4,6 @@ namespace weir {
 
 namespace {
 
-template <class Real>
-using Wide = Vec2<Face<Real>>;
-
 /// The second piece's face is taken only if it is by so much the better one, cells: of two that
 /// are as good it should not be now this one, now that one.
 template <class Real>

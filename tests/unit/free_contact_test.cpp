@@ -347,13 +347,6 @@ TYPED_TEST(FreeContact, ShelvesAndCupsHold) {
     EXPECT_NEAR(motion_of(*world, id[3]).position_m.y, 0.16F, 5e-4F);
 }
 
-template <class Real>
-double volume_left(World<Real>& world) {
-    Diagnostics now;
-    expect_ok(world.diagnose(&now));
-    return now.volume_m2 / now.mass_m2;
-}
-
 /// Light crates in a tank that sways, thrown against each other, the walls and the floor.
 TYPED_TEST(FreeContact, FloatingCratesLeaveTheLiquidItsVolume) {
     WorldDef def = dry_def();

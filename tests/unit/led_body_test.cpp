@@ -22,14 +22,6 @@ WorldDef pool_def(std::int32_t cells_x, std::int32_t cells_y) {
     return def;
 }
 
-/// Of what the liquid's mass would fill.
-template <class Real>
-double volume_left(World<Real>& world) {
-    Diagnostics now;
-    expect_ok(world.diagnose(&now));
-    return now.volume_m2 / now.mass_m2;
-}
-
 template <class Real>
 class LedBody : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed>;

@@ -120,11 +120,8 @@ TYPED_TEST(LongRunOf, LiquidThatABodyStampedOnRecovers) {
     TestWorld<Real> world(def);
     const float side = def.cell_m * kCells;
     expect_ok(world->fill({{0.0F, 0.0F}, {side, side / 2}}));
-    const float edge = 0.15F * side;
-    const Vec2f corners[] = {{-edge, -edge}, {edge, -edge}, {edge, edge}, {-edge, edge}};
-    BodyDef body;
-    body.polygon = {corners, 4};
-    body.motion.position_m = {side / 2, 0.8F * side};
+    const Ring square = rectangle(0.3F * side, 0.3F * side);
+    BodyDef body = body_of(square, {side / 2, 0.8F * side});
     BodyId id;
     expect_ok(world->add_moving_body(body, &id));
     std::mt19937 random(5);

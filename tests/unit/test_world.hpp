@@ -68,6 +68,14 @@ inline WorldDef small_def() {
 
 inline void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
 
+/// Of what the liquid's mass would fill.
+template <class Real>
+double volume_left(World<Real>& world) {
+    Diagnostics now;
+    expect_ok(world.diagnose(&now));
+    return now.volume_m2 / now.mass_m2;
+}
+
 /// Of all stages of a step.
 inline std::int64_t work_of(const StepReport& report) {
     std::int64_t all = 0;

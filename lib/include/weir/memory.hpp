@@ -224,11 +224,15 @@ struct Layout {
 };
 
 namespace detail {
+/// Bytes that so many elements take: what stands behind them is aligned, too.
+constexpr std::size_t block_bytes(std::size_t element_bytes, std::size_t elements) {
+    return (element_bytes * elements + world_alignment - 1) / world_alignment * world_alignment;
+}
+
 /// Behind those that were placed before.
 constexpr void place(Block block, Owner owner, Kept kept, std::size_t element_bytes,
                      std::size_t elements, Layout& result) {
-    const std::size_t bytes = (element_bytes * elements + world_alignment - 1) /
-                              world_alignment * world_alignment;
+    const std::size_t bytes = block_bytes(element_bytes, elements);
     const auto slot = static_cast<std::size_t>(block);
     result.offset[slot] = result.total_bytes;
     result.bytes[slot] = bytes;
