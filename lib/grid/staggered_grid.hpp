@@ -14,6 +14,18 @@
 
 namespace weir {
 
+#if WEIR_PARALLEL
+/// Rows that are worked on together: those of a coarse cell.
+inline constexpr std::int32_t kRowsOfSpan = 4;
+
+/// What of a few rows there is any work to do for (step/row_spans.hpp).
+struct RowSpan {
+    Part columns;  ///< cells
+    Part entries;  ///< what is written where no particle may reach, so that it can be read: −1 … nx
+    Part liquid;   ///< of the tank's columns, those that hold mass
+};
+#endif
+
 /// A tank's cells, or a part of them: numbered from the part's lower left corner, stored where they
 /// are in the whole.
 struct GridShape {
@@ -22,6 +34,31 @@ struct GridShape {
     std::int32_t stride = 0;  ///< the tank's nx + 2: from a cell to the one above it
     std::int32_t i0 = 0;  ///< of the tank's cells, the one that is (0, 0) here
     std::int32_t j0 = 0;
+#if WEIR_PARALLEL
+    const RowSpan* spans = nullptr;  ///< of the tank's rows; null: all are worked on end to end
+
+    const RowSpan& span_of(std::int32_t j) const {
+        return spans[(j0 + (j < 0 ? 0 : (j < ny ? j : ny - 1))) / kRowsOfSpan];
+    }
+    /// Columns of a row that stages work on.
+    Part columns(std::int32_t j) const {
+        return spans != nullptr ? span_of(j).columns : Part{0, nx};
+    }
+    /// The same with what they look at beside those, ghost cells included.
+    Part entries(std::int32_t j) const {
+        return spans != nullptr ? span_of(j).entries : Part{-1, nx + 1};
+    }
+    /// How many rows, from j downwards, have the same columns.
+    std::int32_t rows_alike(std::int32_t j) const {
+        return (j0 + j) % kRowsOfSpan + 1;
+    }
+    bool has_spans() const { return spans != nullptr; }
+#else
+    Part columns(std::int32_t) const { return {0, nx}; }
+    Part entries(std::int32_t) const { return {-1, nx + 1}; }
+    static constexpr std::int32_t rows_alike(std::int32_t j) { return j + 1; }
+    static constexpr bool has_spans() { return false; }
+#endif
 
     std::int32_t size() const { return (nx + 2) * (ny + 2); }
     /// Entries of the lines along all borders: what it costs to fill them.
@@ -55,6 +92,15 @@ inline Vec2<Real> corner_of(const GridShape& s, std::int32_t i, std::int32_t j) 
 /// grid is narrower than its numbering.
 template <class Visit>
 inline void for_each_run(const GridShape& s, const Part& rows, Visit visit) {
+    if (s.has_spans()) {
+        for (std::int32_t j = rows.first - 1; j < rows.end - 1; ++j) {
+            const Part entries = s.entries(j);
+            if (!entries.empty()) {
+                visit(Part{s.index(entries.first, j), s.index(entries.end, j)});
+            }
+        }
+        return;
+    }
     const std::int32_t width = minimum(s.nx + 2, s.stride);
     const std::int32_t at_once = width == s.stride ? rows.end - rows.first : 1;
     if (width > 0 && at_once > 0) {
@@ -132,8 +178,21 @@ struct StaggeredGrid {
 #if WEIR_PARALLEL
     /// Room that is free during the scatter, for loops that threads share. Empty: they do not.
     ArrayView<Real> spans = {};
+    RowSpan* row_spans = nullptr;  ///< of the tank's rows; null: whole rows are worked on
+    /// Whether densities tell of the particles as they are now, but for one substep's way.
+    bool knows_rows = false;
+    bool whole_rows = true;  ///< the last substep worked on
 #endif
 };
+
+/// Nobody knows any more where in their rows particles are.
+template <class Real>
+inline void forget_rows([[maybe_unused]] StaggeredGrid<Real>& grid) {
+#if WEIR_PARALLEL
+    grid.knows_rows = false;
+    grid.whole_rows = true;
+#endif
+}
 
 /// The four nodes around a point and its weights: bilinear.
 template <class Real>

@@ -99,9 +99,8 @@ std::int32_t gather_in_lanes(const PressureFields<float>& fields, const Walls<fl
     static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
     const float* open_u = walls != nullptr ? walls->open_u : nullptr;
     const float* open_v = walls != nullptr ? walls->open_v : nullptr;
-    const std::int32_t count = s.nx / kCoarseEdge;
-    Patch patch = patch_of(s, coarse.shape, 0, row);
-    const std::int32_t end = patch.q + count;
+    Patch patch = patch_of(s, coarse.shape, patches_in(s, coarse.shape, row).first, row);
+    const std::int32_t end = patch.q + whole_patches(s, row);
     float terms[2 * kTerms];
     const WideCells* wide = wide_cells();
     while (patch.q < end) {
@@ -120,7 +119,7 @@ std::int32_t gather_in_lanes(const PressureFields<float>& fields, const Walls<fl
             patch.i += kCoarseEdge;
         }
     }
-    return count;
+    return patch.i / kCoarseEdge;
 }
 #endif
 
@@ -170,12 +169,13 @@ void gather_residuals(const FaceWeights<Solids, Mixed, Real>& weights,
                       const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
-        std::int32_t column = 0;
+        const Part columns = patches_in(s, coarse.shape, row);
+        std::int32_t column = columns.first;
         if constexpr (kHasLanes<Real> && !Mixed) {
             column = gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, row, targets,
                                      coarse);
         }
-        for (; column < coarse.shape.nx; ++column) {
+        for (; column < columns.end; ++column) {
             const Patch patch = patch_of(s, coarse.shape, column, row);
             if (coarse.inverse_diagonal[patch.q] != Real(0)) {
                 gather_residual(weights, fields, patch, targets, coarse);
@@ -211,13 +211,14 @@ template <class Real>
 void add_corrections(const GridShape& s, const Part& rows, PressureFields<Real>& fields) {
     const GridShape& big = fields.coarse.shape;
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
-        std::int32_t column = 0;
+        const Part columns = patches_in(s, big, row);
+        std::int32_t column = columns.first;
         if constexpr (kHasLanes<Real>) {
-            const Patch first = patch_of(s, big, 0, row);
-            column = correct_in_lanes(fields, s.stride, first.q, s.index(0, first.j),
-                                      first.height, s.nx / kCoarseEdge);
+            const Patch first = patch_of(s, big, column, row);
+            column += correct_in_lanes(fields, s.stride, first.q, s.index(first.i, first.j),
+                                       first.height, whole_patches(s, row));
         }
-        for (; column < big.nx; ++column) {
+        for (; column < columns.end; ++column) {
             const Patch patch = patch_of(s, big, column, row);
             if (fields.coarse.inverse_diagonal[patch.q] != Real(0)) {
                 add_correction(s, patch, fields);

@@ -132,13 +132,20 @@ inline Real plain_excess(const GridShape& s, const PressureFields<Real>& f,
     return excess(s, f, held, c);
 }
 
+/// Cells of a row that drift asks for: those that stages work on and some beside them.
+inline Part looked_at(const GridShape& s, std::int32_t j) {
+    const Part entries = s.entries(j);
+    return {maximum(entries.first, 0), minimum(entries.end, s.nx)};
+}
+
 /// Of the cells of some rows, into `divergence`.
 template <class Real>
 void find_excess(const GridShape& s, const Part& rows, const Held<Real>& held,
                  PressureFields<Real>& fields) {
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        std::int32_t c = s.index(0, j);
-        const std::int32_t end = s.index(s.nx, j);
+        const Part columns = looked_at(s, j);
+        std::int32_t c = s.index(columns.first, j);
+        const std::int32_t end = s.index(columns.end, j);
         if constexpr (kHasLanes<Real>) {
             c = excess_lanes(fields, s.stride, excess_limits(fields, held), c, end);
         }

@@ -22,11 +22,27 @@ inline Patch patch_of(const GridShape& s, const GridShape& big, std::int32_t col
             minimum(kCoarseEdge, s.ny - j)};
 }
 
+/// Those of a row of patches that are worked on.
+inline Part patches_in(const GridShape& s, const GridShape& big, std::int32_t row) {
+    if (!s.has_spans()) {
+        return {0, big.nx};
+    }
+    const Part columns = s.columns(kCoarseEdge * row);
+    return {columns.first / kCoarseEdge, coarse_cells(columns.end)};
+}
+
+/// How many of them are of full width.
+inline std::int32_t whole_patches(const GridShape& s, std::int32_t row) {
+    const Part columns = s.columns(kCoarseEdge * row);
+    return columns.end / kCoarseEdge - columns.first / kCoarseEdge;
+}
+
 /// By row, from below.
 template <class Visit>
 void for_each_patch(const GridShape& s, const GridShape& big, const Part& rows, Visit visit) {
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
-        for (std::int32_t column = 0; column < big.nx; ++column) {
+        const Part columns = patches_in(s, big, row);
+        for (std::int32_t column = columns.first; column < columns.end; ++column) {
             visit(patch_of(s, big, column, row));
         }
     }

@@ -79,18 +79,19 @@ void project(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
              const PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        std::int32_t i = 0;
+        const Part columns = s.columns(j);
+        std::int32_t i = columns.first;
         if constexpr (kHasLanes<Real> && !Mixed) {
             const std::int32_t row = s.index(0, j);
             const Real on_wall = grid.u[row];
             i = accelerate_lanes(fields, Solids ? weights.walls.open_u : nullptr,
-                                 weights.walls.open_v, weights.has_lower(j), row, row + s.nx,
-                                 grid) - row;
+                                 weights.walls.open_v, weights.has_lower(j), row + i,
+                                 row + columns.end, grid) - row;
             if (!weights.has_left(0)) {
                 grid.u[row] = on_wall;
             }
         }
-        project_row(weights, j, {i, s.nx}, fields, grid);
+        project_row(weights, j, {i, columns.end}, fields, grid);
     }
 }
 

@@ -5,8 +5,7 @@
 #include "pressure/equation_of_state.hpp"
 #include "pressure/project.hpp"
 #include "pressure/project_packed.hpp"
-#include "pressure/relax_fpu.hpp"
-#include "pressure/relax_lanes.hpp"
+#include "pressure/relax.hpp"
 #include "pressure/relax_packed.hpp"
 #include "pressure/start.hpp"
 #include "pressure/system.hpp"
@@ -14,113 +13,6 @@
 namespace weir {
 
 namespace {
-
-/// The coarse grid takes care of what is smooth: sweeps only have to smooth what is left.
-template <class Real>
-constexpr Real kRelaxation = Real(1.4);
-
-/// Rows low … high hold all the liquid; no other needs to be swept.
-struct Rows {
-    std::int32_t low = 0;
-    std::int32_t high = -1;
-};
-
-/// p[c] is led to what its equation says. `sum`: of the neighbours, each with its face.
-template <class Real>
-inline void relax_cell(Real& p, Real sum, Real divergence, Real inverse) {
-    const Real target = (sum - divergence) * inverse;
-    p += kRelaxation<Real> * (target - p);
-}
-
-/// A cell that a wall touches, or two liquids. Not inline: most are not.
-template <bool Solids, bool Mixed, class Real>
-[[gnu::noinline]] void relax_weighted(const FaceWeights<Solids, Mixed, Real>& weights,
-                                      std::int32_t c, PressureFields<Real>& fields) {
-    const Real inverse = fields.inverse_diagonal[c];
-    if (inverse != Real(0)) {
-        relax_cell<Real>(fields.pressure[c], weights.weighted(fields.pressure, c, inverse),
-                         fields.divergence[c], Solids ? absolute(inverse) : inverse);
-    }
-}
-
-/// Every other cell of a row.
-template <bool Solids, bool Mixed, class Real>
-inline void relax_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t c,
-                        std::int32_t end, PressureFields<Real>& fields) {
-    const std::int32_t up = weights.grid.shape.stride;
-    const VelocityOf<Real>* inverses = fields.inverse_diagonal + c;
-    const VelocityOf<Real>* divergence = fields.divergence + c;
-    Real* p = fields.pressure + c;
-    Real* above = p + up;
-    Real* below = p - up;
-    const auto one = [&](std::int32_t k) {
-        const Real inverse = inverses[k];
-        if (!Mixed && is_positive(inverse)) {
-            relax_cell<Real>(p[k], (p[k - 1] + p[k + 1]) + (below[k] + above[k]), divergence[k],
-                             inverse);
-        } else if ((Mixed || Solids) && inverse != Real(0)) {
-            relax_weighted(weights, c + k, fields);
-        }
-    };
-    const auto advance = [&](std::int32_t cells) {
-        c += cells;
-        inverses += cells;
-        divergence += cells;
-        p += cells;
-        above += cells;
-        below += cells;
-    };
-    while (c + 8 <= end) {
-        one(0);
-        one(2);
-        one(4);
-        one(6);
-        advance(8);
-    }
-    while (c < end) {
-        one(0);
-        advance(2);
-    }
-}
-
-/// Every other cell of row j from column `i` on, then of as many rows below it as make `rows`. Not
-/// inline: the loop wants all registers.
-template <bool Solids, bool Mixed, class Real>
-[[gnu::noinline]] void relax_down(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i,
-                                  std::int32_t j, std::int32_t rows,
-                                  PressureFields<Real>& fields) {
-    const GridShape& s = weights.grid.shape;
-    const std::int32_t c = s.index(i, j);
-    const std::int32_t end = s.index(s.nx, j);
-#if WEIR_HAS_LANES
-    if constexpr (kHasLanes<Real> && !(Solids && Mixed)) {
-        const float* on_u = Solids ? weights.walls.open_u : weights.grid.inverse_density_u;
-        const float* on_v = Solids ? weights.walls.open_v : weights.grid.inverse_density_v;
-        if (relax_in_lanes(
-                {fields, on_u, on_v, Mixed, kRelaxation<Real>, s.stride, c, end, rows})) {
-            return;
-        }
-    }
-#endif
-    for (std::int32_t below = 0; below < rows * s.stride; below += s.stride) {
-        relax_cells(weights, c - below, end - below, fields);
-    }
-}
-
-/// Every other cell of some rows.
-template <bool Solids, bool Mixed, class Real>
-void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
-           PressureFields<Real>& fields) {
-    if constexpr (kHasFpuLoops<Real> && !Mixed) {
-        relax_rows(std::bool_constant<Solids>{}, weights.grid.shape, rows.low, rows.high, colour,
-                   kRelaxation<Real>, fields,
-                   [&](std::int32_t c) { relax_weighted(weights, c, fields); });
-        return;
-    }
-    for (std::int32_t j = rows.low; j <= rows.high; ++j) {
-        relax_down(weights, (j + colour) & 1, j, 1, fields);
-    }
-}
 
 /// Σ correction × residual of the coarse equations.
 template <class Real>

@@ -27,8 +27,9 @@ Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     const GridShape& s = weights.grid.shape;
     const Real* p = fields.pressure;
     Solve<Real> row;
-    const std::int32_t end = s.index(s.nx, j);
-    std::int32_t c = s.index(0, j);
+    const Part columns = s.columns(j);
+    const std::int32_t end = s.index(columns.end, j);
+    std::int32_t c = s.index(columns.first, j);
     if constexpr (kHasLanes<Real> && !Mixed) {
         const Walls<Real>& walls = weights.walls;
         c = weigh_lanes(fields, Solids ? walls.open_u : nullptr, walls.open_v, s.stride, c, end,
@@ -77,7 +78,8 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     const Part scaled = work.take(nearer ? 0 : depth, s.nx);
     for (std::int32_t at = scaled.first; at < scaled.end; ++at) {
         const std::int32_t j = solve.first_row + at;
-        for (std::int32_t c = s.index(0, j); c < s.index(s.nx, j); ++c) {
+        const Part columns = s.columns(j);
+        for (std::int32_t c = s.index(columns.first, j); c < s.index(columns.end, j); ++c) {
             p[c] = solve.share * p[c];
         }
     }

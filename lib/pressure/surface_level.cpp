@@ -89,8 +89,9 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& bo
                         PressureFields<Real>& fields) {
     const GridShape& s = grid.shape;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        std::int32_t c = s.index(0, j);
-        const std::int32_t end = s.index(s.nx, j);
+        const Part columns = s.columns(j);
+        std::int32_t c = s.index(columns.first, j);
+        const std::int32_t end = s.index(columns.end, j);
         Part slivers;
         if (thin != nullptr) {
             densities_beside_thin(grid, *thin, per_face, cut, c, end, slivers, fields);
@@ -139,9 +140,8 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
 /// `fill_dimples` of a row, four or eight at a time. Returns the next cell to do.
 inline std::int32_t fill_dimples_in_lanes(const GridShape& s, const Borders<float>& borders,
                                           const Walls<float>& walls, std::int32_t j,
-                                          float* level) {
+                                          const Part& columns, float* level) {
     const std::int32_t row = s.index(0, j);
-    const std::int32_t end = row + s.nx;
     const DimpleTask task{level,
                           walls.active ? walls.open_u : nullptr,
                           walls.open_v,
@@ -153,8 +153,8 @@ inline std::int32_t fill_dimples_in_lanes(const GridShape& s, const Borders<floa
                           j > 0 || borders.wrap_y,
                           j + 1 < s.ny || borders.wrap_y,
                           borders.wrap_x ? -1 : row,
-                          borders.wrap_x ? kMostWork : end - 1};
-    return fill_lanes(task, row, end) - row;
+                          borders.wrap_x ? kMostWork : row + s.nx - 1};
+    return fill_lanes(task, row + columns.first, row + columns.end) - row;
 }
 #endif
 
@@ -163,12 +163,13 @@ template <class Real>
 void fill_dimples(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
                   const Part& rows, LevelOf<Real>* level) {
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        std::int32_t i = 0;
+        const Part columns = s.columns(j);
+        std::int32_t i = columns.first;
         if constexpr (kHasLanes<Real>) {
-            i = fill_dimples_in_lanes(s, borders, walls, j, level);
+            i = fill_dimples_in_lanes(s, borders, walls, j, columns, level);
         }
         const std::int32_t row = s.index(0, j);
-        const LevelOf<Real>* const end = level + row + s.nx;
+        const LevelOf<Real>* const end = level + row + columns.end;
         for (const LevelOf<Real>* at = level + row + i; at < end; ++at) {
             if (!is_positive(Real(*at))) {
                 const auto c = static_cast<std::int32_t>(at - level);

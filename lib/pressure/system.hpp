@@ -196,16 +196,15 @@ inline void add_wall_flow(const RowTask& task, std::int32_t c, std::uint32_t ask
 /// Cells of a row, some at a time; returns the next one to do. one_by_one(i, end) does
 /// others.
 template <class OneByOne>
-std::int32_t build_in_lanes(RowTask& task, const OneByOne& one_by_one) {
-    const GridShape& s = task.grid.shape;
-    const std::int32_t row = s.index(0, task.j);
+std::int32_t build_in_lanes(RowTask& task, const Part& columns, const OneByOne& one_by_one) {
+    const std::int32_t row = task.grid.shape.index(0, task.j);
     const WideCells* wide = wide_cells();
-    std::int32_t i = 0;
-    while (i + 4 <= s.nx) {
+    std::int32_t i = columns.first;
+    while (i + 4 <= columns.end) {
         if (wide != nullptr) {
-            i = wide->build_groups(task, row + i, row + s.nx) - row;
+            i = wide->build_groups(task, row + i, row + columns.end) - row;
         }
-        for (const std::int32_t end = i + 8; i < end && i + 4 <= s.nx; i += 4) {
+        for (const std::int32_t end = i + 8; i < end && i + 4 <= columns.end; i += 4) {
             if (!build_group<FourLanes>(task, row + i)) {
                 one_by_one(i, i + 4);
             }
@@ -266,7 +265,8 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     const auto one_by_one = [&](std::int32_t i, std::int32_t end) {
         build_cells(weights, i, end, j, leap, fields, system);
     };
-    std::int32_t i = 0;
+    const Part columns = s.columns(j);
+    std::int32_t i = columns.first;
 #if WEIR_HAS_LANES
     if constexpr (kHasLanes<Real> && !Mixed) {
         const bool seam = weights.borders.wrap_x;
@@ -276,11 +276,11 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
         if constexpr (Solids) {
             task.add_flow = weights.walls.moving ? add_wall_flow : nullptr;
         }
-        i = build_in_lanes(task, one_by_one);
+        i = build_in_lanes(task, columns, one_by_one);
         note_liquid(task.any, j, system);
     }
 #endif
-    one_by_one(i, s.nx);
+    one_by_one(i, columns.end);
     return system;
 }
 

@@ -74,22 +74,24 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
         return patch_of(s, big, column, row);
     };
     Real* const means = f.coarse.correction + big.index(0, row);
-    std::int32_t column = 0;
+    const Part columns = patches_in(s, big, row);
+    std::int32_t column = columns.first;
     if constexpr (kHasLanes<Real>) {
         const PatchLimits limits{kCellWindow<Real>, kPatchWindow<Real>, kOverfull<Real>,
                                  static_cast<Real>(kLeastOverfull)};
-        const Patch first = patch_at(0);
-        column = f.on_surface ? 0
-                              : means_of_row(f, limits, s.stride, s.index(0, first.j),
-                                             first.height, s.nx / kCoarseEdge, means,
-                                             f.coarse.residual + first.q, overfull,
-                                             [&](std::int32_t k) {
-                                                 if (Solids && !has_room(s, walls, patch_at(k))) {
-                                                     means[k] = kSolidPatch<Real>;
-                                                 }
-                                             });
+        const Patch first = patch_at(columns.first);
+        const auto look_for_room = [&](std::int32_t k) {
+            if (Solids && !has_room(s, walls, patch_at(columns.first + k))) {
+                means[columns.first + k] = kSolidPatch<Real>;
+            }
+        };
+        column += f.on_surface
+                      ? 0
+                      : means_of_row(f, limits, s.stride, s.index(first.i, first.j), first.height,
+                                     whole_patches(s, row), means + columns.first,
+                                     f.coarse.residual + first.q, overfull, look_for_room);
     }
-    for (; column < big.nx; ++column) {
+    for (; column < columns.end; ++column) {
         means[column] =
             f.on_surface ? Real(0) : average<Solids>(s, walls, patch_at(column), f, overfull);
     }

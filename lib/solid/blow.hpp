@@ -1,6 +1,7 @@
 // Particles that hit a body, and what the body receives.
 #pragma once
 
+#include "math/lanes.hpp"
 #include "solid/body_force.hpp"
 #include "solid/collide.hpp"
 #include "solid/reflect.hpp"
@@ -53,6 +54,21 @@ template <class Real>
     const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
     const Vec2<Real> before = scene.particles.velocity[k];
     blow(scene, k, slot, x, reflect(body.surface, surface, before, normal));
+}
+
+/// A particle that has met a solid, and stays unless it has no way out. Whoever keeps record of
+/// where particles are wants to know of one that a body took along.
+template <class Real>
+void note(Scene<Real>& scene, std::int32_t k, bool stays, Vec2<Real> before, bool mark) {
+    if (!stays) {
+        ++scene.result.removed;
+        mark ? scene.particles.mark(k) : scene.particles.remove(k);
+    } else if constexpr (kHasLanes<Real>) {
+        constexpr Real kFar = Real(2.5);
+        const Vec2<Real> way = Vec2<Real>(scene.particles.position[k]) - before;
+        scene.result.leapt =
+            scene.result.leapt || absolute(way.x) > kFar || absolute(way.y) > kFar;
+    }
 }
 
 }  // namespace weir

@@ -275,13 +275,6 @@ bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bo
             kNear) != 0;
 }
 
-/// A particle that has no way out.
-template <class Real>
-void remove(Scene<Real>& scene, std::int32_t k, bool mark) {
-    ++scene.result.removed;
-    mark ? scene.particles.mark(k) : scene.particles.remove(k);
-}
-
 #if WEIR_HAS_LANES
 /// A block of which nobody went far, and without thin walls. Most particles are clearly outside.
 void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
@@ -300,10 +293,10 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
         for (std::uint32_t left = all & ~clear_of_eight(task, near, next); left != 0;
              left &= left - 1U) {
             const std::int32_t n = near.n[next + __builtin_ctz(left)];
-            if (!meet_at(scene, first + n, standing_near(s, scene.walls, position[n]),
-                         Vec2<float>(flight.before[n]), false)) {
-                remove(scene, first + n, flight.mark_removed);
-            }
+            const Vec2<float> before(flight.before[n]);
+            const Standing<float> at = standing_near(s, scene.walls, position[n]);
+            note(scene, first + n, meet_at(scene, first + n, at, before, false), before,
+                 flight.mark_removed);
         }
     }
     scene.result.tested += near.count;
@@ -319,9 +312,10 @@ inline void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& f
             scene.shape, scene.walls, scene.particles.position + first,
             flight.far ? flight.before : nullptr, n, scene.result.tested);
         n = found.n;
-        if (n >= 0 && !meet_contour(scene, first + n, Vec2<SmallFixed>(flight.before[n]),
-                                    found.far)) {
-            remove(scene, first + n, flight.mark_removed);
+        if (n >= 0) {
+            const Vec2<SmallFixed> before(flight.before[n]);
+            note(scene, first + n, meet_contour(scene, first + n, before, found.far), before,
+                 flight.mark_removed);
         }
     }
 }
@@ -346,9 +340,9 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
         const Vec2<Real> before = flight.before[n];
         const bool far = flight.far && is_far(before, x);
         const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, far);
-        if ((case_at(s, walls, x) != kCellOutside || far || thin) &&
-            !meet(scene, first + n, before, far, thin)) {
-            remove(scene, first + n, flight.mark_removed);
+        if (case_at(s, walls, x) != kCellOutside || far || thin) {
+            note(scene, first + n, meet(scene, first + n, before, far, thin), before,
+                 flight.mark_removed);
         }
     }
 }

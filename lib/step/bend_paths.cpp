@@ -153,7 +153,8 @@ struct Bending {
     }
 
     /// Faces i … of a row that are bent in lanes. Returns the next one to do.
-    std::int32_t in_lanes([[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t j) const {
+    std::int32_t in_lanes([[maybe_unused]] std::int32_t i, [[maybe_unused]] std::int32_t end,
+                          [[maybe_unused]] std::int32_t j) const {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
             if (walls.thin == nullptr && (i > 0 || !on_u()) && (j > 0 || on_u())) {
@@ -176,7 +177,7 @@ struct Bending {
                                     row + side,
                                     row + s.nx - 1 - side,
                                     on_u() ? 0 : s.stride};
-                return bend_lanes(task, row, row + i, row + s.nx) - row;
+                return bend_lanes(task, row, row + i, row + end) - row;
             }
         }
 #endif
@@ -184,9 +185,10 @@ struct Bending {
     }
 
     void row_in_lanes(std::int32_t first_i, std::int32_t j) const {
-        for (std::int32_t i = first_i; i < s.nx;) {
-            i = in_lanes(i, j);
-            const std::int32_t end = minimum(on_u() && i == 0 ? 1 : i + 4, s.nx);
+        const Part columns = s.columns(j);
+        for (std::int32_t i = maximum(first_i, columns.first); i < columns.end;) {
+            i = in_lanes(i, columns.end, j);
+            const std::int32_t end = minimum(on_u() && i == 0 ? 1 : i + 4, columns.end);
             for (; i < end; ++i) {
                 run(i, j, 1);
             }

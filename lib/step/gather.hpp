@@ -35,6 +35,9 @@ void note(const CollideResult<Real>& result, Simulation<Real>& simulation, StepR
     report.particles_stuck += result.stuck;
     report.particles_removed_stuck += result.removed;
     simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
+#if WEIR_PARALLEL
+    simulation.grid.knows_rows = simulation.grid.knows_rows && !result.leapt;
+#endif
 }
 
 /// What pieces of a loop found, each by itself.

@@ -118,15 +118,17 @@ private:
 
     void row_in_lanes(std::int32_t first_i, std::int32_t j) const {
         const std::int32_t row = s.index(0, j);
-        std::int32_t i = first_i;
-        copy(row - 1, row + (back == 1 ? 1 : 0));
+        const Part columns = s.columns(j);
+        const Part entries = s.entries(j);
+        std::int32_t i = maximum(first_i, columns.first);
+        copy(row + entries.first, row + maximum(columns.first, back == 1 ? 1 : 0));
         for (; back == 1 && i < 1; ++i) {
             one(i, j);
         }
-        i = sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, row + i, row + s.nx,
-                          out) - row;
-        copy(row + i, row + s.nx + 1);
-        for (; i < s.nx; ++i) {
+        i = sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, row + i,
+                          row + columns.end, out) - row;
+        copy(row + i, row + entries.end);
+        for (; i < columns.end; ++i) {
             one(i, j);
         }
     }

@@ -198,7 +198,8 @@ void extrapolate_component(const Component<Real>& component, const PressureField
     };
     for (std::int32_t j = maximum(component.first_j, rows.first); j < rows.end; ++j) {
         const std::int32_t row = s.index(0, j);
-        std::int32_t face = row + component.first_i;
+        const Part columns = s.columns(j);
+        std::int32_t face = row + maximum(component.first_i, columns.first);
         if constexpr (kHasLanes<Real>) {
             // Lanes load and store what they leave as it is: not where others are at work.
             const bool amid = (j > rows.first || j == 0) && (j + 1 < rows.end || j + 1 == s.ny);
@@ -206,11 +207,11 @@ void extrapolate_component(const Component<Real>& component, const PressureField
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
                                    back, s.stride, lever_of(fields),
                                    reach, fields.cell_weight, velocity_itself,
-                                   j > component.first_j, j + 1 < s.ny, face, row + s.nx})) {
+                                   j > component.first_j, j + 1 < s.ny, face, row + columns.end})) {
                 continue;
             }
         }
-        const LevelOf<Real>* const end = level + row + s.nx;
+        const LevelOf<Real>* const end = level + row + columns.end;
         for (const LevelOf<Real>* at = level + face; at < end; ++at) {
             if (!is_positive(Real(*at))) {  // else it is wet
                 face = static_cast<std::int32_t>(at - level);

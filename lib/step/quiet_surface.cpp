@@ -183,8 +183,9 @@ const LevelOf<Real>* next_near(const LevelOf<Real>* at, const LevelOf<Real>* end
 template <class Real>
 void weigh_row(const Quieting<Real>& quieting, std::int32_t j, const Shares<Real>& shares) {
     const GridShape& s = shares.shape;
-    const LevelOf<Real>* const first = quieting.level + s.index(0, j);
-    const LevelOf<Real>* const end = first + s.nx;
+    const Part columns = s.columns(j);
+    const LevelOf<Real>* const first = quieting.level + s.index(columns.first, j);
+    const LevelOf<Real>* const end = first + (columns.end - columns.first);
     shares.mark(j) = Real(0);
     for (const auto* at = next_near<Real>(first, end); at < end;
          at = next_near<Real>(at + 1, end)) {

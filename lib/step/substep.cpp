@@ -18,6 +18,7 @@
 #include "step/particle_to_grid.hpp"
 #include "step/quiet_surface.hpp"
 #include "step/regions.hpp"
+#include "step/row_spans.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thin_transfer.hpp"
 #include "step/two_way.hpp"
@@ -173,7 +174,7 @@ void watch_asleep(Simulation<Real>& simulation, Work work, StageClock& clock,
 
 /// The grid's stages see the part of the tank that the liquid is in.
 template <class Real>
-void skip_empty(Simulation<Real>& simulation, Work work) {
+void skip_empty(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     const GridShape& tank = simulation.layers.shape;
     const Particles<Real>& particles = simulation.particles;
     Walls<Real>& walls = simulation.layers.walls;
@@ -215,6 +216,7 @@ void skip_empty(Simulation<Real>& simulation, Work work) {
                 work.spend(follow(simulation));
             }
         }
+        skip_empty_columns(simulation, plan);
         simulation.occupied = simulation.grid.shape;
     }
     if (windowed && work.foreseeing()) {
@@ -280,7 +282,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         clock.charge(Stage::contour);
     }
     skip_asleep(simulation, plan, work);
-    skip_empty(simulation, work);
+    skip_empty(simulation, plan, work);
     order_particles(simulation, work);
     const detail::TwoWay<Real>* two_way = simulation.two_way;
     if (kHasLedger<Real> && two_way != nullptr) {

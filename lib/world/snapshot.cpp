@@ -156,6 +156,7 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::wall_mark:
         case Block::wall_span:
         case Block::wall_body:
+        case Block::row_span:
         case Block::velocity_u:
         case Block::velocity_v:
         case Block::mass_u:
@@ -349,6 +350,7 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
     redraw(state_->simulation);
     state_->stepping = false;
     state_->density_stale = true;
+    forget_rows(state_->simulation.grid);
     return Status::ok;
 }
 

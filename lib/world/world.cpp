@@ -132,6 +132,11 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
         carver.take(Block::body_diagonal, simulation.body_diagonal);
         simulation.layers.walls.load = simulation.bodies.load;
     }
+#if WEIR_PARALLEL
+    if (row_spans<Real>(capacity) > 0) {
+        carver.take(Block::row_span, simulation.grid.row_spans);
+    }
+#endif
     carver.take(Block::velocity_u, simulation.grid.u);
     carver.take(Block::velocity_v, simulation.grid.v);
     carver.take(Block::mass_u, simulation.grid.mass_u);

@@ -136,6 +136,7 @@ private:
 template <class Real>
 void note_changed(WorldState<Real>& state) {
     state.density_stale = true;
+    forget_rows(state.simulation.grid);
     wake(state);
 }
 

@@ -27,6 +27,7 @@ void require(Status status) {
 struct Scene {
     WorldDef def;
     Box water{{0.0F, 0.0F}, {48 * kCell, 16 * kCell}};
+    float drop_m = 0.0F;  ///< how far to the right and up a drop starts; 0: there is none
     BodyDef body;
     Vec2f places[3];
     int bodies = 0;
@@ -107,6 +108,10 @@ Scene scene_of(const char* name, Way way) {
         add_bodies(scene, 0.75F);
         scene.moving = is("rectangle") || way != Way::absent;
         scene.body.motion.spin_radps = is("rectangle") || way == Way::used ? 2.0F : 0.0F;
+    } else if (is("columns")) {
+        scene = tank(512, 128);
+        def.capacity.particles += 16;
+        scene.drop_m = (way == Way::absent ? 32 : 120) * kCell;
     } else if (is("viscosity") && way == Way::used) {
         scene.def.viscosity_m2ps = 1.0e-4F;
     } else if (is("tension") && way == Way::used) {
@@ -221,6 +226,10 @@ Run run(const Case& which, Way way) {
         set_up_pools(world, scene);
     } else {
         require(world.fill(scene.water));
+    }
+    if (scene.drop_m > 0.0F) {
+        const float right = 4.0F * scene.drop_m;
+        require(world.fill({{right, scene.drop_m}, {right + 2 * kCell, scene.drop_m + 2 * kCell}}));
     }
     for (int step = 0; step < (scene.settle ? 150 : 10); ++step) {
         world.step(kDt);

@@ -23,6 +23,7 @@ inline constexpr Case kCases[] = {
     {"solids", "three solids in the air above the water", {true, true, true}},
     {"raster", "bodies that may move and stand still", {true, true, true}},
     {"rectangle", "bodies turning in a tank 16 times as large", {true, true, false}},
+    {"columns", "the empty width of rows: a drop that is far away", {true, true, false}},
     {"viscosity", "0", {false, true, true}},
     {"tension", "0", {false, true, true}},
     {"second_liquid", "no room for it", {false, true, true}},

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "weir/config.hpp"
+#include "weir/parallel.hpp"
 #include "weir/storage.hpp"
 #include "weir/contact.hpp"
 
@@ -63,6 +64,7 @@ enum class Block : std::uint8_t {
     wall_mark,
     wall_span,
     wall_body,
+    row_span,    ///< what of every four rows there is work to do for; on desktops
     velocity_u,  ///< a component's mass stands behind its velocity: the transfers pair them
     mass_u,      ///< then, once velocity is known, the velocity before the pressure
     velocity_v,
@@ -100,9 +102,9 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 912 : 896) : 1216) +
+        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 912 : 896) : 1264) +
               (std::is_same_v<Real, Fixed> ? 16 : 0)
-        : 1440;
+        : 1488;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
@@ -190,6 +192,18 @@ constexpr std::int32_t coarse_entries(const Capacity& capacity) {
         most = most < entries ? entries : most;
     });
     return most;
+}
+
+inline constexpr std::size_t kRowSpanBytes = 24;
+/// In narrower parts of the tank rows are always worked on from end to end, columns.
+inline constexpr std::int32_t kLeastSpanned = 128;
+/// Loops in lanes pass over empty ends of rows, in float worlds that store the whole tank.
+template <class Real>
+constexpr std::int32_t row_spans(const Capacity& capacity) {
+    return WEIR_PARALLEL && std::is_same_v<Real, float> && !is_windowed(capacity) &&
+                   capacity.cells_x >= kLeastSpanned
+               ? coarse_cells(capacity.cells_y)
+               : 0;
 }
 
 /// Words with a bit a cell.
@@ -282,8 +296,8 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t named_cells = keeps_names<Real>(capacity) ? solid_cells : 0;
     const std::size_t named_moving = keeps_names<Real>(capacity) ? moving_cells : 0;
     const std::size_t near_words = capacity.bodies > 0 ? count(near_entries<Real>(capacity)) : 0;
-    const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0,
-                      thin = wall_edges > 0 ? 1 : 0;
+    const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
+    const std::size_t thin = wall_edges > 0 ? 1 : 0, bodies = count(capacity.bodies);
     const std::size_t loads = capacity.two_way ? count(capacity.bodies) + 1 : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0,
                       kept_cells = capacity.sleeping_regions ? cells : 0;
@@ -291,10 +305,9 @@ constexpr Layout layout(const Capacity& capacity) {
                                                               count(coarse_cells(capacity.cells_y))
                                                         : 0;
     const std::size_t point = 2 * sizeof(Real), index = sizeof(std::uint16_t);
-    const std::size_t bodies = count(capacity.bodies);
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
     const std::size_t speed = sizeof(VelocityOf<Real>), distance = sizeof(DistanceOf<Real>);
-    const std::size_t share = sizeof(ShareOf<Real>);
+    const std::size_t share = sizeof(ShareOf<Real>), spans = count(row_spans<Real>(capacity));
     Layout result;
     const auto add = [&result](Block block, Owner owner, Kept kept, std::size_t element_bytes,
                                std::size_t elements) {
@@ -331,6 +344,7 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::wall_mark, Owner::thin_walls, Kept::redrawn, 1, thin * cells);
     add(Block::wall_span, Owner::thin_walls, Kept::redrawn, index, thin * vertices);
     add(Block::wall_body, Owner::thin_walls, Kept::redrawn, kThinBodyBytes<Real>, thin * bodies);
+    add(Block::row_span, Owner::grid, Kept::nothing, kRowSpanBytes, spans);
     add(Block::velocity_u, Owner::grid, Kept::nothing, sizeof(Real), cells);
     add(Block::mass_u, Owner::grid, Kept::nothing, speed, cells);
     add(Block::velocity_v, Owner::grid, Kept::nothing, sizeof(Real), cells);
