@@ -122,7 +122,8 @@ const char* content_text(Status status) {
             return "position: at most 1e5 cells from the tank's origin";
         case Status::motion_not_finite: return "motion has a NaN or infinite number";
         case Status::motion_out_of_range:
-            return "motion: at most kMaxSpeed cells/s, 1e4 rad and rad/s";
+            return "motion: at most kMaxSpeed cells/s (in fixed point kMaxSpeedFixed, "
+                   "kMaxSpeedSmallFixed), 1e4 rad and rad/s";
         case Status::two_way_missing:
             return "the world was made without room for forces: set capacity.two_way";
         case Status::free_body_in_small_world:

@@ -200,6 +200,16 @@ float shorter_turn(float angle_rad) {
     return angle_rad < -kHalf ? angle_rad + 2.0F * kHalf : angle_rad;
 }
 
+/// Of the way to somewhere, which that velocity and spin would take, what a body can go at most.
+float share_of_way(const Motion& motion, float cell_m, const Reach& reach) {
+    const float speed = maximum(absolute(motion.velocity_mps.x), absolute(motion.velocity_mps.y));
+    const float fastest = reach.speed * cell_m;
+    const float spin = absolute(motion.spin_radps);
+    constexpr float kBelow = 0.999999F;  // the product is rounded
+    return minimum(speed > fastest ? kBelow * (fastest / speed) : 1.0F,
+                   spin > reach.spin ? kBelow * (reach.spin / spin) : 1.0F);
+}
+
 template <class Real>
 void change_velocity(WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
     const Vec2<Real> velocity = body.velocity;
@@ -262,6 +272,10 @@ Status World<Real>::move_body(BodyId id, Vec2f position_m, float angle_rad, floa
     motion.velocity_mps = {per_s * (position_m.x - now.position_m.x),
                            per_s * (position_m.y - now.position_m.y)};
     motion.spin_radps = per_s * shorter_turn(wrapped_angle(angle_rad - now.angle_rad));
+    const float share =
+        share_of_way(motion, state_->def.cell_m, reach_of<Real>(state_->unit_exponent));
+    motion.velocity_mps = {share * motion.velocity_mps.x, share * motion.velocity_mps.y};
+    motion.spin_radps = share * motion.spin_radps;
     valid = check_reach(*state_, motion);
     if (valid == Status::ok) {
         lead(state_->simulation.bodies, id.slot, true);

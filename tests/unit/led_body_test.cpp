@@ -211,6 +211,34 @@ TYPED_TEST(LedBody, SnapshotKnowsWhoIsLed) {
     EXPECT_LT(m.position_m.y, 0.15F) << "it fell";
 }
 
+/// Further than it can go in a step a body goes as far as it can, straight there.
+template <class Real>
+class FarLedBody : public testing::Test {};
+using AllScalars = testing::Types<float, double, Fixed, SmallFixed>;
+TYPED_TEST_SUITE(FarLedBody, AllScalars, );
+TYPED_TEST(FarLedBody, CatchesUp) {
+    WorldDef def = pool_def(200, 20);
+    def.capacity.particles = 100;
+    TestWorld<TypeParam> world(def);
+    BodyId id;
+    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.2F, 0.1F}), &id));
+    const Vec2f to{3.8F, 0.3F};
+    constexpr float kShort = 1.0F / 8000.0F;  // 180 cells, 1.4 million a second
+    Motion motion;
+    std::int32_t steps = 0;
+    do {
+        expect_ok(world->move_body(id, to, 1.0F, kShort));
+        world->step(kShort);
+        expect_ok(world->motion(id, &motion));
+        const float way = (motion.position_m.x - 0.2F) / 3.6F;
+        EXPECT_NEAR(motion.position_m.y, 0.1F + 0.2F * way, 0.01F);
+        EXPECT_NEAR(motion.angle_rad, way, 0.03F);
+    } while (++steps < 20000 && motion.position_m.x < 3.79F);
+    EXPECT_GT(steps, 1) << "it would not have been too far";
+    EXPECT_LT(steps, 10000);
+    EXPECT_NEAR(motion.position_m.x, to.x, 0.01F);
+}
+
 TEST(LedBodyCalls, AreRefusedWhenTheyMakeNoSense) {
     TestWorld<float> world{pool_def(24, 20)};
     BodyId fixed;
@@ -228,7 +256,8 @@ TEST(LedBodyCalls, AreRefusedWhenTheyMakeNoSense) {
     EXPECT_EQ(world->move_body(moving, {NAN, 0}, 0, kDt), Status::motion_not_finite);
     EXPECT_EQ(world->move_body(moving, to, NAN, kDt), Status::motion_not_finite);
     EXPECT_EQ(world->move_body(moving, {1e9F, 0}, 0, kDt), Status::position_out_of_range);
-    EXPECT_EQ(world->move_body(moving, {1.0F, 0}, 0, 1e-20F), Status::motion_out_of_range);
+    EXPECT_EQ(world->move_body(moving, {1.0F, 0}, 0, 1e-44F), Status::motion_not_finite);
+    EXPECT_EQ(world->move_body(moving, to, 2e4F, kDt), Status::motion_out_of_range);
     EXPECT_EQ(world->state_hash(), before);
     StepReport report;
     expect_ok(world->begin_step(kDt, &report));

@@ -68,7 +68,8 @@ public:
     /// unless it is led on. A free body moves as told through that step, and keeps its velocity
     /// after it: a caller that holds one, or has found that something the world does not know
     /// stopped it, leads it before each step in which it is not free.
-    /// Refuses what is faster than a body can be (`Status::motion_out_of_range`).
+    /// What is further than a body can go in dt_s (`kMaxSpeed`, in fixed point `kMaxSpeedFixed` and
+    /// `kMaxSpeedSmallFixed`) it goes as far as it can: lead it on, or ask `motion` where it is.
     Status move_body(BodyId id, Vec2f position_m, float angle_rad, float dt_s);
     /// Where a body is now, after the steps that were taken.
     Status motion(BodyId id, Motion* motion) const;
