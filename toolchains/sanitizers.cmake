@@ -2,5 +2,5 @@
 # an error. float-cast-overflow is not part of "undefined", and is what an unclamped conversion to
 # fixed point would do.
 include(${CMAKE_CURRENT_LIST_DIR}/gcc.cmake)
-string(JOIN " " CMAKE_CXX_FLAGS_INIT -g -fno-omit-frame-pointer
+string(JOIN " " CMAKE_CXX_FLAGS_INIT -g1 -fno-omit-frame-pointer
   -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all)
