@@ -48,7 +48,8 @@ struct Capacity {
     /// of their length and 6 for each edge. 0: none, and polygons that thin are not tight.
     std::int32_t wall_edges = 0;
     std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
-    /// Room and time for what liquid does to bodies and tank: `World::force`, `add_free_body`.
+    /// Room and time for what liquid does to bodies and tank: `World::force`, `add_free_body`
+    /// (in SmallFixed forces alone: there are no free bodies).
     bool two_way = false;
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
     /// Room for `World::let_regions_sleep`: 8 bytes a cell (double: 16, SmallFixed: 5). Not with
