@@ -1,43 +1,8 @@
-#include "solid/body_coupling.hpp"
-
-#include "solid/obstacles.hpp"
+#include "solid/body_levers.hpp"
 
 namespace weir {
 
 namespace {
-
-template <class Real>
-Face<Real> flow(const Impulse<Real>& reach, const Twist<Real>& twist) {
-    return dot(reach.linear, twist.velocity) + reach.angular * twist.spin;
-}
-
-/// Of a body's closed faces on one cell: what the body's twist pushes into the cell. The bodies of
-/// a cell's four faces may be four.
-template <class Real>
-struct Lever {
-    std::uint16_t slot = kNoBody;
-    Impulse<Real> reach;  ///< flow = reach · twist
-};
-
-template <class Real>
-struct Levers {
-    Lever<Real> lever[6];
-    std::int32_t count = 0;
-    Face<Real> before = Face<Real>(0);  ///< what goes into films, as bodies are before the pressure
-
-    Impulse<Real>* of(std::uint16_t slot) {
-        std::int32_t k = 0;
-        while (k < count && lever[k].slot != slot) {
-            ++k;
-        }
-        if (k == 6) {
-            return nullptr;
-        }
-        count = maximum(count, k + 1);
-        lever[k].slot = slot;
-        return &lever[k].reach;
-    }
-};
 
 template <class Real>
 void add_film(const CoupledSolve<Real>& solve, const Meeting<Real>& meeting,
@@ -103,56 +68,130 @@ void for_each_cell(const CoupledSolve<Real>& solve, Visit visit) {
     });
 }
 
-/// What the pressure that there is makes of the bodies, and where they are stopped.
+/// pressure_impulse, by the cells of one rectangle that are kept; the cursor goes past them.
 template <class Real>
-void answer_pressure(const CoupledSolve<Real>& solve, std::uint16_t slot) {
-    BodyLoad<Real>& load = solve.walls.load[slot];
-    Impulse<Real> pressed = pressure_impulse(solve.shape, solve.walls, slot, solve.cells);
-    pressed.add(film_impulse(solve.obstacles, solve.cells, slot));
-    load.change = answer_stopped(load, pressed);
+Impulse<Real> kept_impulse(const CoupledSolve<Real>& solve, std::uint16_t slot,
+                           const LeverCell<Real>*& cursor, const LeverCell<Real>* end) {
+    const Vec2<Face<Real>> centre = solve.walls.load[slot].at;
+    Impulse<Real> impulse;
+    for (; cursor != end && cursor->slot == slot; cursor = cursor->next()) {
+        const LeverCell<Real>& kept = *cursor;
+        const Real pressure = solve.pressure[solve.shape.index(kept.i, kept.j)];
+        for_each_closed_face(
+            solve.shape, solve.walls, kept.i, kept.j,
+            [&](const ClosedFace<Real>& face) {
+                impulse.add(convert<Face<Real>>(pressure * face.outward),
+                            convert<Face<Real>>(face.centre) - centre);
+            },
+            kept.marks);
+        if ((kept.marks & LeverCell<Real>::kLifted) != 0) {
+            impulse.add(kept.lift);
+        }
+    }
+    return impulse;
+}
+
+/// What the pressure that there is makes of the bodies, and where they are stopped. Calls
+/// before(load) and after(load) for each.
+template <class Real, class Before, class After>
+void answer_pressure(const CoupledSolve<Real>& solve, Before before, After after) {
+    const KeptLevers<Real> kept(solve.obstacles.bodies);
+    const LeverCell<Real>* cursor = kept.begin();
+    for_each_box(solve, [&](std::uint16_t slot, const NodeBox&) {
+        BodyLoad<Real>& load = solve.walls.load[slot];
+        before(load);
+        Impulse<Real> pressed =
+            kept.are_kept() ? kept_impulse(solve, slot, cursor, kept.end())
+                            : pressure_impulse(solve.shape, solve.walls, slot, solve.cells);
+        pressed.add(film_impulse(solve.obstacles, solve.cells, slot));
+        load.change = answer_stopped(load, pressed);
+        after(load);
+    });
 }
 template <class Real>
 void answer_pressure(const CoupledSolve<Real>& solve) {
-    for_each_box(solve,
-                 [&](std::uint16_t slot, const NodeBox&) { answer_pressure(solve, slot); });
+    const auto nothing = [](const BodyLoad<Real>&) {};
+    answer_pressure(solve, nothing, nothing);
 }
 
 /// What the bodies push into a cell, as the pressure has changed their velocities.
 template <class Real>
-Face<Real> pushed_into(const CoupledSolve<Real>& solve, const Levers<Real>& levers) {
-    Face<Real> sum = levers.before;
-    for (std::int32_t k = 0; k < levers.count; ++k) {
-        sum += flow(levers.lever[k].reach, solve.walls.load[levers.lever[k].slot].change);
+Face<Real> pushed_into(const CoupledSolve<Real>& solve, const Lever<Real>* lever,
+                       std::int32_t count, Face<Real> sum) {
+    for (std::int32_t k = 0; k < count; ++k) {
+        sum += flow(lever[k].reach, solve.walls.load[lever[k].slot].change);
     }
     return sum;
 }
 
-/// Adds what the bodies push into their cells to the divergence there. The diagonal serves as a
-/// mark for cells that were met.
-template <class Real>
-void add_flow(const CoupledSolve<Real>& solve, Face<Real> sign) {
+/// Calls visit(box's slot, i, j, cell, levers, whether it was met before) for the cells on which
+/// free bodies press. The diagonal serves as a mark for cells that were met.
+template <class Real, class Visit>
+void for_each_pressed(const CoupledSolve<Real>& solve, Visit visit) {
     for_each_cell(solve, [&](std::int32_t, std::int32_t, std::int32_t c) {
         solve.diagonal[c] = Real(0);
     });
-    for_each_cell(solve, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        if (solve.diagonal[c] == Real(0) &&
-            is_pressed(solve, c)) {
-            const Levers<Real> levers = levers_of(solve, i, j);
-            solve.divergence[c] += static_cast<Real>(sign * pushed_into(solve, levers));
-            solve.diagonal[c] = Real(1);
+    for_each_box(solve, [&](std::uint16_t slot, const NodeBox& box) {
+        for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+            for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+                const std::int32_t c = solve.shape.index(i, j);
+                if (is_pressed(solve, c)) {
+                    const Levers<Real> levers = levers_of(solve, i, j);
+                    visit(slot, i, j, c, levers, solve.diagonal[c] != Real(0));
+                    solve.diagonal[c] = Real(1);
+                }
+            }
         }
     });
+}
+
+/// Adds what the bodies push into their cells to the divergence there.
+template <class Real>
+void add_flow(const CoupledSolve<Real>& solve, Face<Real> sign) {
+    const auto add = [&](std::int32_t c, const Lever<Real>* lever, std::int32_t count,
+                         Face<Real> before) {
+        solve.divergence[c] +=
+            static_cast<Real>(sign * pushed_into(solve, lever, count, before));
+    };
+    const KeptLevers<Real> kept(solve.obstacles.bodies);
+    if (!kept.are_kept()) {
+        for_each_pressed(solve, [&](std::uint16_t, std::int32_t, std::int32_t, std::int32_t c,
+                                    const Levers<Real>& levers, bool again) {
+            if (!again && levers.count > 0) {
+                add(c, levers.lever, levers.count, levers.before);
+            }
+        });
+        return;
+    }
+    for (const LeverCell<Real>* at = kept.begin(); at != kept.end(); at = at->next()) {
+        if ((at->marks & LeverCell<Real>::kAgain) == 0) {
+            add(solve.shape.index(at->i, at->j), at->levers(), at->count, at->before);
+        }
+    }
+}
+
+/// The diagonal of a cell, with what its bodies yield.
+template <class Real>
+Face<Real> yielding_diagonal(const CoupledSolve<Real>& solve, std::int32_t c,
+                             const Lever<Real>* lever, std::int32_t count) {
+    Face<Real> diagonal = static_cast<Face<Real>>(solve.diagonal[c]);
+    for (std::int32_t k = 0; k < count; ++k) {
+        const BodyLoad<Real>& load = solve.walls.load[lever[k].slot];
+        diagonal += flow(lever[k].reach, answer(load, lever[k].reach));
+    }
+    return diagonal;
 }
 
 /// One cell: its pressure, and at once the velocity of the bodies that feel it. The system with
 /// the bodies' velocities eliminated, A + JᵀM⁻¹J, is symmetric and positive, and this is its
 /// over-relaxation, cell by cell: it converges however light they are.
 template <class Real>
-void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std::int32_t j) {
+void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t c,
+                const Lever<Real>* lever, std::int32_t count, Face<Real> into,
+                Face<Real> diagonal) {
     using Number = Face<Real>;
     const GridShape& s = solve.shape;
     const Walls<Real>& walls = solve.walls;
-    const std::int32_t c = s.index(i, j);
     const std::int32_t up = c + s.stride;
     const auto weight = [&](const ShareOf<Real>* open, const VelocityOf<Real>* light,
                             std::int32_t face) -> Real {
@@ -163,26 +202,90 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t i, std
                       weight(walls.open_u, solve.light_u, c + 1) * p[c + 1]) +
                      (weight(walls.open_v, solve.light_v, c) * p[c - s.stride] +
                       weight(walls.open_v, solve.light_v, up) * p[up]);
-    const Levers<Real> levers = levers_of(solve, i, j);
-    Number diagonal = static_cast<Number>(solve.diagonal[c]);
     Number residual = static_cast<Number>(sum - solve.divergence[c]) -
-                      diagonal * static_cast<Number>(p[c]);
-    for (std::int32_t k = 0; k < levers.count; ++k) {
-        const Lever<Real>& lever = levers.lever[k];
-        const BodyLoad<Real>& load = walls.load[lever.slot];
-        diagonal += flow(lever.reach, answer(load, lever.reach));
-    }
-    residual -= pushed_into(solve, levers);
+                      static_cast<Number>(solve.diagonal[c]) * static_cast<Number>(p[c]);
+    residual -= pushed_into(solve, lever, count, into);
     const Number more = static_cast<Number>(omega) * residual / diagonal;
     const Real before = p[c];
     solve.pressure[c] = before + static_cast<Real>(more);
     const Number done = static_cast<Number>(p[c]) - static_cast<Number>(before);
-    for (std::int32_t k = 0; k < levers.count; ++k) {
-        BodyLoad<Real>& load = walls.load[levers.lever[k].slot];
-        const Twist<Real> kick = answer(load, levers.lever[k].reach);
+    for (std::int32_t k = 0; k < count; ++k) {
+        BodyLoad<Real>& load = walls.load[lever[k].slot];
+        const Twist<Real> kick = answer(load, lever[k].reach);
         load.change.velocity = load.change.velocity + done * kick.velocity;
         load.change.spin += done * kick.spin;
     }
+}
+
+/// Which faces of a cell the body closes in whose rectangle it is, and what lifts it there.
+template <class Real>
+void mark_faces(const CoupledSolve<Real>& solve, LeverCell<Real>& kept) {
+    const GridShape& s = solve.shape;
+    Vec2<Real> closed;
+    std::uint32_t bits = 0;
+    for_each_closed_face(s, solve.walls, kept.i, kept.j, [&](const ClosedFace<Real>& face) {
+        if (face.slot == kept.slot) {
+            closed = closed + face.outward;
+            bits |= face.bit;
+        }
+    });
+    if (closed.x != Real(0) || closed.y != Real(0)) {
+        bits |= LeverCell<Real>::kLifted;
+        kept.lift = contour_impulse(s, solve.walls, kept.i, kept.j, closed,
+                                    solve.cells.gravity_dt, solve.walls.load[kept.slot].at);
+    }
+    kept.marks = static_cast<std::uint8_t>(kept.marks | bits);
+}
+
+/// For the solve that follows, if there is room.
+template <class Real>
+void keep_levers(const CoupledSolve<Real>& solve) {
+    if constexpr (WEIR_PARALLEL == 0) {
+        return;
+    }
+    const KeptLevers<Real> kept(solve.obstacles.bodies);
+    const std::byte* const room_end = reinterpret_cast<std::byte*>(kept.first) + kept.room;
+    LeverCell<Real>* at = kept.first;
+    bool fits = true;
+    for_each_pressed(solve, [&](std::uint16_t slot, std::int32_t i, std::int32_t j,
+                                std::int32_t c, const Levers<Real>& levers, bool again) {
+        const auto left = room_end - reinterpret_cast<const std::byte*>(at);
+        fits = fits && left >= static_cast<std::ptrdiff_t>(sizeof *at + sizeof levers.lever);
+        if (!fits || levers.count == 0) {
+            return;
+        }
+        *at = {i, j, slot, static_cast<std::uint8_t>(levers.count), 0, levers.before,
+               Face<Real>(0), Impulse<Real>{}};
+        at->marks = again ? LeverCell<Real>::kAgain : std::uint8_t{0};
+        if (solve.cells.level[c] > Real(0)) {
+            mark_faces(solve, *at);
+        }
+        Lever<Real>* lever = reinterpret_cast<Lever<Real>*>(at + 1);
+        for (std::int32_t k = 0; k < levers.count; ++k) {
+            lever[k] = levers.lever[k];
+        }
+        at = at->next();
+    });
+    *kept.bytes = fits ? static_cast<std::int32_t>(reinterpret_cast<std::byte*>(at) -
+                                                   reinterpret_cast<std::byte*>(kept.first))
+                       : -1;
+}
+
+/// Where levers are not kept.
+template <class Real>
+void relax_unkept(const CoupledSolve<Real>& solve, Real omega, std::int32_t colour) {
+    for_each_box(solve, [&](std::uint16_t, const NodeBox& box) {
+        for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+            for (std::int32_t i = box.i0 + ((box.i0 + j + colour) & 1); i <= box.i1; i += 2) {
+                const std::int32_t c = solve.shape.index(i, j);
+                if (solve.diagonal[c] != Real(0)) {
+                    const Levers<Real> levers = levers_of(solve, i, j);
+                    relax_cell(solve, omega, c, levers.lever, levers.count, levers.before,
+                               yielding_diagonal(solve, c, levers.lever, levers.count));
+                }
+            }
+        }
+    });
 }
 
 }  // namespace
@@ -194,14 +297,28 @@ void set_aside(const CoupledSolve<Real>& solve) {
     for_each_cell(solve, [&](std::int32_t, std::int32_t, std::int32_t c) {
         solve.diagonal[c] = Real(0);
     });
-    for_each_cell(solve, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        if (is_pressed(solve, c) &&
-            solve.inverse_diagonal[c] != Real(0) &&
-            levers_of(solve, i, j).count > 0) {
+    const auto take = [&](std::int32_t c) {
+        if (solve.inverse_diagonal[c] != Real(0)) {
             solve.diagonal[c] = Real(1) / absolute(solve.inverse_diagonal[c]);
             solve.inverse_diagonal[c] = Real(0);
         }
-    });
+    };
+    const KeptLevers<Real> kept(solve.obstacles.bodies);
+    if (kept.are_kept()) {
+        for (LeverCell<Real>* at = kept.begin(); at != kept.end(); at = at->next()) {
+            const std::int32_t c = solve.shape.index(at->i, at->j);
+            take(c);
+            at->diagonal = solve.diagonal[c] != Real(0)
+                               ? yielding_diagonal(solve, c, at->levers(), at->count)
+                               : Face<Real>(0);
+        }
+    } else {
+        for_each_cell(solve, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+            if (is_pressed(solve, c) && levers_of(solve, i, j).count > 0) {
+                take(c);
+            }
+        });
+    }
     answer_pressure(solve);
 }
 
@@ -217,6 +334,7 @@ void end_coupling(const CoupledSolve<Real>& solve) {
 
 template <class Real>
 void begin_coupling(const CoupledSolve<Real>& solve) {
+    keep_levers(solve);
     answer_pressure(solve);
     stop(solve.obstacles, kRoundsBefore);
     add_flow(solve, Face<Real>(1));
@@ -226,28 +344,30 @@ template <class Real>
 Face<Real> yielding(const CoupledSolve<Real>& solve) {
     add_flow(solve, Face<Real>(-1));
     Face<Real> work = Face<Real>(0);
-    for_each_box(solve, [&](std::uint16_t slot, const NodeBox&) {
-        BodyLoad<Real>& load = solve.walls.load[slot];
-        const Twist<Real> before = load.change;
-        answer_pressure(solve, slot);
-        const Wide<Real> velocity = load.change.velocity - before.velocity;
-        const Face<Real> spin = load.change.spin - before.spin;
-        work += load.mass * dot(velocity, velocity) + load.inertia * (spin * spin);
-    });
+    Twist<Real> before;
+    answer_pressure(
+        solve, [&](const BodyLoad<Real>& load) { before = load.change; },
+        [&](const BodyLoad<Real>& load) {
+            const Wide<Real> velocity = load.change.velocity - before.velocity;
+            const Face<Real> spin = load.change.spin - before.spin;
+            work += load.mass * dot(velocity, velocity) + load.inertia * (spin * spin);
+        });
     return work;
 }
 
 template <class Real>
 void relax_coupled(const CoupledSolve<Real>& solve, Real omega, std::int32_t colour) {
-    for_each_box(solve, [&](std::uint16_t, const NodeBox& box) {
-        for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-            for (std::int32_t i = box.i0 + ((box.i0 + j + colour) & 1); i <= box.i1; i += 2) {
-                if (solve.diagonal[solve.shape.index(i, j)] != Real(0)) {
-                    relax_cell(solve, omega, i, j);
-                }
+    const KeptLevers<Real> kept(solve.obstacles.bodies);
+    if (kept.are_kept()) {
+        for (const LeverCell<Real>* at = kept.begin(); at != kept.end(); at = at->next()) {
+            if (at->diagonal != Face<Real>(0) && ((at->i + at->j + colour) & 1) == 0) {
+                relax_cell(solve, omega, solve.shape.index(at->i, at->j), at->levers(), at->count,
+                           at->before, at->diagonal);
             }
         }
-    });
+    } else {
+        relax_unkept(solve, omega, colour);
+    }
     stop(solve.obstacles, kRoundsBetween);
 }
 

@@ -42,6 +42,19 @@ void locate_bodies(BodyTable<Real>& table) {
 }
 
 template <class Real>
+Impulse<Real> contour_impulse(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
+                              std::int32_t j, Vec2<Real> closed, Vec2<Real> gravity_dt,
+                              Vec2<Face<Real>> centre) {
+    const Vec2<Real> middle = middle_of_contour(shape, walls, shape.index(i, j));
+    const Vec2<Real> half{Real(0.5), Real(0.5)};
+    const Real more = dot(gravity_dt, middle - half);
+    Impulse<Real> impulse;
+    impulse.add(convert<Face<Real>>(more * closed),
+                convert<Face<Real>>(at_corner<Real>(i, j) + middle) - centre);
+    return impulse;
+}
+
+template <class Real>
 Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
                                std::uint16_t slot, const PressedCells<Real>& cells) {
     const Vec2<Face<Real>> centre = walls.load[slot].at;
@@ -64,11 +77,7 @@ Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
             if (closed.x == Real(0) && closed.y == Real(0)) {
                 continue;
             }
-            const Vec2<Real> middle = middle_of_contour(shape, walls, c);
-            const Vec2<Real> half{Real(0.5), Real(0.5)};
-            const Real more = dot(cells.gravity_dt, middle - half);
-            impulse.add(convert<Face<Real>>(more * closed),
-                        convert<Face<Real>>(at_corner<Real>(i, j) + middle) - centre);
+            impulse.add(contour_impulse(shape, walls, i, j, closed, cells.gravity_dt, centre));
         }
     }
     return impulse;
@@ -102,6 +111,9 @@ void forget_impulses(BodyTable<Real>& table) {
 
 #define WEIR_INSTANTIATE(Real)                                                         \
     template void locate_bodies(BodyTable<Real>&);                                     \
+    template Impulse<Real> contour_impulse(const GridShape&, const Walls<Real>&,       \
+                                           std::int32_t, std::int32_t, Vec2<Real>,     \
+                                           Vec2<Real>, Vec2<Face<Real>>);              \
     template Impulse<Real> pressure_impulse(const GridShape&, const Walls<Real>&,      \
                                             std::uint16_t, const PressedCells<Real>&); \
     template void press_on_bodies(const GridShape&, Walls<Real>&, BodyTable<Real>&,    \

@@ -26,34 +26,45 @@ struct ClosedFace {
     Vec2<Real> outward;     ///< length: how much of the face is closed
     Vec2<Real> centre;      ///< of the face
     std::uint16_t slot = kNoBody;
+    std::uint8_t bit = 0;           ///< 1, 2, 4, 8: left, right, lower, upper
 };
 
 /// Calls visit(ClosedFace) for the faces of the cell (i, j) that solids close in part. They are
 /// those through which wall_flow pushes: the same numbers, so that what the pressure does to a
 /// body is the transpose of what the body does to the pressure.
+/// @param among bits of the faces that are asked for.
 template <class Real, class Visit>
 inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, std::int32_t i,
-                                 std::int32_t j, Visit visit) {
+                                 std::int32_t j, Visit visit, std::uint32_t among = 15) {
     const std::int32_t node = s.index(i, j);
     const std::int32_t up = node + s.stride;
     const Real x = static_cast<Real>(i);
     const Real y = static_cast<Real>(j);
     constexpr Real kHalf = Real(0.5);
     const auto look = [&](Real open, Vec2<Real> outward, Vec2<Real> centre, std::int32_t a,
-                          std::int32_t b) {
-        if (open < Real(1)) {
-            visit(ClosedFace<Real>{(Real(1) - open) * outward, centre, nearest_body(walls, a, b)});
+                          std::int32_t b, std::uint8_t bit) {
+        if ((among & bit) != 0 && open < Real(1)) {
+            visit(ClosedFace<Real>{(Real(1) - open) * outward, centre, nearest_body(walls, a, b),
+                                   bit});
         }
     };
-    look(walls.open_u[node], {Real(-1), Real(0)}, {x, y + kHalf}, node, up);
-    look(walls.open_u[node + 1], {Real(1), Real(0)}, {x + Real(1), y + kHalf}, node + 1, up + 1);
-    look(walls.open_v[node], {Real(0), Real(-1)}, {x + kHalf, y}, node, node + 1);
-    look(walls.open_v[up], {Real(0), Real(1)}, {x + kHalf, y + Real(1)}, up, up + 1);
+    look(walls.open_u[node], {Real(-1), Real(0)}, {x, y + kHalf}, node, up, 1);
+    look(walls.open_u[node + 1], {Real(1), Real(0)}, {x + Real(1), y + kHalf}, node + 1, up + 1,
+         2);
+    look(walls.open_v[node], {Real(0), Real(-1)}, {x + kHalf, y}, node, node + 1, 4);
+    look(walls.open_v[up], {Real(0), Real(1)}, {x + kHalf, y + Real(1)}, up, up + 1, 8);
 }
 
 /// Finds the centres of mass, once the bodies have moved.
 template <class Real>
 void locate_bodies(BodyTable<Real>& table);
+
+/// Of the pressure's way from a cell's centre to the contour that a body closes there.
+/// @param closed sum of the faces that it closes.
+template <class Real>
+Impulse<Real> contour_impulse(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
+                              std::int32_t j, Vec2<Real> closed, Vec2<Real> gravity_dt,
+                              Vec2<Face<Real>> centre);
 
 /// Impulse of the pressure on a body within the last substep, about its centre of mass: cell
 /// pressure × closed parts of the faces, and the pressure's way from the cell's centre to the

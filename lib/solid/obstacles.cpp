@@ -73,7 +73,8 @@ public:
     /// Under faces that lie on something. Between free bodies there is none: those that come and go
     /// pumped liquid together there (ten crates of 0.9 in a pool lost a quarter of its volume).
     void lay_films() const {
-        *list_.films = 0;
+        std::int32_t* link = list_.first_film;
+        *link = -1;
         list_.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
             const std::uint16_t other = meeting[0].other;
             if (other != kNoBody && is_free_body(table_, other)) {
@@ -83,7 +84,7 @@ public:
             const Number size = length(way);
             if (meeting[0].gap < kNear<Real> && meeting[count - 1].gap < kNear<Real> &&
                 size > Number(0)) {
-                lay_film((Number(1) / size) * way, size, meeting);
+                lay_film((Number(1) / size) * way, size, meeting, link);
             }
         });
     }
@@ -171,7 +172,7 @@ private:
     void enter(std::int32_t slot, std::uint16_t other, Wide<Real> at, Wide<Real> normal,
                Number gap) {
         const auto own = static_cast<std::uint16_t>(slot);
-        Meeting<Real> meeting{at, normal, gap, Number(0), Number(0), Number(0), own, other};
+        Meeting<Real> meeting{at, normal, gap, Number(0), Number(0), Number(0), own, other, -1};
         const Wide<Real> its = unpressed_at(table_, other, at);
         const bool free = other != kNoBody && table_.load[other].is_free();
         meeting.gap += free ? Number(0) : obstacles_.led_dt * dot(normal, its);
@@ -200,7 +201,8 @@ private:
     }
 
     /// To both ends of a face its half of the film, or all to the one that is open.
-    void lay_film(Wide<Real> way, Number size, Meeting<Real>* meeting) const {
+    void lay_film(Wide<Real> way, Number size, Meeting<Real>* meeting,
+                  std::int32_t*& link) const {
         constexpr Number kBeside = Number(0.3);
         const Wide<Real> out[2] = {Number(-1) * way, way};
         std::int32_t cell[2];
@@ -214,7 +216,8 @@ private:
                 meeting[k].middle = meeting[k].at - (Number(0.5) * meeting[k].film) * out[k];
                 meeting[k].under =
                     open_cell_at(meeting[k].middle + kHair<Real> * meeting[k].normal);
-                ++*list_.films;
+                *link = static_cast<std::int32_t>(meeting + k - list_.entry);
+                link = &meeting[k].next_film;
             }
         }
     }

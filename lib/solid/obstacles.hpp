@@ -24,6 +24,7 @@ struct Meeting {
     Face<Real> rub;           ///< and along the surface
     std::uint16_t slot;
     std::uint16_t other;      ///< kNoBody: the tank
+    std::int32_t next_film = -1;  ///< number of the next one with a film, negative: none
     /// Where a face lies on what is not free there is a film of liquid, which has the pressure of
     /// the cell before its end: how much of the face that is, from this point to the middle.
     Face<Real> film = Face<Real>(0);
@@ -63,8 +64,9 @@ template <class Real>
 struct Meetings {
     Meeting<Real>* entry;
     std::int32_t* used;
-    std::int32_t* films;  ///< how many of them have one
+    std::int32_t* first_film;  ///< number of the first one with a film, negative: none
     Push<Real>* before;  ///< of the last substep; there is room for one more
+    std::byte* levers;   ///< stand behind them (solid/body_levers.hpp)
     std::int32_t room;
 
     explicit Meetings(const BodyTable<Real>& table)
@@ -76,8 +78,9 @@ struct Meetings {
         before = reinterpret_cast<Push<Real>*>(at);
         at += detail::block_bytes(kPushBytes<Real>, pushes);
         used = reinterpret_cast<std::int32_t*>(at);
-        films = used + 1;
+        first_film = used + 1;
         entry = reinterpret_cast<Meeting<Real>*>(at + kMeetingBytes<Real>);
+        levers = at + detail::block_bytes(kMeetingBytes<Real>, pushes);
     }
     static bool of_one_face(const Meeting<Real>& a, const Meeting<Real>& b) {
         return a.slot == b.slot && a.other == b.other && a.normal.x == b.normal.x &&
@@ -104,12 +107,8 @@ struct Meetings {
     /// Calls visit(meeting) for those with a film.
     template <class Visit>
     void for_each_film(Visit visit) const {
-        std::int32_t left = *films;
-        for (const Meeting<Real>* at = begin(); left > 0; ++at) {
-            if (at->film > Face<Real>(0)) {
-                --left;
-                visit(*at);
-            }
+        for (std::int32_t k = *first_film; k >= 0; k = entry[k].next_film) {
+            visit(entry[k]);
         }
     }
     Meeting<Real>* begin() const { return entry; }

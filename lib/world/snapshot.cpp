@@ -140,6 +140,7 @@ bool harmless(Block block, const GridShape& shape, const std::byte* from, std::s
         case Block::vertex_placed:
         case Block::contact:
         case Block::body_meeting:
+        case Block::body_lever:
         case Block::body_diagonal:
         case Block::decomposition_scratch:
         case Block::static_distance:

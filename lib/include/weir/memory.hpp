@@ -49,6 +49,7 @@ enum class Block : std::uint8_t {
     body_load,
     body_push,
     body_meeting,
+    body_lever,  ///< how free bodies push into cells, kept for a pressure solve; on desktops
     body_diagonal,
     static_distance,
     static_body,
@@ -116,6 +117,9 @@ inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 96 : 192;
 inline constexpr std::int32_t kMeetingsPerBody = 6;
 template <class Real>
 inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 64 : 104;
+/// How a body pushes into its cells, where there is room to keep it: for some 60 cells a body.
+template <class Real>
+inline constexpr std::size_t kLeverBytes = sizeof(Real) == 4 ? 4096 : 8192;
 /// What is kept of each until the next substep.
 template <class Real>
 inline constexpr std::size_t kPushBytes = sizeof(Real) == 4 ? 24 : 48;
@@ -264,6 +268,8 @@ constexpr void place_meetings(const Capacity& capacity, Layout& result) {
     const auto elements = static_cast<std::size_t>(room);
     place(Block::body_push, Owner::bodies, Kept::whole, kPushBytes<Real>, elements, result);
     place(Block::body_meeting, Owner::bodies, Kept::nothing, kMeetingBytes<Real>, elements, result);
+    place(Block::body_lever, Owner::bodies, Kept::nothing, kLeverBytes<Real>,
+          static_cast<std::size_t>(WEIR_PARALLEL && free_bodies ? capacity.bodies : 0), result);
 }
 }  // namespace detail
 

@@ -1,0 +1,88 @@
+// How free bodies push into cells: computed once for a pressure solve where there is room for it.
+#pragma once
+
+#include "solid/body_coupling.hpp"
+
+namespace weir {
+
+/// Of a body's closed faces on one cell: what the body's twist pushes into the cell. The bodies of
+/// a cell's four faces may be four.
+template <class Real>
+struct Lever {
+    std::uint16_t slot = kNoBody;
+    Impulse<Real> reach;  ///< flow = reach · twist
+};
+
+template <class Real>
+inline Face<Real> flow(const Impulse<Real>& reach, const Twist<Real>& twist) {
+    return dot(reach.linear, twist.velocity) + reach.angular * twist.spin;
+}
+
+template <class Real>
+struct Levers {
+    Lever<Real> lever[6];
+    std::int32_t count = 0;
+    Face<Real> before = Face<Real>(0);  ///< what goes into films, as bodies are before the pressure
+
+    Impulse<Real>* of(std::uint16_t slot) {
+        std::int32_t k = 0;
+        while (k < count && lever[k].slot != slot) {
+            ++k;
+        }
+        if (k == 6) {
+            return nullptr;
+        }
+        count = maximum(count, k + 1);
+        lever[k].slot = slot;
+        return &lever[k].reach;
+    }
+};
+
+/// A cell of a body's rectangle on which a free body presses; its levers stand behind it.
+template <class Real>
+struct LeverCell {
+    std::int32_t i;
+    std::int32_t j;
+    std::uint16_t slot;   ///< whose rectangle it is
+    std::uint8_t count;   ///< of levers
+    std::uint8_t marks;   ///< bits of that body's closed faces, kLifted, kAgain
+    Face<Real> before;    ///< as in Levers
+    Face<Real> diagonal;  ///< with what bodies yield; 0: not ours to relax
+    Impulse<Real> lift;   ///< of the contour, on the body of that rectangle
+
+    static constexpr std::uint8_t kLifted = 16;
+    static constexpr std::uint8_t kAgain = 32;  ///< another body's rectangle had it before
+
+    const Lever<Real>* levers() const { return reinterpret_cast<const Lever<Real>*>(this + 1); }
+    const LeverCell* next() const { return reinterpret_cast<const LeverCell*>(levers() + count); }
+    LeverCell* next() {
+        return reinterpret_cast<LeverCell*>(reinterpret_cast<Lever<Real>*>(this + 1) + count);
+    }
+};
+
+/// Those of all rectangles, one behind the other, if there is room for them.
+template <class Real>
+struct KeptLevers {
+    LeverCell<Real>* first;
+    std::int32_t* bytes;  ///< that they take; negative: they are not kept
+    std::int32_t room;    ///< in bytes
+
+    explicit KeptLevers(const BodyTable<Real>& table)
+        : bytes(reinterpret_cast<std::int32_t*>(Meetings<Real>(table).levers)),
+          room(WEIR_PARALLEL
+                   ? table.capacity * static_cast<std::int32_t>(kLeverBytes<Real>) - kHead
+                   : 0) {
+        first = reinterpret_cast<LeverCell<Real>*>(Meetings<Real>(table).levers + kHead);
+    }
+    bool are_kept() const { return WEIR_PARALLEL && *bytes >= 0; }
+    LeverCell<Real>* begin() const { return first; }
+    const LeverCell<Real>* end() const {
+        return reinterpret_cast<const LeverCell<Real>*>(reinterpret_cast<std::byte*>(first) +
+                                                        *bytes);
+    }
+
+private:
+    static constexpr std::int32_t kHead = 16;
+};
+
+}  // namespace weir
