@@ -123,7 +123,7 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
 }
 
 /// Whether liquid surrounds an air cell: it covers four fifths of the cell's open faces, three
-/// fifths of those of a cell that a contour crosses. A level just set by this rule is no evidence.
+/// fifths where a wall shifts. A level just set by this rule is no evidence.
 [[gnu::noinline]] inline bool packed_surrounded(const GridShape& s,
                                                 const Borders<SmallFixed>& borders,
                                                 const Walls<SmallFixed>& walls,
@@ -144,7 +144,8 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
     face(i + 1 < s.nx || borders.wrap_x, open_u, c + 1, c + 1);
     face(j > 0 || borders.wrap_y, open_v, c, c - s.stride);
     face(j + 1 < s.ny || borders.wrap_y, open_v, c + s.stride, c + s.stride);
-    return open > 0 && 5 * covered >= (open_u != nullptr && walls.cell_case[c] != 0 ? 3 : 4) * open;
+    return open > 0 && (5 * covered >= 4 * open ||
+                        (5 * covered >= 3 * open && is_shifting(walls, c, c + s.stride)));
 }
 
 /// Most air cells are far from any liquid.

@@ -79,15 +79,17 @@ struct DimpleTask {
     float* level;
     const float* open_u;  ///< null: no solids
     const float* open_v;
-    const std::uint8_t* cell_case;
     std::int32_t stride;
-    float share;         ///< of open faces that liquid must cover
-    float share_of_cut;  ///< the same for a cell that a contour crosses
+    float share;              ///< of open faces that liquid must cover
+    float share_of_shifting;  ///< the same for a cell with a contour that shifts
     float filled;        ///< a level that is no evidence
     bool has_lower;      ///< whether the rows beside it are the tank's
     bool has_upper;
     std::int32_t first;  ///< cells at the tank's walls; beyond a seam it goes on
     std::int32_t last;
+    const Walls<float>& walls;
+    /// Of cells c … those with a contour that shifts, a bit each. Null: no solids.
+    std::uint32_t (*shifting)(const DimpleTask& task, std::int32_t c, std::uint32_t asked);
 };
 
 /// Which cells are air and have a liquid neighbour; `all_around`: nothing else.
@@ -104,9 +106,9 @@ inline auto beside_liquid(const float* level, std::int32_t stride, std::int32_t 
     return (L::load(level + c) <= L::all(0.0F)) & (highest > L::all(0.0F));
 }
 
-/// Which cells liquid surrounds.
+/// Which of the cells asked for liquid surrounds.
 template <class L>
-inline auto surrounded_cells(const DimpleTask& task, std::int32_t c) {
+inline auto surrounded_cells(const DimpleTask& task, std::int32_t c, typename L::Ints asked) {
     using Floats = typename L::Floats;
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
@@ -123,11 +125,16 @@ inline auto surrounded_cells(const DimpleTask& task, std::int32_t c) {
     face(open_behind<L>(c + L::kLanes - 1 == task.last), task.open_u, c + 1, c + 1);
     face(task.has_lower ? one : zero, task.open_v, c, c - task.stride);
     face(task.has_upper ? one : zero, task.open_v, c + task.stride, c + task.stride);
-    Floats share = L::all(task.share);
-    if (task.open_u != nullptr) {
-        share = L::bytes(task.cell_case + c) != 0 ? L::all(task.share_of_cut) : share;
+    const auto some = asked & (open > zero);
+    auto surrounded = some & (covered >= L::all(task.share) * open);
+    if (task.shifting != nullptr) {
+        const auto nearly = some & (covered >= L::all(task.share_of_shifting) * open);
+        const std::uint32_t left = L::bits_of(nearly & ~surrounded);
+        if (left != 0) {
+            surrounded |= L::lanes_of(task.shifting(task, c, left));
+        }
     }
-    return (open > zero) & (covered >= share * open);
+    return surrounded;
 }
 
 /// `fill_dimples` of cells c … as long as enough are left before `end`. Returns the next one to do.
@@ -143,7 +150,7 @@ inline std::int32_t fill_cells(const DimpleTask& task, std::int32_t c, std::int3
         const bool inner = inner_row && c > task.first && c + L::kLanes - 1 < task.last;
         const auto beside = beside_liquid<L>(task.level, task.stride, c, inner);
         if (L::any_true(beside)) {
-            const auto filled = beside & surrounded_cells<L>(task, c);
+            const auto filled = surrounded_cells<L>(task, c, beside);
             L::store(task.level + c, filled ? L::all(task.filled) : level);
         }
     }

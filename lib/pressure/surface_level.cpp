@@ -10,10 +10,11 @@ namespace {
 /// Share of a cell's open faces that liquid must cover for an air cell to be taken as filled.
 template <class Real>
 constexpr Real kFilledShare = Real(0.8);
-/// The same for a cell that a contour crosses: what opens behind a body that draws back is as thin
-/// as a film at first and holds no particle, but is not empty.
+/// The same for a cell with a contour that shifts: what opens behind a body that draws back is as
+/// thin as a film at first and holds no particle, but is not empty. (Where all cells with a contour
+/// were taken so, surfaces that lean against a solid kept streams running.)
 template <class Real>
-constexpr Real kFilledShareOfCut = Real(0.6);
+constexpr Real kFilledShareOfShifting = Real(0.6);
 
 template <class Real>
 constexpr Real kFilledLevel = Real(0.5);
@@ -131,12 +132,25 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
     face(j > 0 || borders.wrap_y, cut ? Real(walls.open_v[c]) : Real(1), c - s.stride);
     face(j + 1 < s.ny || borders.wrap_y, cut ? Real(walls.open_v[c + s.stride]) : Real(1),
          c + s.stride);
-    const Real share =
-        cut && walls.cell_case[c] != 0 ? kFilledShareOfCut<Real> : kFilledShare<Real>;
-    return open > Real(0) && covered >= share * open;
+    return open > Real(0) &&
+           (covered >= kFilledShare<Real> * open ||
+            (covered >= kFilledShareOfShifting<Real> * open &&
+             is_shifting(walls, c, c + s.stride)));
 }
 
 #if WEIR_HAS_LANES
+/// As DimpleTask::shifting.
+inline std::uint32_t shifting_of(const DimpleTask& task, std::int32_t c, std::uint32_t asked) {
+    std::uint32_t found = 0;
+    for (; asked != 0; asked &= asked - 1U) {
+        const std::int32_t k = __builtin_ctz(asked);
+        if (is_shifting(task.walls, c + k, c + k + task.stride)) {
+            found |= 1U << static_cast<std::uint32_t>(k);
+        }
+    }
+    return found;
+}
+
 /// `fill_dimples` of a row, four or eight at a time. Returns the next cell to do.
 inline std::int32_t fill_dimples_in_lanes(const GridShape& s, const Borders<float>& borders,
                                           const Walls<float>& walls, std::int32_t j,
@@ -145,15 +159,16 @@ inline std::int32_t fill_dimples_in_lanes(const GridShape& s, const Borders<floa
     const DimpleTask task{level,
                           walls.active ? walls.open_u : nullptr,
                           walls.open_v,
-                          walls.cell_case,
                           s.stride,
                           kFilledShare<float>,
-                          kFilledShareOfCut<float>,
+                          kFilledShareOfShifting<float>,
                           kFilledLevel<float>,
                           j > 0 || borders.wrap_y,
                           j + 1 < s.ny || borders.wrap_y,
                           borders.wrap_x ? -1 : row,
-                          borders.wrap_x ? kMostWork : row + s.nx - 1};
+                          borders.wrap_x ? kMostWork : row + s.nx - 1,
+                          walls,
+                          walls.active ? shifting_of : nullptr};
     return fill_lanes(task, row + columns.first, row + columns.end) - row;
 }
 #endif

@@ -28,12 +28,19 @@ Vec2f leaning(double tilt) {
     return {static_cast<float>(9.81 * std::sin(tilt)), static_cast<float>(-9.81 * std::cos(tilt))};
 }
 
-/// Mean way a particle goes in a second, over what √(gh) would take it, after 2,000 steps.
+/// Mean way a particle goes in a second, over what √(gh) would take it, after 2,000 steps. `stone`:
+/// where a square of 3 cells stands, in cells; none at the origin.
 template <class Real>
-double restless(double tilt) {
-    const WorldDef def = half_full(0.005F);
+double restless(double tilt, std::int32_t cells_along = kSide, Vec2f stone = {}) {
+    const WorldDef def = half_full(0.005F, cells_along);
     TestWorld<Real> world(def);
-    const float side = def.cell_m * kSide;
+    const float side = def.cell_m * static_cast<float>(cells_along);
+    if (stone.x > 0.0F) {
+        const Ring square = rectangle(3.0F * def.cell_m, 3.0F * def.cell_m);
+        BodyId ignored;
+        expect_ok(world->add_static_body(
+            body_of(square, {stone.x * def.cell_m, stone.y * def.cell_m}), &ignored));
+    }
     expect_ok(world->fill({{0.0F, 0.0F}, {side, side / 2}}));
     expect_ok(world->set_gravity(leaning(tilt)));
     for (int step = 0; step < 2000; ++step) {
@@ -48,7 +55,7 @@ double restless(double tilt) {
     }
     const double cells = sum / (50 * world->particle_velocities().size);
     const double cell_m = static_cast<double>(def.cell_m);
-    return cells / std::sqrt(9.81 * kSide / 2 / cell_m);
+    return cells / std::sqrt(9.81 * cells_along / 2 / cell_m);
 }
 
 template <class Real>
@@ -72,6 +79,16 @@ template <class Real>
 class LongRunOf : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
 TYPED_TEST_SUITE(LongRunOf, Scalars, );
+
+/// A stream went on for ever along a surface that leaned against a solid, 1.1 to 1.7 %, as long as
+/// any air cell with a contour was soon taken as filled.
+TYPED_TEST(LongRunOf, LiquidThatLeansAgainstASolidComesToRest) {
+    constexpr double kPi = 3.14159265358979;
+    EXPECT_LT(restless<TypeParam>(kPi / 6.0, 18, {5.0F, 9.0F}), 0.008);
+    EXPECT_LT(restless<TypeParam>(kPi / 1.2, 18, {5.0F, 9.0F}), 0.008);
+    EXPECT_LT(restless<TypeParam>(kPi / 3.0, 18, {9.0F, 13.0F}), 0.008);
+    EXPECT_LT(restless<TypeParam>(kPi / 0.6, 18, {9.0F, 13.0F}), 0.008);
+}
 
 template <class Real>
 std::int32_t places(const World<Real>& world) {
