@@ -255,7 +255,7 @@ void keep_levers(const CoupledSolve<Real>& solve) {
             return;
         }
         *at = {i, j, slot, static_cast<std::uint8_t>(levers.count), 0, levers.before,
-               Face<Real>(0), Impulse<Real>{}};
+               Face<Real>(0), Impulse<Real>{}, -1};
         at->marks = again ? LeverCell<Real>::kAgain : std::uint8_t{0};
         if (solve.cells.level[c] > Real(0)) {
             mark_faces(solve, *at);
@@ -266,9 +266,7 @@ void keep_levers(const CoupledSolve<Real>& solve) {
         }
         at = at->next();
     });
-    *kept.bytes = fits ? static_cast<std::int32_t>(reinterpret_cast<std::byte*>(at) -
-                                                   reinterpret_cast<std::byte*>(kept.first))
-                       : -1;
+    *kept.bytes = fits ? kept.place_of(at) : -1;
 }
 
 /// Where levers are not kept.
@@ -305,13 +303,18 @@ void set_aside(const CoupledSolve<Real>& solve) {
     };
     const KeptLevers<Real> kept(solve.obstacles.bodies);
     if (kept.are_kept()) {
+        std::int32_t* link[2] = {kept.chain, kept.chain + 1};
         for (LeverCell<Real>* at = kept.begin(); at != kept.end(); at = at->next()) {
             const std::int32_t c = solve.shape.index(at->i, at->j);
             take(c);
-            at->diagonal = solve.diagonal[c] != Real(0)
-                               ? yielding_diagonal(solve, c, at->levers(), at->count)
-                               : Face<Real>(0);
+            if (solve.diagonal[c] != Real(0)) {
+                at->diagonal = yielding_diagonal(solve, c, at->levers(), at->count);
+                std::int32_t*& last = link[(at->i + at->j) & 1];
+                *last = kept.place_of(at);
+                last = &at->chained;
+            }
         }
+        *link[0] = *link[1] = -1;
     } else {
         for_each_cell(solve, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
             if (is_pressed(solve, c) && levers_of(solve, i, j).count > 0) {
@@ -359,11 +362,11 @@ template <class Real>
 void relax_coupled(const CoupledSolve<Real>& solve, Real omega, std::int32_t colour) {
     const KeptLevers<Real> kept(solve.obstacles.bodies);
     if (kept.are_kept()) {
-        for (const LeverCell<Real>* at = kept.begin(); at != kept.end(); at = at->next()) {
-            if (at->diagonal != Face<Real>(0) && ((at->i + at->j + colour) & 1) == 0) {
-                relax_cell(solve, omega, solve.shape.index(at->i, at->j), at->levers(), at->count,
-                           at->before, at->diagonal);
-            }
+        for (std::int32_t place = kept.chain[colour & 1]; place >= 0;) {
+            const LeverCell<Real>& cell = *kept.at(place);
+            place = cell.chained;
+            relax_cell(solve, omega, solve.shape.index(cell.i, cell.j), cell.levers(), cell.count,
+                       cell.before, cell.diagonal);
         }
     } else {
         relax_unkept(solve, omega, colour);

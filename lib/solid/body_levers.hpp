@@ -47,8 +47,9 @@ struct LeverCell {
     std::uint8_t count;   ///< of levers
     std::uint8_t marks;   ///< bits of that body's closed faces, kLifted, kAgain
     Face<Real> before;    ///< as in Levers
-    Face<Real> diagonal;  ///< with what bodies yield; 0: not ours to relax
+    Face<Real> diagonal;  ///< with what bodies yield, if it is ours to relax
     Impulse<Real> lift;   ///< of the contour, on the body of that rectangle
+    std::int32_t chained;  ///< where the next one stands that is relaxed in the same half sweep
 
     static constexpr std::uint8_t kLifted = 16;
     static constexpr std::uint8_t kAgain = 32;  ///< another body's rectangle had it before
@@ -65,21 +66,27 @@ template <class Real>
 struct KeptLevers {
     LeverCell<Real>* first;
     std::int32_t* bytes;  ///< that they take; negative: they are not kept
+    std::int32_t* chain;  ///< for both colours: where the first one stands that is relaxed, or -1
     std::int32_t room;    ///< in bytes
 
     explicit KeptLevers(const BodyTable<Real>& table)
         : bytes(reinterpret_cast<std::int32_t*>(Meetings<Real>(table).levers)),
+          chain(bytes + 1),
           room(WEIR_PARALLEL
                    ? table.capacity * static_cast<std::int32_t>(kLeverBytes<Real>) - kHead
                    : 0) {
         first = reinterpret_cast<LeverCell<Real>*>(Meetings<Real>(table).levers + kHead);
     }
+    LeverCell<Real>* at(std::int32_t place) const {
+        return reinterpret_cast<LeverCell<Real>*>(reinterpret_cast<std::byte*>(first) + place);
+    }
+    std::int32_t place_of(const LeverCell<Real>* cell) const {
+        return static_cast<std::int32_t>(reinterpret_cast<const std::byte*>(cell) -
+                                         reinterpret_cast<const std::byte*>(first));
+    }
     bool are_kept() const { return WEIR_PARALLEL && *bytes >= 0; }
     LeverCell<Real>* begin() const { return first; }
-    const LeverCell<Real>* end() const {
-        return reinterpret_cast<const LeverCell<Real>*>(reinterpret_cast<std::byte*>(first) +
-                                                        *bytes);
-    }
+    const LeverCell<Real>* end() const { return at(*bytes); }
 
 private:
     static constexpr std::int32_t kHead = 16;

@@ -42,12 +42,6 @@ struct Side {
     BodyLoad<Real>* load = nullptr;  ///< null: it does as told
     Impulse<Real> unit;
 
-    Side(const BodyTable<Real>& table, std::uint16_t slot, Wide<Real> at, Wide<Real> along) {
-        if (slot != kNoBody && is_free_body(table, slot)) {
-            load = table.load + slot;
-            unit.add(along, at - load->at);
-        }
-    }
     Face<Real> yielding() const {
         return load == nullptr ? Face<Real>(0) : speed_of(answer(*load, unit));
     }
@@ -64,15 +58,13 @@ struct Way {
     Face<Real> yielding;
     Face<Real> told = Face<Real>(0);  ///< speed of the other one if it does as told
 
-    Way(const BodyTable<Real>& table, const Meeting<Real>& meeting, Wide<Real> along)
-        : own(table, meeting.slot, meeting.at, along),
-          other(table, meeting.other, meeting.at, along),
-          yielding(own.yielding() + other.yielding()) {
-        if (meeting.other != kNoBody && other.load == nullptr) {
-            const Vec2<Real> at = convert<Real>(meeting.at);
-            told = dot(along, convert<Face<Real>>(velocity_at(table.body[meeting.other], at)));
-        }
-    }
+    Way(const BodyTable<Real>& table, const Meeting<Real>& meeting, Wide<Real> along,
+        const HeldWay<Real>& held)
+        : own{table.load + meeting.slot, {along, held.own}},
+          other{meeting.other_is_free ? table.load + meeting.other : nullptr,
+                {along, held.other}},
+          yielding(held.yielding),
+          told(held.told) {}
 
     Face<Real> changed() const {
         const Face<Real> its =
@@ -104,6 +96,31 @@ private:
         add(side.load->stopped);
     }
 };
+
+template <class Real>
+Way<Real> ahead(const BodyTable<Real>& table, const Meeting<Real>& meeting) {
+    return {table, meeting, meeting.normal, meeting.ahead};
+}
+template <class Real>
+Way<Real> aside(const BodyTable<Real>& table, const Meeting<Real>& meeting) {
+    return {table, meeting, meeting.side(), meeting.aside};
+}
+
+template <class Real>
+HeldWay<Real> held_way(const BodyTable<Real>& table, const Meeting<Real>& meeting,
+                       Wide<Real> along) {
+    HeldWay<Real> held{};
+    held.own = cross(meeting.at - table.load[meeting.slot].at, along);
+    if (meeting.other_is_free) {
+        held.other = cross(meeting.at - table.load[meeting.other].at, along);
+    } else if (meeting.other != kNoBody) {
+        const Vec2<Real> at = convert<Real>(meeting.at);
+        held.told = dot(along, convert<Face<Real>>(velocity_at(table.body[meeting.other], at)));
+    }
+    const Way<Real> way(table, meeting, along, held);
+    held.yielding = way.own.yielding() + way.other.yielding();
+    return held;
+}
 
 /// Nothing comes nearer than the gap.
 template <class Real>
@@ -163,18 +180,27 @@ void push_both(const Way<Real> (&way)[2], const Face<Real> (&wanted)[2], Meeting
     set_push(way[1], all[1], meeting[1]);
 }
 
-/// wanted(way, meeting): the speed that is lacking there.
+/// wanted(way, meeting): the speed that is lacking there. Where nothing pushes and none is lacking
+/// there is nothing to do.
 template <class Real, class Wanted>
 void push_face(const BodyTable<Real>& table, Meeting<Real>* meeting, std::int32_t count,
                Wanted wanted) {
-    const Way<Real> way(table, meeting[0], meeting[0].normal);
+    const auto rests = [](const Meeting<Real>& at, Face<Real> speed) {
+        return at.push == Face<Real>(0) && speed <= Face<Real>(0);
+    };
+    const Way<Real> way = ahead(table, meeting[0]);
+    const Face<Real> speed = wanted(way, meeting[0]);
     if (count == 1) {
-        push_one(way, wanted(way, meeting[0]), meeting[0]);
+        if (!rests(meeting[0], speed)) {
+            push_one(way, speed, meeting[0]);
+        }
         return;
     }
-    const Way<Real> both[2] = {way, Way<Real>(table, meeting[1], meeting[1].normal)};
-    const Face<Real> speeds[2] = {wanted(both[0], meeting[0]), wanted(both[1], meeting[1])};
-    push_both(both, speeds, meeting);
+    const Way<Real> both[2] = {way, ahead(table, meeting[1])};
+    const Face<Real> speeds[2] = {speed, wanted(both[1], meeting[1])};
+    if (!rests(meeting[0], speed) || !rests(meeting[1], speeds[1])) {
+        push_both(both, speeds, meeting);
+    }
 }
 
 /// Coulomb's law, against a surface that may run as a conveyor.
@@ -188,7 +214,7 @@ void rub_there(const Obstacles<Real>& obstacles, Meeting<Real>& meeting) {
         return;
     }
     // The free body is ahead on the left of this way: its own surface runs against it.
-    const Way<Real> way(obstacles.bodies, meeting, {meeting.normal.y, -meeting.normal.x});
+    const Way<Real> way = aside(obstacles.bodies, meeting);
     const auto conveyed = static_cast<Number>(its.conveyor);
     const Number wanted = ((meeting.other == kNoBody ? conveyed : -conveyed) -
                            static_cast<Number>(own.conveyor)) -
@@ -239,10 +265,10 @@ void begin_with(const Obstacles<Real>& obstacles, const Push<Real>& kept,
                 Meeting<Real>& meeting) {
     using Number = Face<Real>;
     const BodyTable<Real>& table = obstacles.bodies;
-    const Way<Real> way(table, meeting, meeting.normal);
+    const Way<Real> way = ahead(table, meeting);
     const Number most = kMostRecalled<Real> / (obstacles.dt * way.yielding);
     set_push(way, clamp(obstacles.dt * kept.push, Number(0), most), meeting);
-    const Way<Real> along(table, meeting, {meeting.normal.y, -meeting.normal.x});
+    const Way<Real> along = aside(table, meeting);
     meeting.rub = clamp(obstacles.dt * kept.rub, -meeting.push, meeting.push);
     along.push(meeting.rub);
 }
@@ -276,6 +302,10 @@ std::int32_t recall(const Obstacles<Real>& obstacles) {
     const Push<Real>* cursor = meetings.before;
     std::int32_t cost = 0;
     for (Meeting<Real>& meeting : meetings) {
+        meeting.other_is_free =
+            meeting.other != kNoBody && is_free_body(obstacles.bodies, meeting.other);
+        meeting.ahead = held_way(obstacles.bodies, meeting, meeting.normal);
+        meeting.aside = held_way(obstacles.bodies, meeting, meeting.side());
         const Push<Real>* push = find_push(obstacles.bodies, meetings, meeting, cursor, cost);
         if (push != nullptr && !(meeting.leaves > Face<Real>(0))) {
             begin_with(obstacles, *push, meeting);
@@ -302,8 +332,7 @@ template <class Real>
 void part(const Obstacles<Real>& obstacles) {
     const Meetings<Real> meetings(obstacles.bodies);
     for (Meeting<Real>& meeting : meetings) {
-        const Way<Real> way(obstacles.bodies, meeting, meeting.normal);
-        meeting.gap += obstacles.dt * way.speed();
+        meeting.gap += obstacles.dt * ahead(obstacles.bodies, meeting).speed();
         meeting.push = Face<Real>(0);
     }
     for (std::int32_t slot = 0; slot < obstacles.bodies.capacity; ++slot) {

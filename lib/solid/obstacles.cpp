@@ -132,6 +132,9 @@ private:
     void before_body(std::int32_t slot, std::int32_t other) {
         const Body<Real>& body = table_.body[slot];
         const Body<Real>& its = table_.body[other];
+        if (!circles_meet(body, its, kFurthest<Real>)) {
+            return;  // however fast they are
+        }
         const Number most = margin(fastest(table_, slot) + fastest(table_, other));
         if (!circles_meet(body, its, most)) {
             return;

@@ -13,6 +13,15 @@
 
 namespace weir {
 
+/// What a push along one direction at a point does to the two bodies, through a substep.
+template <class Real>
+struct HeldWay {
+    Face<Real> own;       ///< angular impulse per push
+    Face<Real> other;
+    Face<Real> yielding;  ///< speed per push
+    Face<Real> told;      ///< speed of the other one if it does as told
+};
+
 /// A point of a free body before something.
 template <class Real>
 struct Meeting {
@@ -31,7 +40,11 @@ struct Meeting {
     std::int32_t film_cell = 0;
     std::int32_t under = 0;   ///< the cell of its middle, where it is open; otherwise negative
     Vec2<Face<Real>> middle{};
+    HeldWay<Real> ahead{};       ///< along the normal
+    HeldWay<Real> aside{};       ///< along the surface, the normal's right
+    bool other_is_free = false;
 
+    Vec2<Face<Real>> side() const { return {normal.y, -normal.x}; }
     bool is_wet(const PressedCells<Real>& cells) const {
         return film > Face<Real>(0) && cells.level[film_cell] > Real(0) &&
                (under < 0 || !(cells.level[under] > Real(0)));

@@ -116,7 +116,7 @@ inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 96 : 192;
 /// Points at which free bodies are before something, for each body, and one more for their number.
 inline constexpr std::int32_t kMeetingsPerBody = 6;
 template <class Real>
-inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 64 : 104;
+inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 96 : 176;
 /// How a body pushes into its cells, where there is room to keep it: for some 60 cells a body.
 template <class Real>
 inline constexpr std::size_t kLeverBytes = sizeof(Real) == 4 ? 4096 : 8192;
