@@ -145,6 +145,25 @@ bool limit(Face<Real> fastest, Face<Real> radius, Twist<Real>& twist) {
     return true;
 }
 
+/// How far mass is from a body's centre of mass, in the mean, cells: of what is smaller than this
+/// (a square of 2.4 cells) a few cut cells tell its turning no longer.
+constexpr double kLeastGyration = 1.0;
+
+/// Which share of its spin a small body loses in a substep, to liquid that it is in. What turns it is
+/// mostly noise: the lighter it is the faster it had spun, for ever.
+template <class Real>
+Face<Real> drag_on_spin(const Obstacles<Real>& obstacles, const BodyLoad<Real>& load) {
+    using Number = Face<Real>;
+    const Vec2<Number> pushed = load.change.velocity - load.stopped.velocity;
+    const bool wet = pushed.x != Number(0) || pushed.y != Number(0);
+    const Number short_by = Number(kLeastGyration) - square_root(load.inertia / load.mass);
+    if (!wet || !(short_by > Number(0))) {
+        return Number(0);
+    }
+    const Number fall = maximum(absolute(obstacles.fall.x), absolute(obstacles.fall.y));
+    return minimum(Number(1), Number(4) * short_by * square_root(fall * obstacles.dt));
+}
+
 template <class Real>
 std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
                     BodyTable<Real>& table) {
@@ -161,6 +180,7 @@ std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& 
     remember(obstacles);
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         Twist<Real> twist = whole_twist(load);
+        twist.spin -= drag_on_spin(obstacles, load) * twist.spin;
         slowed += limit<Real>(fastest, static_cast<Face<Real>>(body.radius), twist) ? 1 : 0;
         load.unpressed = twist;
         load.change = Twist<Real>{};

@@ -53,6 +53,7 @@ public:
     /// and the larger friction count, at the tank's walls too; conveyors take it along.
     /// Bodies that are in each other are moved apart, by at most 1/16 cell in a substep. A body has
     /// room for 6 points at which it meets something, which all share; of more the nearest count.
+    /// What is smaller than 2.4 cells is braked in its turning by the liquid that it is in.
     /// Joints, and whatever else moves bodies, are for a physics engine (`examples/box2d`).
     /// Any density is stable with Pressure::projection, down to about a tenth of the liquid's with
     /// the other. What is over 40 times as heavy as what it lies on wants steps below 1/60 s.
