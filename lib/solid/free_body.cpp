@@ -149,8 +149,8 @@ bool limit(Face<Real> fastest, Face<Real> radius, Twist<Real>& twist) {
 /// (a square of 2.4 cells) a few cut cells tell its turning no longer.
 constexpr double kLeastGyration = 1.0;
 
-/// Which share of its spin a small body loses in a substep, to liquid that it is in. What turns it is
-/// mostly noise: the lighter it is the faster it had spun, for ever.
+/// Which share of its spin a small body loses in a substep, to liquid that it is in. What turns it
+/// is mostly noise: the lighter it is the faster it had spun, for ever.
 template <class Real>
 Face<Real> drag_on_spin(const Obstacles<Real>& obstacles, const BodyLoad<Real>& load) {
     using Number = Face<Real>;
