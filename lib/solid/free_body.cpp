@@ -160,7 +160,7 @@ Face<Real> drag_on_spin(const Obstacles<Real>& obstacles, const BodyLoad<Real>& 
     if (!wet || !(short_by > Number(0))) {
         return Number(0);
     }
-    const Number fall = maximum(absolute(obstacles.fall.x), absolute(obstacles.fall.y));
+    const Number fall = length(obstacles.fall);
     return minimum(Number(1), Number(4) * short_by * square_root(fall * obstacles.dt));
 }
 

@@ -56,16 +56,63 @@ bool bodies_rest(const BodyTable<Real>& table, Real speed) {
     return true;
 }
 
+/// Whether particles may have to be looked at to tell whether they rest.
+template <class Real>
+bool looks_at_particles(const detail::WorldState<Real>& state) {
+    return may_sleep(state) && state.simulation.bodies.capacity > 0;
+}
+
+/// Whether a particle is about to meet a solid, or has just met one.
+template <class Real>
+bool lies_on_solid(const Simulation<Real>& simulation, Vec2<Real> place, Vec2<Real> velocity,
+                   Real speed) {
+    const GridShape& tank = simulation.layers.shape;
+    const auto ahead = [&](Real along) {
+        const Real way = absolute(along) > speed ? Real(0.125) : Real(0);
+        return along > Real(0) ? way : Real(0) - way;
+    };
+    const auto in_solid_cell = [&](Vec2<Real> x) {
+        return touches_wall(simulation.layers.walls, tank.index(static_cast<std::int32_t>(x.x),
+                                                                static_cast<std::int32_t>(x.y)));
+    };
+    const Vec2<Real> next{place.x + ahead(velocity.x), place.y + ahead(velocity.y)};
+    return in_solid_cell(place) || in_solid_cell(within_tank(tank, next));
+}
+
+/// Whether no particle is faster than that. What lies on a solid falls onto it in every substep or
+/// two, which is no motion, by as much as gravity makes of a velocity.
+template <class Real>
+bool particles_rest(const Simulation<Real>& simulation, Real speed, std::uint32_t& looks) {
+    if (simulation.max_speed <= speed) {
+        return true;
+    }
+    const Particles<Real>& particles = simulation.particles;
+    const Real fallen = simulation.pressure.cell_weight;
+    if (simulation.bodies.used == 0 || simulation.window.cells > 0 ||
+        simulation.max_speed > speed + fallen) {
+        return false;
+    }
+    looks += static_cast<std::uint32_t>(particles.count);
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        const Vec2<Real> v(particles.velocity[k]);
+        if ((absolute(v.x) > speed || absolute(v.y) > speed) &&
+            !lies_on_solid(simulation, Vec2<Real>(particles.position[k]), v, speed)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// After a step: counts the time for which nothing was faster than `Sleep::speed_mps`. What is on
 /// its way out of a solid moves without a speed of its own.
 template <class Real>
-void watch_rest(detail::WorldState<Real>& state, const StepReport& report) {
+void watch_rest(detail::WorldState<Real>& state, StepReport& report) {
     const Sleep& sleep = state.def.sleep;
     const Simulation<Real>& simulation = state.simulation;
     const Real speed = resting_speed(state);
     const bool at_rest = report.particles_stuck == 0 && report.particles_removed_stuck == 0 &&
-                         report.particles_reset == 0 && simulation.max_speed <= speed &&
-                         bodies_rest(simulation.bodies, speed);
+                         report.particles_reset == 0 && bodies_rest(simulation.bodies, speed) &&
+                         particles_rest(simulation, speed, report.work[kStageCount - 1]);
     state.still_s = at_rest ? minimum(state.still_s + report.dt_s, sleep.after_s) : 0.0F;
 }
 

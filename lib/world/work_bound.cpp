@@ -4,6 +4,7 @@
 #include "pressure/projection.hpp"
 #include "step/ladder.hpp"
 #include "step/substep.hpp"
+#include "world/sleep.hpp"
 #include "world/step_input.hpp"
 #include "world/world_state.hpp"
 
@@ -95,15 +96,23 @@ Status World<Real>::work_bound(float dt_s, WorkBound* bound, std::int32_t rung) 
     };
     if (simulation.window.cells == 0) {
         foresee_in(simulation.layers.shape);
-        return Status::ok;
+    } else {
+        for_each_window(state_->def.capacity, [&](std::int32_t columns, std::int32_t rows) {
+            const Borders<Real>& borders = simulation.settings.borders;
+            const GridShape& tank = simulation.layers.shape;
+            if ((!borders.wrap_x || columns == tank.nx) && (!borders.wrap_y || rows == tank.ny)) {
+                foresee_in({columns, rows, columns + 2});
+            }
+        });
     }
-    for_each_window(state_->def.capacity, [&](std::int32_t columns, std::int32_t rows) {
-        const Borders<Real>& borders = simulation.settings.borders;
-        const GridShape& tank = simulation.layers.shape;
-        if ((!borders.wrap_x || columns == tank.nx) && (!borders.wrap_y || rows == tank.ny)) {
-            foresee_in({columns, rows, columns + 2});
-        }
-    });
+    if (looks_at_particles(*state_)) {  // once, at the end of a step
+        constexpr std::int32_t kLast = kStageCount - 1;
+        const std::int32_t looks = simulation.particles.capacity;
+        bound->substep[kLast] += looks;
+        bound->first_substep[kLast] += looks;
+        bound->step += looks;
+        bound->largest_item += looks;
+    }
     return Status::ok;
 }
 

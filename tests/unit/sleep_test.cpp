@@ -82,6 +82,19 @@ TYPED_TEST(SleepOf, AtRestItFallsAsleepAndNothingChanges) {
     }
 }
 
+/// It falls onto the solid in each substep, and is stopped: that is no motion. Such a world never
+/// slept.
+TYPED_TEST(SleepOf, DropThatLiesOnASolidIsAtRest) {
+    Pool<TypeParam> pool;
+    BodyId table;
+    expect_ok(pool->add_static_body(body_of(rectangle(0.08F, 0.04F), {0.163F, 0.23F}), &table));
+    expect_ok(pool->add_particle({0.15F, 0.253F}, {}));
+    expect_ok(pool->add_particle({0.17F, 0.253F}, {}));
+    pool.fall_asleep();
+    const auto at = pool->particle_positions();
+    EXPECT_GT(static_cast<float>(at[at.size - 1].y) * 0.02F, 0.24F) << "it lies there";
+}
+
 /// All that wakes: each makes the very next step one that is carried out.
 TYPED_TEST(SleepOf, EveryChangeWakesWithinOneStep) {
     using Change = void (*)(Pool<TypeParam>&);
