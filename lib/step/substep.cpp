@@ -18,6 +18,7 @@
 #include "step/particle_to_grid.hpp"
 #include "step/quiet_surface.hpp"
 #include "step/regions.hpp"
+#include "step/rest_on_solids.hpp"
 #include "step/row_spans.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thin_transfer.hpp"
@@ -362,7 +363,7 @@ const Stages<Real>& open_stages() {
         return 0;
     };
     static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere, kNothing, kNoSolid,
-                                          nullptr, nullptr};
+                                          nullptr, nullptr, nullptr};
     return kStages;
 }
 
@@ -370,7 +371,8 @@ template <class Real>
 const Stages<Real>& solid_stages() {
     static constexpr Stages<Real> kStages{substep<true, Real>, inside_solid<Real>,
                                           merge_moving<Real>, draw_stored<Real>,
-                                          empty_lone_slivers<Real>, end_leads<Real>};
+                                          empty_lone_slivers<Real>, end_leads<Real>,
+                                          rest_on_solids<Real>};
     return kStages;
 }
 

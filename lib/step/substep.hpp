@@ -20,8 +20,9 @@ struct Stages {
     /// Draws all bodies: another part of the tank is stored.
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
     EmptySlivers<Real> empty_slivers;
-    /// At the end of a step, if there are bodies.
+    /// At the end of a step, if there are bodies; so is the next.
     void (*end_leads)(BodyTable<Real>& table);
+    bool (*rest_on_solids)(const Simulation<Real>& simulation, Real speed, std::uint32_t& looks);
 };
 
 }  // namespace weir

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "step/regions.hpp"
+#include "step/substep.hpp"
 #include "world/world_state.hpp"
 
 namespace weir {
@@ -62,45 +63,13 @@ bool looks_at_particles(const detail::WorldState<Real>& state) {
     return may_sleep(state) && state.simulation.bodies.capacity > 0;
 }
 
-/// Whether a particle is about to meet a solid, or has just met one.
+/// Whether no particle is faster than that, but for those that lie on a solid.
 template <class Real>
-bool lies_on_solid(const Simulation<Real>& simulation, Vec2<Real> place, Vec2<Real> velocity,
-                   Real speed) {
-    const GridShape& tank = simulation.layers.shape;
-    const auto ahead = [&](Real along) {
-        const Real way = absolute(along) > speed ? Real(0.125) : Real(0);
-        return along > Real(0) ? way : Real(0) - way;
-    };
-    const auto in_solid_cell = [&](Vec2<Real> x) {
-        return touches_wall(simulation.layers.walls, tank.index(static_cast<std::int32_t>(x.x),
-                                                                static_cast<std::int32_t>(x.y)));
-    };
-    const Vec2<Real> next{place.x + ahead(velocity.x), place.y + ahead(velocity.y)};
-    return in_solid_cell(place) || in_solid_cell(within_tank(tank, next));
-}
-
-/// Whether no particle is faster than that. What lies on a solid falls onto it in every substep or
-/// two, which is no motion, by as much as gravity makes of a velocity.
-template <class Real>
-bool particles_rest(const Simulation<Real>& simulation, Real speed, std::uint32_t& looks) {
-    if (simulation.max_speed <= speed) {
-        return true;
-    }
-    const Particles<Real>& particles = simulation.particles;
-    const Real fallen = simulation.pressure.cell_weight;
-    if (simulation.bodies.used == 0 || simulation.window.cells > 0 ||
-        simulation.max_speed > speed + fallen) {
-        return false;
-    }
-    looks += static_cast<std::uint32_t>(particles.count);
-    for (std::int32_t k = 0; k < particles.count; ++k) {
-        const Vec2<Real> v(particles.velocity[k]);
-        if ((absolute(v.x) > speed || absolute(v.y) > speed) &&
-            !lies_on_solid(simulation, Vec2<Real>(particles.position[k]), v, speed)) {
-            return false;
-        }
-    }
-    return true;
+bool particles_rest(const Simulation<Real>& simulation, Real speed, StepReport& report) {
+    const auto on_solids = simulation.stages->rest_on_solids;
+    return simulation.max_speed <= speed ||
+           (on_solids != nullptr &&
+            on_solids(simulation, speed, report.work[kStageCount - 1]));
 }
 
 /// After a step: counts the time for which nothing was faster than `Sleep::speed_mps`. What is on
@@ -112,7 +81,7 @@ void watch_rest(detail::WorldState<Real>& state, StepReport& report) {
     const Real speed = resting_speed(state);
     const bool at_rest = report.particles_stuck == 0 && report.particles_removed_stuck == 0 &&
                          report.particles_reset == 0 && bodies_rest(simulation.bodies, speed) &&
-                         particles_rest(simulation, speed, report.work[kStageCount - 1]);
+                         particles_rest(simulation, speed, report);
     state.still_s = at_rest ? minimum(state.still_s + report.dt_s, sleep.after_s) : 0.0F;
 }
 
