@@ -72,7 +72,26 @@ Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
     return distance_to_outline(outline, p, far, bounds);
 }
 
+template <class Real>
+bool covers(const Outline<Real>& outline, Vec2<Real> p) {
+    bool inside = false;
+    bool on_it = false;
+    for_each_edge(outline, [&](Vec2<Real> from, Vec2<Real> to) {
+        if (gap(p.y, from.y, to.y) > Real(0)) {
+            return;
+        }
+        const Product<Real> side = cross(to - from, p - from);
+        const bool left = side > Product<Real>(0);
+        const bool right = side < Product<Real>(0);
+        on_it = on_it || (!left && !right && gap(p.x, from.x, to.x) <= Real(0));
+        const bool low = from.y <= p.y;
+        inside = inside != (low != (to.y <= p.y) && (low ? left : right));
+    });
+    return inside || on_it;
+}
+
 #define WEIR_INSTANTIATE(Real)                                                              \
+    template bool covers(const Outline<Real>&, Vec2<Real>);                                 \
     template Real distance_to_segment(Vec2<Real>, Vec2<Real>, Vec2<Real>);                  \
     template Real distance_to_outline(const Outline<Real>&, Vec2<Real>, Real,               \
                                        const Bounds<Real>&);                                \

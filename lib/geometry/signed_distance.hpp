@@ -64,7 +64,12 @@ Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
                      std::int32_t piece_length, Vec2<Real> p, Real far,
                      const Bounds<Real>& bounds = {});
 
+/// Whether a point is inside an outline, or on it, told by how often a ray from it meets the rings.
+template <class Real>
+bool covers(const Outline<Real>& outline, Vec2<Real> p);
+
 #define WEIR_INSTANTIATE(Real)                                                                     \
+    extern template bool covers(const Outline<Real>&, Vec2<Real>);                                 \
     extern template Real distance_to_segment(Vec2<Real>, Vec2<Real>, Vec2<Real>);                  \
     extern template Real distance_to_outline(const Outline<Real>&, Vec2<Real>, Real,               \
                                               const Bounds<Real>&);                                \

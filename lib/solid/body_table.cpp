@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "geometry/convex_decomposition.hpp"
+#include "geometry/polygon.hpp"
 #include "geometry/ring_copy.hpp"
 #include "solid/body_load.hpp"
 
@@ -10,18 +11,16 @@ namespace weir {
 
 namespace {
 
-constexpr auto kPerVertex = static_cast<std::int32_t>(kPieceIndicesPerVertex);
-
 template <class T>
 void close_gap(T* pool, std::int32_t first, std::int32_t count, std::int32_t used) {
     std::memmove(pool + first, pool + first + count,
                  static_cast<std::size_t>(used - first - count) * sizeof(T));
 }
 
-/// Returns how many vertices stay; where each ring ends is noted in the table's scratch.
+/// Returns how many vertices stay; where each ring ends is noted in `ends`.
 template <class Real>
 std::int32_t copy_rings(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
-                        const Body<Real>& body) {
+                        const Body<Real>& body, std::uint16_t* ends) {
     Vec2<Real>* to = table.local + body.first_vertex;
     std::int32_t count = 0;
     for (std::int32_t ring = 0; ring < body.rings; ++ring) {
@@ -29,9 +28,22 @@ std::int32_t copy_rings(BodyTable<Real>& table, const BodyDef& def, Face<Real> c
         copy_ring(from, ring == 0, [&](Vec2f vertex) {
             to[count++] = convert<Real>(cells_per_m * convert<Face<Real>>(vertex));
         });
-        table.scratch[ring] = static_cast<std::uint16_t>(count);
+        ends[ring] = static_cast<std::uint16_t>(count);
     }
     return count;
+}
+
+/// False: rounding has left no area to the left of the edges.
+template <class Real>
+bool cut_into_pieces([[maybe_unused]] const BodyTable<Real>& table, const Outline<Real>& outline,
+                     [[maybe_unused]] ArrayView<std::uint16_t> pieces,
+                     [[maybe_unused]] Body<Real>& body) {
+    if constexpr (kKeepsPieces<Real>) {
+        body.piece_length = decompose(outline, table.scratch, pieces);
+        return body.piece_length >= 0;
+    } else {
+        return twice_signed_area(outline.vertex, outline.end_of(0)) > Real(0);
+    }
 }
 
 }  // namespace
@@ -57,17 +69,15 @@ bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_pe
                  Body<Real>& body) {
     body.first_vertex = table.vertices_used;
     body.rings = 1 + def.holes.size;
-    body.vertex_count = copy_rings(table, def, cells_per_m, body);
+    // The ends' place is known when all vertices are.
+    std::uint16_t* list = table.piece_list(body);
+    body.vertex_count = copy_rings(table, def, cells_per_m, body, list);
     body.room = places_for(body.vertex_count, def.holes.size);
-    // The table of ring ends is written behind a list that may yet shrink.
-    std::uint16_t* ends = table.piece_list(body) + kPerVertex * body.room - body.rings;
-    std::memmove(ends, table.scratch.data, static_cast<std::size_t>(body.rings) * sizeof *ends);
-    const ArrayView<std::uint16_t> pieces{table.piece_list(body),
-                                          kPerVertex * body.room - body.rings};
+    std::uint16_t* ends = table.ring_ends(body);
+    std::memmove(ends, list, static_cast<std::size_t>(body.rings) * sizeof *ends);
     Outline<Real> outline = table.outline(body);
     outline.vertex = table.local + body.first_vertex;
-    body.piece_length = decompose(outline, table.scratch, pieces);
-    if (body.piece_length < 0) {
+    if (!cut_into_pieces(table, outline, {list, static_cast<std::int32_t>(ends - list)}, body)) {
         return false;
     }
     table.vertices_used += body.room;
@@ -89,8 +99,8 @@ void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_p
             convert<Real>(cells_per_m * convert<Face<Real>>(vertex));
     }
     body.room = body.vertex_count;
-    table.piece_list(body)[kPerVertex * body.room - 1] =
-        static_cast<std::uint16_t>(body.vertex_count);
+    body.rings = 1;
+    *table.ring_ends(body) = static_cast<std::uint16_t>(body.vertex_count);
     table.vertices_used += body.room;
 }
 
@@ -159,6 +169,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     const std::int32_t count = gone.room;
     close_gap(table.local, first, count, table.vertices_used);
     close_gap(table.placed, first, count, table.vertices_used);
+    constexpr auto kPerVertex = BodyTable<Real>::kPerVertex;
     close_gap(table.pieces, kPerVertex * first, kPerVertex * count,
               kPerVertex * table.vertices_used);
     for (std::int32_t k = 0; k < table.capacity; ++k) {

@@ -24,7 +24,7 @@ Number furthest_way(Vec2<Number> way, Number turn, Number radius) {
 }
 
 /// Cells and seconds. Vertices stand at first_vertex in the pools, pieces at
-/// kPieceIndicesPerVertex × first_vertex, so that one number says where everything is.
+/// kPiecePlaces × first_vertex, so that one number says where everything is.
 template <class Real>
 struct Body {
     Vec2<Real> position;
@@ -82,16 +82,17 @@ struct BodyTable {
     std::int32_t vertices_used = 0;
 
     const Vec2<Real>* ring(const Body<Real>& of) const { return placed + of.first_vertex; }
+    static constexpr auto kPerVertex = static_cast<std::int32_t>(kPiecePlaces<Real>);
+
     /// They stand at the end of the body's room for pieces.
-    const std::uint16_t* ring_ends(const Body<Real>& of) const {
-        return piece_list(of) + static_cast<std::int32_t>(kPieceIndicesPerVertex) * of.room -
-               of.rings;
+    std::uint16_t* ring_ends(const Body<Real>& of) const {
+        return piece_list(of) + kPerVertex * of.room - of.rings;
     }
     Outline<Real> outline(const Body<Real>& of) const {
         return {ring(of), of.vertex_count, of.rings, ring_ends(of)};
     }
     std::uint16_t* piece_list(const Body<Real>& of) const {
-        return pieces + static_cast<std::int32_t>(kPieceIndicesPerVertex) * of.first_vertex;
+        return pieces + kPerVertex * of.first_vertex;
     }
 };
 
@@ -103,8 +104,9 @@ std::int32_t find_free_slot(const BodyTable<Real>& table);
 template <class Real>
 bool exists(const BodyTable<Real>& table, BodyId id);
 
-/// Copies the polygon behind the vertices in use and cuts it into convex pieces. The caller has
-/// checked it and that there is room. False: no triangulation was found; nothing changed.
+/// Copies the polygon behind the vertices in use and cuts it into convex pieces, where they are
+/// kept. The caller has checked it and that there is room. False: rounding has left no area;
+/// nothing changed.
 template <class Real>
 bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
                  Body<Real>& body);

@@ -97,7 +97,7 @@ bool all_indices(const std::byte* from, const Body<Real>& body) {
             read<std::uint16_t>(from, static_cast<std::size_t>(k)));
     };
     const std::int32_t end_of_room =
-        static_cast<std::int32_t>(kPieceIndicesPerVertex) * body.room;
+        static_cast<std::int32_t>(kPiecePlaces<Real>) * body.room;
     std::int32_t end = 0;
     for (std::int32_t k = end_of_room - body.rings; k < end_of_room; ++k) {
         if (at(k) <= end) {

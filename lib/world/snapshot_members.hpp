@@ -145,11 +145,12 @@ void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) 
     stream.member(led, false, true);
     any_member(stream, met_position);
     angle_member(stream, met_angle);
-    constexpr auto kPerPlace = static_cast<std::int32_t>(kPieceIndicesPerVertex);
+    constexpr auto kPerPlace = static_cast<std::int32_t>(kPiecePlaces<Real>);
     const std::int32_t places = stream.member(room, 0, most_places);
     const std::int32_t count = stream.member(vertex_count, 0, places);
     const std::int32_t ends = stream.member(rings, 1, maximum(count, 1));
-    stream.member(piece_length, 0, maximum(kPerPlace * places - ends, 0));
+    const std::int32_t most = kKeepsPieces<Real> ? maximum(kPerPlace * places - ends, 0) : 0;
+    stream.member(piece_length, 0, most);
 }
 
 }  // namespace weir
