@@ -1,33 +1,15 @@
-// Point to polygon by point to segment; the sign from the inside test of the convex pieces.
+// Point to polygon by point to segment.
 #include "geometry/signed_distance.hpp"
 
 namespace weir {
 
 namespace {
 
-/// Larger than any distance within a tank, cells.
-template <class Real>
-constexpr Real kDeepest = Real(1.0e6);
-
 /// How far a coordinate is outside the interval of two others; not positive within it.
 template <class Real>
 Real gap(Real value, Real end, Real other_end) {
     return end < other_end ? maximum(end - value, value - other_end)
                            : maximum(other_end - value, value - end);
-}
-
-template <class Real>
-bool inside_any_piece(const Vec2<Real>* ring, const std::uint16_t* pieces,
-                      std::int32_t piece_length, Vec2<Real> p) {
-    std::int32_t at = 0;
-    while (at < piece_length) {
-        const std::int32_t count = pieces[at];
-        if (inside_convex(ring, pieces + at + 1, count, p)) {
-            return true;
-        }
-        at += 1 + count;
-    }
-    return false;
 }
 
 }  // namespace
@@ -62,17 +44,6 @@ Real distance_to_outline(const Outline<Real>& outline, Vec2<Real> p, Real far,
 }
 
 template <class Real>
-Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
-                     std::int32_t piece_length, Vec2<Real> p, Real far,
-                     const Bounds<Real>& bounds) {
-    if (inside_any_piece(outline.vertex, pieces, piece_length, off_the_border(bounds, p))) {
-        // 0 - d, because -d would make a negative zero on the outline.
-        return Real(0) - distance_to_outline(outline, p, kDeepest<Real>, bounds);
-    }
-    return distance_to_outline(outline, p, far, bounds);
-}
-
-template <class Real>
 bool covers(const Outline<Real>& outline, Vec2<Real> p) {
     bool inside = false;
     bool on_it = false;
@@ -94,9 +65,7 @@ bool covers(const Outline<Real>& outline, Vec2<Real> p) {
     template bool covers(const Outline<Real>&, Vec2<Real>);                                 \
     template Real distance_to_segment(Vec2<Real>, Vec2<Real>, Vec2<Real>);                  \
     template Real distance_to_outline(const Outline<Real>&, Vec2<Real>, Real,               \
-                                       const Bounds<Real>&);                                \
-    template Real signed_distance(const Outline<Real>&, const std::uint16_t*, std::int32_t, \
-                                   Vec2<Real>, Real, const Bounds<Real>&);
+                                       const Bounds<Real>&);
 WEIR_FOR_EACH_NUMBER(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// Distance from a point to a polygon: negative inside, exact up to rounding, cut off at `far`.
+// Distance from a point to a polygon's edges, exact up to rounding, and whether it is inside.
 // Coordinates are cells, |x| ≤ 1e6.
 #pragma once
 
@@ -56,14 +56,6 @@ template <class Real>
 Real distance_to_outline(const Outline<Real>& outline, Vec2<Real> p, Real far,
                          const Bounds<Real>& bounds = {});
 
-/// Distance to the outline: negative and exact in any of its convex pieces, 0 on it, outside
-/// at most far. Whatever is inside has to know the way out.
-/// @param pieces what `decompose` wrote for that outline.
-template <class Real>
-Real signed_distance(const Outline<Real>& outline, const std::uint16_t* pieces,
-                     std::int32_t piece_length, Vec2<Real> p, Real far,
-                     const Bounds<Real>& bounds = {});
-
 /// Whether a point is inside an outline, or on it, told by how often a ray from it meets the rings.
 template <class Real>
 bool covers(const Outline<Real>& outline, Vec2<Real> p);
@@ -72,9 +64,7 @@ bool covers(const Outline<Real>& outline, Vec2<Real> p);
     extern template bool covers(const Outline<Real>&, Vec2<Real>);                                 \
     extern template Real distance_to_segment(Vec2<Real>, Vec2<Real>, Vec2<Real>);                  \
     extern template Real distance_to_outline(const Outline<Real>&, Vec2<Real>, Real,               \
-                                              const Bounds<Real>&);                                \
-    extern template Real signed_distance(const Outline<Real>&, const std::uint16_t*, std::int32_t, \
-                                          Vec2<Real>, Real, const Bounds<Real>&);
+                                              const Bounds<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

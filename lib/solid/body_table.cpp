@@ -33,19 +33,6 @@ std::int32_t copy_rings(BodyTable<Real>& table, const BodyDef& def, Face<Real> c
     return count;
 }
 
-/// False: rounding has left no area to the left of the edges.
-template <class Real>
-bool cut_into_pieces([[maybe_unused]] const BodyTable<Real>& table, const Outline<Real>& outline,
-                     [[maybe_unused]] ArrayView<std::uint16_t> pieces,
-                     [[maybe_unused]] Body<Real>& body) {
-    if constexpr (kKeepsPieces<Real>) {
-        body.piece_length = decompose(outline, table.scratch, pieces);
-        return body.piece_length >= 0;
-    } else {
-        return twice_signed_area(outline.vertex, outline.end_of(0)) > Real(0);
-    }
-}
-
 }  // namespace
 
 template <class Real>
@@ -66,7 +53,7 @@ bool exists(const BodyTable<Real>& table, BodyId id) {
 
 template <class Real>
 bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
-                 Body<Real>& body) {
+                 Decompose<Real> cut, Body<Real>& body) {
     body.first_vertex = table.vertices_used;
     body.rings = 1 + def.holes.size;
     // The ends' place is known when all vertices are.
@@ -77,7 +64,12 @@ bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_pe
     std::memmove(ends, list, static_cast<std::size_t>(body.rings) * sizeof *ends);
     Outline<Real> outline = table.outline(body);
     outline.vertex = table.local + body.first_vertex;
-    if (!cut_into_pieces(table, outline, {list, static_cast<std::int32_t>(ends - list)}, body)) {
+    if (cut != nullptr) {
+        body.piece_length =
+            cut(outline, table.scratch, {list, static_cast<std::int32_t>(ends - list)});
+    }
+    if (body.piece_length < 0 ||
+        !(twice_signed_area(outline.vertex, outline.end_of(0)) > Real(0))) {
         return false;
     }
     table.vertices_used += body.room;
@@ -169,9 +161,8 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     const std::int32_t count = gone.room;
     close_gap(table.local, first, count, table.vertices_used);
     close_gap(table.placed, first, count, table.vertices_used);
-    constexpr auto kPerVertex = BodyTable<Real>::kPerVertex;
-    close_gap(table.pieces, kPerVertex * first, kPerVertex * count,
-              kPerVertex * table.vertices_used);
+    const std::int32_t places = table.per_vertex();
+    close_gap(table.pieces, places * first, places * count, places * table.vertices_used);
     for (std::int32_t k = 0; k < table.capacity; ++k) {
         if (table.body[k].kind != BodyKind::free && table.body[k].first_vertex > first) {
             table.body[k].first_vertex -= count;
@@ -188,7 +179,8 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
 #define WEIR_INSTANTIATE(Real)                                                             \
     template std::int32_t find_free_slot(const BodyTable<Real>&);                          \
     template bool exists(const BodyTable<Real>&, BodyId);                                  \
-    template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&);  \
+    template bool add_polygon(BodyTable<Real>&, const BodyDef&, Face<Real>,                 \
+                              Decompose<Real>, Body<Real>&);                               \
     template void add_polyline(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
     template void note_movable(BodyTable<Real>&);                                          \
     template bool any_without_slip(const BodyTable<Real>&);                                \

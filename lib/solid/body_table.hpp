@@ -24,7 +24,7 @@ Number furthest_way(Vec2<Number> way, Number turn, Number radius) {
 }
 
 /// Cells and seconds. Vertices stand at first_vertex in the pools, pieces at
-/// kPiecePlaces × first_vertex, so that one number says where everything is.
+/// per_vertex() × first_vertex, so that one number says where everything is.
 template <class Real>
 struct Body {
     Vec2<Real> position;
@@ -75,24 +75,26 @@ struct BodyTable {
     Vec2<Real>* local = nullptr;    ///< vertices in the bodies' own frames
     Vec2<Real>* placed = nullptr;   ///< the same vertices in the tank, at the current poses
     std::uint16_t* pieces = nullptr;
-    ArrayView<std::uint16_t> scratch;  ///< of the decomposition
+    ArrayView<std::uint16_t> scratch;  ///< of the decomposition; empty: bodies have no pieces
     /// What bodies receive, and behind them the tank. Null: the world has no room for it.
     BodyLoad<Real>* load = nullptr;
     std::int32_t vertex_capacity = 0;
     std::int32_t vertices_used = 0;
 
     const Vec2<Real>* ring(const Body<Real>& of) const { return placed + of.first_vertex; }
-    static constexpr auto kPerVertex = static_cast<std::int32_t>(kPiecePlaces<Real>);
-
+    /// Numbers in `pieces` for each vertex.
+    std::int32_t per_vertex() const {
+        return scratch.empty() ? 1 : static_cast<std::int32_t>(kPieceIndicesPerVertex);
+    }
     /// They stand at the end of the body's room for pieces.
     std::uint16_t* ring_ends(const Body<Real>& of) const {
-        return piece_list(of) + kPerVertex * of.room - of.rings;
+        return piece_list(of) + per_vertex() * of.room - of.rings;
     }
     Outline<Real> outline(const Body<Real>& of) const {
         return {ring(of), of.vertex_count, of.rings, ring_ends(of)};
     }
     std::uint16_t* piece_list(const Body<Real>& of) const {
-        return pieces + kPerVertex * of.first_vertex;
+        return pieces + per_vertex() * of.first_vertex;
     }
 };
 
@@ -104,12 +106,17 @@ std::int32_t find_free_slot(const BodyTable<Real>& table);
 template <class Real>
 bool exists(const BodyTable<Real>& table, BodyId id);
 
-/// Copies the polygon behind the vertices in use and cuts it into convex pieces, where they are
-/// kept. The caller has checked it and that there is room. False: rounding has left no area;
+/// How polygons are cut into convex pieces (geometry/convex_decomposition.hpp).
+template <class Real>
+using Decompose = std::int32_t (*)(const Outline<Real>& outline, ArrayView<std::uint16_t> scratch,
+                                   ArrayView<std::uint16_t> pieces);
+
+/// Copies the polygon behind the vertices in use and cuts it into convex pieces, if `cut` is not
+/// null. The caller has checked it and that there is room. False: rounding has left no area;
 /// nothing changed.
 template <class Real>
 bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
-                 Body<Real>& body);
+                 Decompose<Real> cut, Body<Real>& body);
 
 /// Copies an open polyline, without repeated vertices.
 template <class Real>

@@ -67,18 +67,9 @@ struct Union {
     bool holds(std::int32_t i, std::int32_t j, Vec2<Real> point) const {
         bool found = false;
         for_each_at(i, j, [&](const Body<Real>& body) {
-            found = found || covers_point(body, point);
+            found = found || covers(table.outline(body), point);
         });
         return found;
-    }
-
-    bool covers_point(const Body<Real>& body, Vec2<Real> point) const {
-        if constexpr (kKeepsPieces<Real>) {
-            return signed_distance(table.outline(body), table.piece_list(body), body.piece_length,
-                                   point, kDeeper<Real>) <= Real(0);
-        } else {
-            return covers(table.outline(body), point);
-        }
     }
 
     /// From a node to the nearest point of an edge that is in front of nothing; at most kDeepest.

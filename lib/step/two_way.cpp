@@ -1,5 +1,6 @@
 #include "step/two_way.hpp"
 
+#include "geometry/convex_decomposition.hpp"
 #include "step/momentum_ledger.hpp"
 
 namespace weir {
@@ -160,13 +161,23 @@ constexpr auto ledger_closer() {
     }
 }
 
+/// Nor are there free bodies in them.
+template <class Real>
+constexpr Decompose<Real> decomposer() {
+    if constexpr (Stored<Real>::shares_momentum) {
+        return nullptr;
+    } else {
+        return weir::decompose<Real>;
+    }
+}
+
 }  // namespace
 
 template <class Real>
 const detail::TwoWay<Real>& detail::two_way_in_open() {
     static constexpr TwoWay<Real> kStages{ledger_opener<Real>(), press_tank<Real>,
                                           ledger_closer<Real>(), nullptr, nullptr, nullptr,
-                                          nullptr};
+                                          nullptr, nullptr};
     return kStages;
 }
 
@@ -175,7 +186,7 @@ const detail::TwoWay<Real>& detail::two_way_among_solids() {
     static constexpr TwoWay<Real> kStages{ledger_opener<Real>(), press_tank<Real>,
                                           ledger_closer<Real>(), accelerate_bodies<Real>,
                                           coupled_solve<Real>,   press_bodies<Real>,
-                                          move_free_bodies<Real>};
+                                          move_free_bodies<Real>, decomposer<Real>()};
     return kStages;
 }
 

@@ -29,6 +29,8 @@ struct detail::TwoWay {
                          StepReport& report);
     /// Free bodies go on, before the particles do, which meet them where they then are.
     void (*move_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
+    /// Whoever is added is cut into the pieces by which bodies meet; null in packed worlds, too.
+    Decompose<Real> decompose;
 };
 
 }  // namespace weir

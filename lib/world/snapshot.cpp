@@ -91,13 +91,12 @@ bool all_vertices(const std::byte* from, std::size_t vertices) {
 
 /// Whether all numbers in a body's room for pieces name vertices of it, and every ring has one.
 template <class Real>
-bool all_indices(const std::byte* from, const Body<Real>& body) {
+bool all_indices(const std::byte* from, std::int32_t per_vertex, const Body<Real>& body) {
     const auto at = [&](std::int32_t k) {
         return static_cast<std::int32_t>(
             read<std::uint16_t>(from, static_cast<std::size_t>(k)));
     };
-    const std::int32_t end_of_room =
-        static_cast<std::int32_t>(kPiecePlaces<Real>) * body.room;
+    const std::int32_t end_of_room = per_vertex * body.room;
     std::int32_t end = 0;
     for (std::int32_t k = end_of_room - body.rings; k < end_of_room; ++k) {
         if (at(k) <= end) {
@@ -117,14 +116,14 @@ std::size_t elements_of(Block block, const Body<Real>& body) {
 /// Whether elements of a block that come from outside can do no harm. No default: a block that is
 /// added has to be thought of.
 template <class Real>
-bool harmless(Block block, const GridShape& shape, const std::byte* from, std::size_t elements,
-              const Body<Real>& of) {
+bool harmless(Block block, const Simulation<Real>& world, const std::byte* from,
+              std::size_t elements, const Body<Real>& of) {
     switch (block) {
-        case Block::particle_position: return all_in_tank<Real>(shape, from, elements);
+        case Block::particle_position: return all_in_tank<Real>(world.layers.shape, from, elements);
         case Block::particle_velocity: return all_finite<VelocityOf<Real>>(from, 2 * elements);
         case Block::particle_kind: return all_kinds(from, elements);
         case Block::vertex_local: return all_vertices<Real>(from, elements);
-        case Block::piece_index: return all_indices(from, of);
+        case Block::piece_index: return all_indices(from, world.bodies.per_vertex(), of);
         case Block::pressure:
         case Block::kept_pressure: return all_finite<Real>(from, elements);
         case Block::kept_density: return all_finite<DensityOf<Real>>(from, elements);
@@ -183,7 +182,7 @@ void write(SnapshotWriter& writer, const Layout& plan, const Head& head,
     const BodyTable<Real>& table = state.simulation.bodies;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         Body<Real>& body = table.body[slot];
-        body_members(writer, table.vertex_capacity, body);
+        body_members(writer, table.vertex_capacity, table, body);
         for (std::int32_t block = 0; block < kBlockCount; ++block) {
             const std::size_t size = plan.element_bytes[block];
             if (by_vertex(plan, block)) {
@@ -205,7 +204,6 @@ void write(SnapshotWriter& writer, const Layout& plan, const Head& head,
 template <class Stream, class Real>
 void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldState<Real>& state) {
     Stream stream{reader};
-    const GridShape& shape = state.simulation.layers.shape;
     BodyTable<Real>& table = state.simulation.bodies;
     const auto take = [&](std::int32_t block, std::size_t first, std::size_t elements,
                           const Body<Real>& of) {
@@ -216,8 +214,8 @@ void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldSta
         }
         if (apply) {
             std::memcpy(memory_of(state, plan, block) + first * size, from, elements * size);
-        } else if (elements > 0 && !harmless<Real>(static_cast<Block>(block), shape, from,
-                                                   elements, of)) {
+        } else if (elements > 0 && !harmless<Real>(static_cast<Block>(block), state.simulation,
+                                                   from, elements, of)) {
             reader.refuse();
         }
     };
@@ -235,7 +233,7 @@ void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldSta
     for (std::int32_t slot = 0; slot < table.capacity && reader.sound(); ++slot) {
         Body<Real> body;
         MemberRead members{reader};
-        body_members(members, extents.vertices - places, body);
+        body_members(members, extents.vertices - places, table, body);
         const bool exists = body.kind != BodyKind::free;
         if (exists ? body.vertex_count < 2 || body.vertex_count > kMaxBodyVertices
                    : body.room > 0 || body.moved) {

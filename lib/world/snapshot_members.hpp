@@ -124,7 +124,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
 /// Members of a body. Its vertices are kept by slot, whatever their order in the pool was, and
 /// where it was drawn follows from its pose.
 template <class Real, class Stream>
-void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) {
+void body_members(Stream& stream, std::int32_t most_places, const BodyTable<Real>& table,
+                  Body<Real>& record) {
     auto& [position, velocity, angle, spin, surface, radius, first_vertex, vertex_count, room,
            rings, piece_length, drawn, left, met_position, met_angle, generation, kind, moved,
            open, hollow, led] = record;
@@ -145,12 +146,11 @@ void body_members(Stream& stream, std::int32_t most_places, Body<Real>& record) 
     stream.member(led, false, true);
     any_member(stream, met_position);
     angle_member(stream, met_angle);
-    constexpr auto kPerPlace = static_cast<std::int32_t>(kPiecePlaces<Real>);
     const std::int32_t places = stream.member(room, 0, most_places);
     const std::int32_t count = stream.member(vertex_count, 0, places);
     const std::int32_t ends = stream.member(rings, 1, maximum(count, 1));
-    const std::int32_t most = kKeepsPieces<Real> ? maximum(kPerPlace * places - ends, 0) : 0;
-    stream.member(piece_length, 0, most);
+    const std::int32_t most = maximum(table.per_vertex() * places - ends, 0);
+    stream.member(piece_length, 0, table.scratch.empty() ? 0 : most);
 }
 
 }  // namespace weir

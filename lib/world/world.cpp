@@ -44,7 +44,9 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     carver.take(Block::vertex_placed, bodies.placed);
     carver.take(Block::piece_index, bodies.pieces);
     carver.take(Block::decomposition_scratch, bodies.scratch.data);
-    bodies.scratch.size = static_cast<std::int32_t>(kScratchPlaces<Real>) * capacity.vertices;
+    bodies.scratch.size = keeps_pieces<Real>(capacity)
+                              ? static_cast<std::int32_t>(kScratchPerVertex) * capacity.vertices
+                              : 0;
     bodies.capacity = static_cast<std::int16_t>(capacity.bodies);
     bodies.vertex_capacity = capacity.vertices;
 

@@ -5,6 +5,7 @@
 #include "geometry/moments.hpp"
 #include "step/regions.hpp"
 #include "step/substep.hpp"
+#include "step/two_way.hpp"
 #include "world/sleep.hpp"
 
 namespace weir {
@@ -105,8 +106,12 @@ template <class Real>
     set_pose(state, def.motion, body);
     if (def.open) {
         add_polyline(table, def, state.cells_per_m, body);
-    } else if (!add_polygon(table, def, state.cells_per_m, body)) {
-        return Status::polygon_crosses_itself;
+    } else {
+        const detail::TwoWay<Real>* two_way = state.simulation.two_way;
+        const Decompose<Real> cut = two_way != nullptr ? two_way->decompose : nullptr;
+        if (!add_polygon(table, def, state.cells_per_m, cut, body)) {
+            return Status::polygon_crosses_itself;
+        }
     }
     place(table, body);
     if (box_of(state.simulation, body).empty()) {

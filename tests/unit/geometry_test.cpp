@@ -313,29 +313,25 @@ void expect_distances_right(const Points& outline, double tolerance) {
     const auto count = static_cast<std::int32_t>(outline.size());
     const auto ring = ring_of<Real>(outline);
     const auto exact = ring_of<double>(outline);
-    std::vector<std::uint16_t> scratch(5 * outline.size());
-    std::vector<std::uint16_t> pieces(4 * outline.size());
-    const std::int32_t used = decompose(Outline<Real>{ring.data(), count},
-                                        {scratch.data(), 5 * count}, {pieces.data(), 4 * count});
-    ASSERT_GT(used, 0);
+    const Outline<Real> walls{ring.data(), count};
     const double far = 1.0;
     for (double y = -2.0; y <= 12.0; y += 0.25) {
         for (double x = -2.0; x <= 12.0; x += 0.25) {
             const bool inside = brute_inside(exact, {x, y});
             const double full = brute_distance(exact, {x, y});
             const double brute = inside ? full : std::fmin(far, full);
-            const double distance = static_cast<double>(
-                signed_distance(Outline<Real>{ring.data(), count}, pieces.data(), used,
-                                Vec2<Real>{static_cast<Real>(x), static_cast<Real>(y)}, Real(far)));
-            ASSERT_NEAR(std::fabs(distance), brute, tolerance) << x << ' ' << y;
+            const Vec2<Real> p{static_cast<Real>(x), static_cast<Real>(y)};
+            const double distance =
+                static_cast<double>(distance_to_outline(walls, p, Real(inside ? 100.0 : far)));
+            ASSERT_NEAR(distance, brute, tolerance) << x << ' ' << y;
             if (brute > tolerance) {
-                ASSERT_EQ(distance < 0.0, inside) << x << ' ' << y;
+                ASSERT_EQ(covers(walls, p), inside) << x << ' ' << y;
             }
         }
     }
 }
 
-TYPED_TEST(GeometryTest, SignedDistanceMatchesBruteForce) {
+TYPED_TEST(GeometryTest, DistanceAndInsideMatchBruteForce) {
     const double tolerance = sizeof(TypeParam) == 4 ? 4e-6 : 1e-13;
     const Points ell = {{0, 0}, {10, 0}, {10, 3}, {3, 3}, {3, 10}, {0, 10}};
     const Points plus = {{3, 0}, {6, 0}, {6, 3}, {9, 3}, {9, 6}, {6, 6},
@@ -360,20 +356,16 @@ TYPED_TEST(GeometryTest, SignedDistanceMatchesBruteForce) {
     }
 }
 
-TYPED_TEST(GeometryTest, NodesOnTheRingAreAtPositiveZero) {
+TYPED_TEST(GeometryTest, NodesOnTheRingAreCoveredAtPositiveZero) {
     const auto ring = ring_of<TypeParam>({{1, 1}, {7, 1}, {7, 4}, {4, 4}, {4, 7}, {1, 7}});
-    std::uint16_t scratch[30];
-    std::uint16_t pieces[24];
-    const std::int32_t used = decompose(Outline<TypeParam>{ring.data(), 6}, {scratch, 30}, {pieces, 24});
+    const Outline<TypeParam> outline{ring.data(), 6};
     for (int i = 1; i <= 7; ++i) {
-        const TypeParam d = signed_distance(Outline<TypeParam>{ring.data(), 6}, pieces, used,
-                                            Vec2<TypeParam>{TypeParam(i), 1}, TypeParam(4));
+        const Vec2<TypeParam> p{TypeParam(i), 1};
+        const TypeParam d = distance_to_outline(outline, p, TypeParam(4));
         EXPECT_EQ(d, TypeParam(0));
         EXPECT_FALSE(std::signbit(d));
+        EXPECT_TRUE(covers(outline, p));
     }
-    EXPECT_EQ(signed_distance(Outline<TypeParam>{ring.data(), 6}, pieces, used,
-                              Vec2<TypeParam>{2, 4}, TypeParam(4)),
-              TypeParam(-1));  // on the diagonal between the pieces
 }
 
 }  // namespace

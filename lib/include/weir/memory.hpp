@@ -224,19 +224,16 @@ constexpr std::int32_t near_entries(const Capacity& capacity) {
     return most;
 }
 
-/// Whether polygons are cut into convex pieces. Packed worlds have no free bodies, which alone meet
-/// others piece by piece: there outlines tell all that a step asks.
-template <class Real>
-inline constexpr bool kKeepsPieces = !Stored<Real>::shares_momentum;
 /// Longest list of pieces: a triangle per vertex, each a count and three vertex numbers.
 inline constexpr std::size_t kPieceIndicesPerVertex = 4;
 /// Scratch of the decomposition into pieces, numbers.
 inline constexpr std::size_t kScratchPerVertex = 5;
-/// Room for pieces, and behind them for the ends of a polygon's rings, numbers a vertex.
+/// Whether polygons are cut into convex pieces: free bodies meet others piece by piece. What else a
+/// step asks outlines tell.
 template <class Real>
-inline constexpr std::size_t kPiecePlaces = kKeepsPieces<Real> ? kPieceIndicesPerVertex : 1;
-template <class Real>
-inline constexpr std::size_t kScratchPlaces = kKeepsPieces<Real> ? kScratchPerVertex : 0;
+constexpr bool keeps_pieces(const Capacity& capacity) {
+    return capacity.two_way && !Stored<Real>::shares_momentum;
+}
 /// What a hole takes besides its vertices: its bridge to the outer ring doubles two of them, and
 /// one more place keeps the hole's end.
 inline constexpr std::int32_t kPlacesPerHole = 3;
@@ -320,6 +317,7 @@ constexpr Layout layout(const Capacity& capacity) {
                                                               count(coarse_cells(capacity.cells_y))
                                                         : 0;
     const std::size_t point = 2 * sizeof(Real), index = sizeof(std::uint16_t);
+    const bool cut = keeps_pieces<Real>(capacity);  // without pieces there are ends of rings alone
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
     const std::size_t speed = sizeof(VelocityOf<Real>), distance = sizeof(DistanceOf<Real>);
     const std::size_t share = sizeof(ShareOf<Real>), spans = count(row_spans<Real>(capacity));
@@ -338,10 +336,9 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts));
     add(Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices);
     add(Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices);
-    add(Block::piece_index, Owner::vertices, Kept::vertices, kPiecePlaces<Real> * index,
-        vertices);
+    add(Block::piece_index, Owner::vertices, Kept::vertices, (cut ? kPieceIndicesPerVertex : 1) * index, vertices);
     add(Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
-        kScratchPlaces<Real> * vertices);
+        cut ? kScratchPerVertex * vertices : 0);
     add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
     detail::place_meetings<Real>(capacity, result);
     add(Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0);
