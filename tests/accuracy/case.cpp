@@ -17,6 +17,7 @@ Particles start_pool(const Case& c, Scheme& scheme, Setup& setup) {
     setup.gravity = {0.0, -depth};
     setup.interval = std::sqrt(0.1 / depth);
     setup.sound_speed = kSoundRatio * depth;
+    setup.top_speed = depth;  // sqrt(g H): its waves are slower
     setup.options = c.options;
     const Particles start = seed_box(c.lattice, {0.0, 0.0}, {double(c.cells), depth});
     scheme.start(setup, start);

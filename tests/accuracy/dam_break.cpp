@@ -76,8 +76,11 @@ void add_pressures(const Signal (&raw)[4], const std::string& data, Outcome& out
         const std::string name = kSensorName[k];
         const Signal filtered = running_median(raw[k], kMedianWidth);
         const Signal reference = pressure_reference(data, name);
-        outcome.add(name, rms_difference(filtered, reference, 2.6, 6.5));
-        outcome.add(name + "_raw", rms_difference(raw[k], reference, 2.6, 6.5));
+        const auto off = [&](const Signal& measured) {
+            return rms_difference(measured, reference, kPressureFrom, kPressureTo);
+        };
+        outcome.add(name, off(filtered));
+        outcome.add(name + "_raw", off(raw[k]));
         outcome.curves.emplace_back(name, filtered);
     }
 }
@@ -108,6 +111,7 @@ Setup dam_break_setup(const Case& c) {
     // The front runs at up to 2 sqrt(g H) = 2H cells per unit of time; 0.1 / whole number.
     setup.interval = 0.1 / std::ceil(0.1 * 2.0 * c.cells);
     setup.sound_speed = kSoundRatio * c.cells;
+    setup.top_speed = 3.0 * c.cells;
     setup.options = c.options;
     return setup;
 }
@@ -202,13 +206,13 @@ void report_dam_break(Report& report, const Effort& effort) {
     const char* const names[6] = {"front", "energy", "P1", "P2", "P3", "P4"};
     const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
     const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    for (const Plan& plan : {Plan{Kind::projection, resolutions(effort), 3},
-                             Plan{Kind::equation_of_state, few, others},
-                             Plan{Kind::reference, few, others}}) {
+    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort), 3},
+                                     {Kind::equation_of_state, few, others},
+                                     {Kind::reference, few, others}};
+    for (const Plan& plan : chosen(effort, plans)) {
         const auto last = sweep(report, effort, "R5A", plan, metrics, run_dam_break);
         for (std::size_t k = 0; k < last.size(); ++k) {
-            const std::string title =
-                std::string(kind_name(plan.kind)) + " " + std::to_string(plan.cells[k]);
+            const std::string title = title_of(plan, k);
             for (int n = 0; n < 6; ++n) {
                 const Signal& signal = *last[k].curve(names[n]);
                 curves[n].push_back({title, n == 0 ? until(signal, 2.4) : signal, false});

@@ -55,6 +55,7 @@ Outcome run_free_drop(Scheme& scheme, const Case& c, const Matrix& gradient) {
     setup.ny += setup.ny % 2;
     setup.interval = 0.5 / c.cells;
     setup.sound_speed = kSoundRatio * c.cells;
+    setup.top_speed = 2.0 * c.cells;
     setup.options = c.options;
     Particles start = seed_disc(c.lattice, {0.5 * setup.nx, 0.5 * setup.ny}, c.cells);
     const Vector centre = centre_of_mass(start);
@@ -134,16 +135,15 @@ void report_free_drop(Report& report, const Effort& effort) {
         report.heading(name + " free drop, " + (with_spin ? "strain and spin" : "strain"));
         std::vector<Curve> curves;
         const int most = 64;
-        for (const Plan& plan : {Plan{Kind::projection, resolutions(effort, most), 3},
-                                 Plan{Kind::equation_of_state, few, others},
-                                 Plan{Kind::reference, few, others}}) {
+        const std::vector<Plan> plans = {{Kind::projection, resolutions(effort, most), 3},
+                                         {Kind::equation_of_state, few, others},
+                                         {Kind::reference, few, others}};
+        for (const Plan& plan : chosen(effort, plans)) {
             const auto last =
                 sweep(report, effort, name, plan, metrics_of(with_spin),
                       [&](Scheme& s, const Case& c) { return run_free_drop(s, c, gradient); });
             for (std::size_t k = 0; k < last.size(); ++k) {
-                curves.push_back({std::string(kind_name(plan.kind)) + " " +
-                                      std::to_string(plan.cells[k]),
-                                  *last[k].curve("axes"), false});
+                curves.push_back({title_of(plan, k), *last[k].curve("axes"), false});
             }
         }
         curves.push_back(exact_axes(gradient));

@@ -153,13 +153,13 @@ void report_hydrostatic(Report& report, const Effort& effort) {
     std::vector<Curve> speeds;
     const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
     const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    for (const Plan& plan : {Plan{Kind::projection, resolutions(effort), 3},
-                             Plan{Kind::equation_of_state, few, others},
-                             Plan{Kind::reference, few, others}}) {
+    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort), 3},
+                                     {Kind::equation_of_state, few, others},
+                                     {Kind::reference, few, others}};
+    for (const Plan& plan : chosen(effort, plans)) {
         const auto last = sweep(report, effort, "R4a", plan, metrics, run_hydrostatic);
         for (std::size_t k = 0; k < last.size(); ++k) {
-            const std::string title =
-                std::string(kind_name(plan.kind)) + " " + std::to_string(plan.cells[k]);
+            const std::string title = title_of(plan, k);
             profiles.push_back({title, *last[k].curve("profile"), false});
             speeds.push_back({title, *last[k].curve("speed"), false});
         }

@@ -23,6 +23,7 @@ constexpr Problem kProblems[] = {
     {"R5A", accuracy::report_dam_break},
     {"R6a", accuracy::report_standing_wave},
     {"R6a_formats", accuracy::report_format_wave},
+    {"formats", accuracy::report_format_difference},
     {"R7", accuracy::report_free_drop},
     {"R8", accuracy::report_oscillating_drop},
     {"R9", accuracy::report_taylor_green},

@@ -44,6 +44,7 @@ Outcome run_oscillating_drop(Scheme& scheme, const Case& c, int periods) {
     const double per_period = std::ceil(kPeriod * 2.0 * c.cells);
     setup.interval = kPeriod / per_period;
     setup.sound_speed = kSoundRatio * c.cells;
+    setup.top_speed = 2.0 * c.cells;
     setup.options = c.options;
     Particles start = seed_disc(c.lattice, {0.5 * setup.nx, 0.5 * setup.ny}, c.cells);
     const Drop drop{centre_of_mass(start)};
@@ -107,16 +108,16 @@ void report_oscillating_drop(Report& report, const Effort& effort) {
     std::vector<Curve> energies;
     const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
     const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    for (const Plan& plan : {Plan{Kind::projection, resolutions(effort, 64), 3},
-                             Plan{Kind::projection_double, few, others},
-                             Plan{Kind::equation_of_state, few, others},
-                             Plan{Kind::reference, few, others}}) {
+    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort, 64), 3},
+                                     {Kind::projection_double, few, others},
+                                     {Kind::equation_of_state, few, others},
+                                     {Kind::reference, few, others}};
+    for (const Plan& plan : chosen(effort, plans)) {
         const auto last = sweep(
             report, effort, "R8", plan, metrics,
             [](Scheme& s, const Case& c) { return run_oscillating_drop(s, c, kPeriods); });
         for (std::size_t k = 0; k < last.size(); ++k) {
-            const std::string title =
-                std::string(kind_name(plan.kind)) + " " + std::to_string(plan.cells[k]);
+            const std::string title = title_of(plan, k);
             major.push_back({title, *last[k].curve("major"), false});
             energies.push_back({title, *last[k].curve("energy"), false});
         }

@@ -28,10 +28,17 @@ struct Plan {
     int lattices = 3;
 };
 
+/// What runs: all plans, or with `effort.scheme` those of its method in float, in its format.
+std::vector<Plan> chosen(const Effort& effort, const std::vector<Plan>& plans);
+
 /// Runs a plan and reports every metric, worst lattice counting, and the convergence orders.
+/// Resolutions end where the scheme is unable to hold the problem.
 /// @return the outcomes on the last lattice that was run, one for each resolution.
 std::vector<Outcome> sweep(Report& report, const Effort& effort, const std::string& problem,
                            const Plan& plan, const std::vector<Metric>& metrics, const Run& run);
+
+/// Of a curve: scheme and resolution.
+std::string title_of(const Plan& plan, std::size_t resolution);
 
 /// 32, 64 and 128, or 16 and 32 when quick; at most `most` cells.
 std::vector<int> resolutions(const Effort& effort, int most = 128);
@@ -47,6 +54,7 @@ void report_hydrostatic(Report& report, const Effort& effort);
 void report_dam_break(Report& report, const Effort& effort);
 void report_standing_wave(Report& report, const Effort& effort);
 void report_format_wave(Report& report, const Effort& effort);
+void report_format_difference(Report& report, const Effort& effort);
 void report_free_drop(Report& report, const Effort& effort);
 void report_oscillating_drop(Report& report, const Effort& effort);
 void report_rotation(Report& report, const Effort& effort);

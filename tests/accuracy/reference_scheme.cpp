@@ -21,7 +21,7 @@ class ReferenceScheme final : public Scheme {
 public:
     void start(const Setup& setup, const Particles& particles) override {
         if (setup.periodic_x || setup.periodic_y || setup.viscosity > 0.0 || setup.no_slip) {
-            throw std::runtime_error("the paper's method has no periodic tank and no viscosity");
+            throw Unable("the paper's method has no periodic tank and no viscosity");
         }
         interval_ = setup.interval * setup.options.step_scale;
         const double sound = setup.sound_speed * setup.options.sound_scale;

@@ -160,6 +160,11 @@ void Report::plot(const std::string& name, const std::string& x_label,
     }
 }
 
+void Report::skipped(const std::string& name, const std::string& why) {
+    std::printf("  %-52s skipped: %s\n", name.c_str(), why.c_str());
+    measure::Report::row(name, ("skipped: " + plain(why)).c_str());
+}
+
 void Report::broken(const std::string& what) {
     std::printf("  BROKEN: %s\n", what.c_str());
     measure::Report::row(plain(what), 1.0, "1", "==", 0.0, false);

@@ -48,6 +48,8 @@ public:
     /// Curves of one picture; written with a gnuplot script and, if gnuplot is there, drawn.
     void plot(const std::string& name, const std::string& x_label, const std::string& y_label,
               const std::vector<Curve>& curves, const std::string& extra = "");
+    /// What cannot be run, and why.
+    void skipped(const std::string& name, const std::string& why);
     /// A run broke (not finite, lost particles): the program's exit status becomes 1.
     void broken(const std::string& what);
 

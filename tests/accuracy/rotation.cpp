@@ -37,6 +37,7 @@ Outcome run_transfers(Scheme& scheme, const Case& c) {
     setup.nx = 3 * c.cells;
     setup.ny = setup.nx;
     setup.sound_speed = kNoSound;
+    setup.top_speed = 1.5 * c.cells;
     setup.options = c.options;
     const Vector centre{0.5 * setup.nx, 0.5 * setup.ny};
     const Particles start = rotating(seed_disc(c.lattice, centre, c.cells), centre);
@@ -95,6 +96,7 @@ Outcome run_patch(Scheme& scheme, const Case& c) {
     setup.ny = setup.nx;
     setup.interval = 0.5 / c.cells;
     setup.sound_speed = 7.0 * c.cells;
+    setup.top_speed = 1.5 * c.cells;
     setup.options = c.options;
     const Vector middle{0.5 * setup.nx, 0.5 * setup.ny};
     const Vector arm{0.5 * c.cells, 0.5 * c.cells};
@@ -138,9 +140,11 @@ void report_rotation(Report& report, const Effort& effort) {
     const std::vector<Metric> transfers = {{"energy_loss_100_transfers", "%", {}},
                                            {"spin_loss_100_transfers", "%", {}},
                                            {"radius_growth_2_turns", "%", {}}};
-    sweep(report, effort, "R11a", {Kind::equation_of_state, resolutions(effort, 64), 3}, transfers,
-          run_transfers);
-    sweep(report, effort, "R11a", {Kind::reference, few, 3}, transfers, run_transfers);
+    const std::vector<Plan> alone = {{Kind::equation_of_state, resolutions(effort, 64), 3},
+                                     {Kind::reference, few, 3}};
+    for (const Plan& plan : chosen(effort, alone)) {
+        sweep(report, effort, "R11a", plan, transfers, run_transfers);
+    }
 
     report.heading("R11b rotating square patch");
     const std::vector<Metric> patch = {
@@ -150,12 +154,12 @@ void report_rotation(Report& report, const Effort& effort) {
         {"pressure_noise", "%", {}},
         {"centre_of_mass_shift", "cell", {}},
         {"farthest_particle", "L", {}}};
-    const Plan plan{Kind::projection, resolutions(effort), 3};
-    const auto last = sweep(report, effort, "R11b", plan, patch, run_patch);
     std::vector<Curve> curves;
-    for (std::size_t k = 0; k < last.size(); ++k) {
-        curves.push_back({"projection " + std::to_string(plan.cells[k]), *last[k].curve("energy"),
-                          false});
+    for (const Plan& plan : chosen(effort, {{Kind::projection, resolutions(effort), 3}})) {
+        const auto last = sweep(report, effort, "R11b", plan, patch, run_patch);
+        for (std::size_t k = 0; k < last.size(); ++k) {
+            curves.push_back({title_of(plan, k), *last[k].curve("energy"), false});
+        }
     }
     report.plot("R11b kinetic energy", "t omega", "E / E0", curves);
 }

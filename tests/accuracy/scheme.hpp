@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -50,21 +51,38 @@ struct Setup {
     double viscosity = 0.0;  ///< kinematic, cells² per unit of time
     bool no_slip = false;    ///< at the tank's walls
     double slide_top = 0.0;  ///< speed of the upper wall along x, without slip
+    double top_speed = 0.0;  ///< nothing gets faster along an axis; 0: nobody knows
     Options options;
 };
 
 enum class Kind {
-    projection,         ///< Weir, Pressure::projection, float
-    projection_double,  ///< the same in double
+    projection,  ///< Weir, Pressure::projection, float
+    projection_double,
+    projection_fixed,
+    projection_small_fixed,
     equation_of_state,  ///< Weir, Pressure::equation_of_state, float
-    reference,          ///< the paper's own liquid step (tests/reference)
+    equation_of_state_double,
+    equation_of_state_fixed,
+    equation_of_state_small_fixed,
+    reference,  ///< the paper's own liquid step (tests/reference)
 };
 const char* kind_name(Kind kind);
+/// Throws if there is none of that name.
+Kind kind_named(const std::string& name);
+/// The same method in float.
+Kind in_float(Kind kind);
+
+/// A scheme cannot hold a problem: its arithmetic is too narrow, or lacks a feature.
+class Unable : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
 
 class Scheme {
 public:
     virtual ~Scheme() = default;
 
+    /// Throws `Unable`.
     virtual void start(const Setup& setup, const Particles& particles) = 0;
     virtual void advance() = 0;
     virtual Particles particles() const = 0;
@@ -94,6 +112,8 @@ public:
     }
     /// Particles that had to be put to rest because their state was not finite.
     std::int64_t reset() const { return reset_; }
+    /// Steps in which speeds were limited to what the arithmetic bears.
+    std::int64_t limited() const { return limited_; }
 
 protected:
     double interval_ = 0.0;
@@ -102,6 +122,7 @@ protected:
     double time_ = 0.0;
     std::int64_t steps_ = 0;
     std::int64_t reset_ = 0;
+    std::int64_t limited_ = 0;
 };
 
 std::unique_ptr<Scheme> make_scheme(Kind kind);

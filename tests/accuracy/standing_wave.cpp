@@ -95,14 +95,14 @@ void report_standing_wave(Report& report, const Effort& effort) {
     std::vector<Curve> curves;
     const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
     const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    for (const Plan& plan : {Plan{Kind::projection, resolutions(effort), 3},
-                             Plan{Kind::projection_double, few, others},
-                             Plan{Kind::equation_of_state, few, others},
-                             Plan{Kind::reference, few, others}}) {
+    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort), 3},
+                                     {Kind::projection_double, few, others},
+                                     {Kind::equation_of_state, few, others},
+                                     {Kind::reference, few, others}};
+    for (const Plan& plan : chosen(effort, plans)) {
         const auto last = sweep(report, effort, "R6a", plan, metrics, run_standing_wave);
         for (std::size_t k = 0; k < last.size(); ++k) {
-            const std::string title =
-                std::string(kind_name(plan.kind)) + " " + std::to_string(plan.cells[k]);
+            const std::string title = title_of(plan, k);
             curves.push_back({title, *last[k].curve("wave"), false});
         }
     }

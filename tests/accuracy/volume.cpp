@@ -70,6 +70,7 @@ Outcome run_flips(Scheme& scheme, const Case& c) {
     setup.gravity = {0.0, -double(c.cells)};
     setup.interval = 0.05;
     setup.sound_speed = 10.0 * c.cells;
+    setup.top_speed = 4.0 * c.cells;
     setup.options = c.options;
     const Particles start =
         seed_box(c.lattice, {0.0, 0.0}, {double(c.cells), 0.5 * c.cells});
@@ -97,6 +98,7 @@ Outcome run_pool(Scheme& scheme, const Case& c, int steps) {
     setup.gravity = {0.0, -double(c.cells)};
     setup.interval = std::sqrt(0.1 / c.cells);
     setup.sound_speed = 10.0 * c.cells;
+    setup.top_speed = c.cells;
     setup.options = c.options;
     const Particles start = seed_box(c.lattice, {0.0, 0.0}, {16.0, double(c.cells)});
     scheme.start(setup, start);
@@ -127,9 +129,10 @@ void report_volume(Report& report, const Effort& effort) {
     std::vector<Curve> curves;
     report.heading("R14 volume: dam break, settled");
     const std::vector<int> cells = resolutions(effort, 32);
-    for (const Plan& plan : {Plan{Kind::projection, cells, 3},
-                             Plan{Kind::equation_of_state, {16}, 1},
-                             Plan{Kind::reference, {16}, 1}}) {
+    const std::vector<Plan> dams = {{Kind::projection, cells, 3},
+                                    {Kind::equation_of_state, {16}, 1},
+                                    {Kind::reference, {16}, 1}};
+    for (const Plan& plan : chosen(effort, dams)) {
         const auto last =
             sweep(report, effort, "R14.dam_break", plan, {height}, run_settled_dam_break);
         for (const Outcome& outcome : last) {
@@ -139,22 +142,28 @@ void report_volume(Report& report, const Effort& effort) {
     report.plot("R14 dam break", "t sqrt(g/H)", "height error, per cent", curves);
 
     report.heading("R14 volume: 80 gravity flips");
-    sweep(report, effort, "R14.flips", {Kind::projection, cells, 3}, {height, quiet}, run_flips);
+    std::vector<Plan> flips = {{Kind::projection, cells, 3}};
     if (!effort.quick) {
-        sweep(report, effort, "R14.flips", {Kind::equation_of_state, {16}, 1}, {height, quiet},
-              run_flips);
+        flips.push_back({Kind::equation_of_state, {16}, 1});
+    }
+    for (const Plan& plan : chosen(effort, flips)) {
+        sweep(report, effort, "R14.flips", plan, {height, quiet}, run_flips);
     }
 
     const int steps = effort.long_soak ? 1000000 : effort.quick ? 10000 : 100000;
     report.heading("R14 volume: resting pool, " + std::to_string(steps) + " steps");
-    const auto pool = sweep(
-        report, effort, "R14.pool",
-        {Kind::projection, {effort.quick ? 16 : 32}, effort.quick ? 1 : 3},
-        {height, {"creep_since_step_1000", "%", one_percent}, quiet},
-        [&](Scheme& s, const Case& c) { return run_pool(s, c, steps); });
-    for (const Outcome& outcome : pool) {
-        report.plot("R14 pool", "step", "height error, per cent",
-                    {{"projection, last lattice", *outcome.curve("height"), false}});
+    const std::vector<Plan> pools = {
+        {Kind::projection, {effort.quick ? 16 : 32}, effort.quick ? 1 : 3}};
+    for (const Plan& plan : chosen(effort, pools)) {
+        const auto pool = sweep(
+            report, effort, "R14.pool", plan,
+            {height, {"creep_since_step_1000", "%", one_percent}, quiet},
+            [&](Scheme& s, const Case& c) { return run_pool(s, c, steps); });
+        for (const Outcome& outcome : pool) {
+            report.plot("R14 pool", "step", "height error, per cent",
+                        {{std::string(kind_name(plan.kind)) + ", last lattice",
+                          *outcome.curve("height"), false}});
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 #include "weir_scheme.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <new>
 #include <stdexcept>
@@ -16,6 +17,9 @@ namespace {
 
 /// Enough for any interval here: no scheme shall be softened behind the problem's back.
 constexpr std::int32_t kMostSubsteps = 1000;
+
+/// Of an interval, by its parts.
+constexpr double kRounding = 1e-5;
 
 float narrow(double value) {
     return static_cast<float>(value);
@@ -41,6 +45,7 @@ weir::WorldDef definition(const Setup& setup, weir::Pressure pressure, std::size
     def.viscosity_m2ps = narrow(setup.viscosity);
     def.walls = weir::every_wall({0.0F, 0.0F, setup.no_slip, 0.0F});
     def.walls.top.conveyor_mps = -narrow(setup.slide_top);
+    def.top_speed_mps = narrow(setup.top_speed);
     return def;
 }
 
@@ -64,6 +69,7 @@ public:
         interval_ = static_cast<double>(step_);
         reset_clock();
         reset_ = 0;
+        limited_ = 0;
     }
 
     void advance() override {
@@ -75,7 +81,8 @@ public:
         steps_ += report.substeps;
         own_step_ = interval_ / report.substeps;
         reset_ += report.particles_reset;
-        if (report.dt_s != step_) {
+        limited_ += report.has(weir::Clamped::speed) ? 1 : 0;
+        if (std::fabs(double(report.dt_s) / interval_ - 1.0) > kRounding) {
             throw std::runtime_error("the library shortened a step");
         }
     }
@@ -83,10 +90,11 @@ public:
     Particles particles() const override {
         const auto x = world_.particle_positions();
         const auto v = world_.particle_velocities();
+        const double scale = double(world_.velocity_scale());
         Particles result(static_cast<std::size_t>(x.size));
         for (std::int32_t k = 0; k < x.size; ++k) {
             result[static_cast<std::size_t>(k)] = {{double(x[k].x), double(x[k].y)},
-                                                   {double(v[k].x), double(v[k].y)}};
+                                                   scale * Vector{double(v[k].x), double(v[k].y)}};
         }
         return result;
     }
@@ -95,15 +103,17 @@ public:
     /// the memory.
     void replace(const Particles& particles) override {
         weir::Simulation<Real>& simulation = state().simulation;
+        const double unit = double(weir::detail::unit_of(state()));
         Real fastest = Real(0);
         for (std::size_t k = 0; k < particles.size(); ++k) {
             const Particle& p = particles[k];
             const weir::GridShape& tank = simulation.grid.shape;
-            simulation.particles.position[k] = {inside(p.x.x, tank.nx, periodic_x_),
-                                                inside(p.x.y, tank.ny, periodic_y_)};
-            simulation.particles.velocity[k] = {Real(p.v.x), Real(p.v.y)};
-            fastest = weir::maximum(fastest, weir::absolute(Real(p.v.x)));
-            fastest = weir::maximum(fastest, weir::absolute(Real(p.v.y)));
+            const weir::Vec2<Real> v{Real(unit * p.v.x), Real(unit * p.v.y)};
+            simulation.particles.position[k] = weir::Vec2<Real>{
+                inside(p.x.x, tank.nx, periodic_x_), inside(p.x.y, tank.ny, periodic_y_)};
+            simulation.particles.velocity[k] = v;
+            fastest = weir::maximum(fastest, weir::absolute(v.x));
+            fastest = weir::maximum(fastest, weir::absolute(v.y));
         }
         simulation.max_speed = fastest;
     }
@@ -133,7 +143,7 @@ private:
     State& state() { return *std::launder(static_cast<State*>(static_cast<void*>(memory_.data()))); }
     static void check(weir::Status status) {
         if (status != weir::Status::ok) {
-            throw std::runtime_error(weir::status_text(status));
+            throw Unable(weir::status_text(status));
         }
     }
 
@@ -147,11 +157,14 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Scheme> make_weir(bool projection, bool in_double) {
+std::unique_ptr<Scheme> make_weir(bool projection, Format format) {
     const weir::Pressure pressure =
         projection ? weir::Pressure::projection : weir::Pressure::equation_of_state;
-    if (in_double) {
-        return std::make_unique<WeirScheme<double>>(pressure);
+    switch (format) {
+        case Format::in_double: return std::make_unique<WeirScheme<double>>(pressure);
+        case Format::fixed: return std::make_unique<WeirScheme<weir::Fixed>>(pressure);
+        case Format::small_fixed: return std::make_unique<WeirScheme<weir::SmallFixed>>(pressure);
+        case Format::in_float: break;
     }
     return std::make_unique<WeirScheme<float>>(pressure);
 }
