@@ -19,7 +19,9 @@ Particles start_pool(const Case& c, Scheme& scheme, Setup& setup) {
     setup.sound_speed = kSoundRatio * depth;
     setup.top_speed = depth;  // sqrt(g H): its waves are slower
     setup.options = c.options;
-    const Particles start = seed_box(c.lattice, {0.0, 0.0}, {double(c.cells), depth});
+    const Particles start =
+        c.start != nullptr ? *c.start
+                           : seed_box(c.lattice, {0.0, 0.0}, {double(c.cells), depth});
     scheme.start(setup, start);
     return start;
 }

@@ -15,6 +15,7 @@ struct Case {
     int cells = 32;  ///< per reference length of the problem
     Lattice lattice = Lattice::aligned;
     Options options;
+    const Particles* start = nullptr;  ///< instead of the lattice; null: none
 };
 
 /// Starts a scheme with a pool as wide as `c.cells` and half as deep, g being its depth, so that

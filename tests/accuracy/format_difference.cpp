@@ -2,7 +2,8 @@
 // cells on the same lattices in every format. The difference to double is taken in the norm of the
 // problem's own error; in fixed point it may be a tenth of double's error, the worst lattice of
 // each counting. Float's stands beside it: where trajectories are chaotic, any rounding makes as
-// much. Of the differences' mean over the lattices nothing but a format's bias is left.
+// much. R6a begins with 1000 steps of rest, in which a lattice creeps by less than a number of fixed
+// point a step: each format's own is another lattice. So it is also run from double's.
 #include <cmath>
 #include <functional>
 
@@ -32,13 +33,19 @@ struct Problem {
     const char* name;
     Run run;
     std::vector<Quantity> quantities;
+    bool given_rest = false;  ///< all start from the particles that are at rest in double
 };
 
 Outcomes run_lattices(Report& report, const Effort& effort, const Problem& problem, Kind kind) {
     Outcomes outcomes;
     for (const Lattice lattice : kLattices) {
-        const auto scheme = make_scheme(kind);
-        outcomes.push_back(problem.run(*scheme, {kCells, lattice, effort.options}));
+        Case c{kCells, lattice, effort.options};
+        Particles rested;
+        if (problem.given_rest) {
+            rested = rest_before_wave(*make_scheme(Kind::projection_double), c);
+            c.start = &rested;
+        }
+        outcomes.push_back(problem.run(*make_scheme(kind), c));
         if (!outcomes.back().broken.empty()) {
             report.broken(std::string("formats.") + problem.name + "." + kind_name(kind) + "." +
                           lattice_name(lattice) + " " + outcomes.back().broken);
@@ -55,10 +62,10 @@ double largest(const std::vector<double>& values) {
     return most;
 }
 
-double mean(const std::vector<double>& values) {
+double mean_size(const std::vector<double>& values) {
     double sum = 0.0;
     for (const double value : values) {
-        sum += value;
+        sum += std::fabs(value);
     }
     return sum / static_cast<double>(values.size());
 }
@@ -97,10 +104,11 @@ std::vector<Problem> problems_of(const Effort& effort) {
     for (const char* sensor : {"P1", "P2", "P3", "P4"}) {
         dam.push_back(pressure(effort, sensor));
     }
+    const std::vector<Quantity> wave = {value_of("frequency_error", "%"),
+                                        value_of("loss_per_period", "%")};
     return {{"R5A", run_dam_break, dam},
-            {"R6a",
-             run_standing_wave,
-             {value_of("frequency_error", "%"), value_of("loss_per_period", "%")}}};
+            {"R6a", run_standing_wave, wave},
+            {"R6a_from_rest", run_standing_wave, wave, true}};
 }
 
 void compare(Report& report, const Problem& problem, const Outcomes& exact, const Outcomes& of,
@@ -123,7 +131,7 @@ void compare(Report& report, const Problem& problem, const Outcomes& exact, cons
             report.figure(name + ".difference_over_error", ratio, "1");
         }
         report.figure(name + ".mean_difference_over_mean_error",
-                      std::fabs(mean(differences) / mean(errors)), "1");
+                      mean_size(differences) / mean_size(errors), "1");
     }
 }
 

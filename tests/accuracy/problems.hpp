@@ -47,7 +47,10 @@ Outcome run_hydrostatic(Scheme& scheme, const Case& c);
 Outcome run_dam_break(Scheme& scheme, const Case& c);
 /// Until the front reaches the far wall: what the front alone needs.
 Outcome run_dam_break_front(Scheme& scheme, const Case& c);
+/// From `c.start` if there is one, which then is at rest.
 Outcome run_standing_wave(Scheme& scheme, const Case& c);
+/// The relaxed lattice that a standing wave begins with.
+Particles rest_before_wave(Scheme& scheme, const Case& c);
 Outcome run_oscillating_drop(Scheme& scheme, const Case& c, int periods);
 
 void report_hydrostatic(Report& report, const Effort& effort);

@@ -44,8 +44,8 @@ Outcome run_transfers(Scheme& scheme, const Case& c) {
     const double kinetic = energy(start, {}).kinetic;
     const double spin = angular_momentum(start, centre);
     Outcome outcome;
-    // A hundred transfers without moving.
-    setup.interval = 1e-9;
+    // A hundred transfers next to without moving. A power of two: every format knows it.
+    setup.interval = std::ldexp(1.0, -24);
     scheme.start(setup, start);
     for (int k = 0; k < 100; ++k) {
         scheme.advance();

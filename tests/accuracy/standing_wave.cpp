@@ -43,20 +43,32 @@ double modal_velocity(const Particles& particles, const Mode& mode) {
     return sum / norm;
 }
 
-}  // namespace
-
-Outcome run_standing_wave(Scheme& scheme, const Case& c) {
-    const double depth = 0.5 * c.cells;
-    Setup setup;
-    const Particles start = start_pool(c, scheme, setup);
+/// As `start_pool`, and lets it come to rest.
+Particles start_at_rest(Scheme& scheme, const Case& c, Setup& setup) {
+    Particles start = start_pool(c, scheme, setup);
     // In a compressible scheme every interval is many steps.
     const int relaxing = scheme.compressible()
                              ? static_cast<int>(15.0 / scheme.interval())
                              : kRelaxingSteps;
-    for (int k = 0; k < relaxing; ++k) {
+    for (int k = 0; c.start == nullptr && k < relaxing; ++k) {
         scheme.advance();
     }
     scheme.reset_clock();
+    return start;
+}
+
+}  // namespace
+
+Particles rest_before_wave(Scheme& scheme, const Case& c) {
+    Setup setup;
+    start_at_rest(scheme, c, setup);
+    return scheme.particles();
+}
+
+Outcome run_standing_wave(Scheme& scheme, const Case& c) {
+    const double depth = 0.5 * c.cells;
+    Setup setup;
+    const Particles start = start_at_rest(scheme, c, setup);
     const Mode mode{kPi / c.cells, depth};
     const double speed_scale = kAmplitude * depth * kOmega;
     Particles moving = scheme.particles();
