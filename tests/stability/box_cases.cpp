@@ -81,8 +81,8 @@ void strike(Report& report, const Scheme& scheme, float times) {
 
 }  // namespace
 
-void high_drop(Report& report, const Effort&) {
-    each_scheme(false, true, [&](const Scheme& scheme, auto real) {
+void high_drop(Report& report, const Effort& effort) {
+    each_scheme(effort.scalar, false, true, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
         for (const bool pool : {false, true}) {
             Tank<Real> tank(tank_def(scheme, 12, 216, 512));
@@ -97,15 +97,15 @@ void high_drop(Report& report, const Effort&) {
     });
 }
 
-void jittering_step(Report& report, const Effort&) {
-    each_scheme(false, true, [&](const Scheme& scheme, auto real) {
+void jittering_step(Report& report, const Effort& effort) {
+    each_scheme(effort.scalar, false, true, [&](const Scheme& scheme, auto real) {
         jitter<decltype(real)>(report, scheme, false);
         jitter<decltype(real)>(report, scheme, true);
     });
 }
 
 void flipping_gravity(Report& report, const Effort& effort) {
-    each_scheme(false, false, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, false, false, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
         for (const std::int32_t depth : {5, 8}) {
             flip<Real>(report, effort, scheme, depth);

@@ -9,6 +9,7 @@ namespace stability {
 
 struct Effort {
     bool full = false;
+    Scalar scalar = Scalar::usual;
     std::uint64_t seed = 0;   ///< random scenes: replay this one alone; 0: all
     std::int32_t scenes = 0;  ///< random scenes: how many; 0: as the effort wants
 };

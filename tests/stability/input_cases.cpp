@@ -104,15 +104,25 @@ public:
         tank_.run(60, dt_s_);
     }
 
-    /// Memory goes bad under the world: a velocity becomes NaN or infinite.
+    /// Memory goes bad under the world: a velocity becomes NaN or infinite, or in fixed point, where
+    /// every bit pattern is a number, the largest that there is.
     void bad_memory() {
-        for (const Real bad : {std::numeric_limits<Real>::quiet_NaN(),
-                               std::numeric_limits<Real>::infinity()}) {
-            const auto view = tank_.world().particle_velocities();
-            const_cast<weir::Vec2<Real>*>(view.data)[view.size / 2].x = bad;
-            const StepReport report = tank_.step(dt_s_);
-            report_.at_least(name_ + ".bad_memory.particles_reset", report.particles_reset, "1", 1);
-            report_.holds(name_ + ".bad_memory.reported", report.has(Clamped::not_finite));
+        using Velocity = weir::VelocityOf<Real>;
+        if constexpr (kIsFixed<Real>) {
+            using Bits = decltype(Velocity::raw);
+            for (const Bits bad : {std::numeric_limits<Bits>::max(),
+                                   std::numeric_limits<Bits>::min()}) {
+                report_.at_least(name_ + ".bad_memory.particles_slowed",
+                                 step_with(Velocity::of_raw(bad)).particles_slowed, "1", 1);
+            }
+        } else {
+            for (const Velocity bad : {std::numeric_limits<Velocity>::quiet_NaN(),
+                                       std::numeric_limits<Velocity>::infinity()}) {
+                const StepReport report = step_with(bad);
+                report_.at_least(name_ + ".bad_memory.particles_reset", report.particles_reset,
+                                 "1", 1);
+                report_.holds(name_ + ".bad_memory.reported", report.has(Clamped::not_finite));
+            }
         }
         // Put to rest where they were: everything is sound again in the next step, and moves.
         report_.holds(name_ + ".bad_memory.over", !tank_.step(dt_s_).has(Clamped::not_finite));
@@ -129,6 +139,12 @@ public:
 
 private:
     Status add(Vec2f at_m, Vec2f velocity) { return tank_.world().add_particle(at_m, velocity); }
+
+    StepReport step_with(weir::VelocityOf<Real> bad) {
+        const auto view = tank_.world().particle_velocities();
+        const_cast<weir::Vec2<weir::VelocityOf<Real>>*>(view.data)[view.size / 2].x = bad;
+        return tank_.step(dt_s_);
+    }
 
     template <class Call>
     void unchanged(const char* what, Call call) {
@@ -147,8 +163,8 @@ private:
 
 }  // namespace
 
-void bad_numbers(Report& report, const Effort&) {
-    each_scheme(false, true, [&](const Scheme& scheme, auto real) {
+void bad_numbers(Report& report, const Effort& effort) {
+    each_scheme(effort.scalar, false, true, [&](const Scheme& scheme, auto real) {
         Doors<decltype(real)> doors(report, scheme);
         doors.refused_particles();
         doors.gravity();

@@ -1,8 +1,10 @@
-// weir_stability OUT.csv [quick|full] [seed=N] [scenes=N] [case ...]: what the library is put
-// through, and whether it stays finite, whole, inside and within its energy. Without cases, all.
+// weir_stability OUT.csv [quick|full] [real=R] [seed=N] [scenes=N] [case ...]: what the library is
+// put through, and whether it stays finite, whole, inside and within its energy. Without cases, all;
+// without an arithmetic in float, and what is cheap in double, too.
 // Exit status 1 if anything that has to hold does not.
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases.hpp"
@@ -35,12 +37,30 @@ constexpr measure::Problem<stability::Report, stability::Effort> kCases[] = {
 };
 
 constexpr char kArguments[] =
-    "weir_stability OUT.csv [quick|full] [seed=N] [scenes=N]";
+    "weir_stability OUT.csv [quick|full] [real=float|double|fixed|small_fixed] [seed=N] [scenes=N]";
+
+bool take_scalar(const std::string& name, stability::Scalar& scalar) {
+    constexpr std::pair<const char*, stability::Scalar> kScalars[] = {
+        {"float", stability::Scalar::single},
+        {"double", stability::Scalar::twice},
+        {"fixed", stability::Scalar::fixed},
+        {"small_fixed", stability::Scalar::small_fixed},
+    };
+    for (const auto& one : kScalars) {
+        if (name == one.first) {
+            scalar = one.second;
+            return true;
+        }
+    }
+    return false;
+}
 
 /// False for a word that is neither a setting nor a case.
 bool take(const std::string& word, stability::Effort& effort, std::vector<std::string>& names) {
     if (word == "quick" || word == "full") {
         effort.full = word == "full";
+    } else if (word.rfind("real=", 0) == 0) {
+        return take_scalar(word.substr(5), effort.scalar);
     } else if (word.rfind("seed=", 0) == 0) {
         effort.seed = std::strtoull(word.c_str() + 5, nullptr, 10);
     } else if (word.rfind("scenes=", 0) == 0) {

@@ -40,6 +40,7 @@ struct Point {
     bool whole = false;
 };
 
+template <class Real>
 Point measure(const Scheme& scheme, float cfl, float row, std::int32_t per_cell, float viscosity) {
     weir::WorldDef def = tank_def(scheme, 20, 16, 20 * 16 * per_cell);
     def.cfl = cfl;
@@ -51,7 +52,7 @@ Point measure(const Scheme& scheme, float cfl, float row, std::int32_t per_cell,
         def.pressure_sweeps = static_cast<std::int32_t>(row);
     }
     def.viscosity_m2ps = viscosity * kCell * kCell / kFrame;
-    Tank<float> tank(def);
+    Tank<Real> tank(def);
     tank.fill(0, 0, 8, 12);
     // Two frames a step: the CFL number decides how it is cut.
     tank.run(60, 2.0F * kFrame);
@@ -127,6 +128,7 @@ constexpr const char* kVolumePalette =
     "set cblabel 'settled volume error, %'\nset cbrange [-20:20]\n"
     "set palette defined (-20 'blue', -5 'light-blue', 0 'white', 5 'orange', 20 'red')";
 
+template <class Real>
 void map_scheme(Report& report, const Scheme& scheme, bool full) {
     const Axes axes = axes_of(scheme, full);
     const std::string name = "map." + scheme.name();
@@ -145,7 +147,7 @@ void map_scheme(Report& report, const Scheme& scheme, bool full) {
             std::vector<std::vector<double>> volume(axes.rows.size());
             for (std::size_t r = 0; r < axes.rows.size(); ++r) {
                 for (const float cfl : axes.cfl) {
-                    const Point p = measure(scheme, cfl, axes.rows[r], per_cell, viscosity);
+                    const Point p = measure<Real>(scheme, cfl, axes.rows[r], per_cell, viscosity);
                     ++points;
                     broken += p.whole ? 0 : 1;
                     const bool more = !(p.energy <= bounds_of(scheme).energy);
@@ -181,8 +183,8 @@ void map_scheme(Report& report, const Scheme& scheme, bool full) {
 }  // namespace
 
 void stability_map(Report& report, const Effort& effort) {
-    each_scheme(false, false, [&](const Scheme& scheme, auto) {
-        map_scheme(report, scheme, effort.full);
+    each_scheme(effort.scalar, false, false, [&](const Scheme& scheme, auto real) {
+        map_scheme<decltype(real)>(report, scheme, effort.full);
     });
 }
 

@@ -104,9 +104,20 @@ private:
     Outcome outcome_;
 };
 
-Outcome play(const RandomScene& scene) {
+Outcome play_in(const RandomScene& scene, Scalar scalar) {
+    switch (scalar) {
+        case Scalar::usual: break;
+        case Scalar::single: return Play<float>(scene).run();
+        case Scalar::twice: return Play<double>(scene).run();
+        case Scalar::fixed: return Play<weir::Fixed>(scene).run();
+        case Scalar::small_fixed: return Play<weir::SmallFixed>(scene).run();
+    }
+    return scene.is_double ? Play<double>(scene).run() : Play<float>(scene).run();
+}
+
+Outcome play(const RandomScene& scene, Scalar scalar) {
     try {
-        return scene.is_double ? Play<double>(scene).run() : Play<float>(scene).run();
+        return play_in(scene, scalar);
     } catch (const std::exception& error) {
         Outcome outcome;
         outcome.refused = error.what();
@@ -211,11 +222,11 @@ void random_scenes(Report& report, const Effort& effort) {
     Campaign campaign;
     if (effort.seed != 0) {
         const RandomScene scene = random_scene(effort.seed);
-        campaign.take(scene, play(scene), true);
+        campaign.take(scene, play(scene, effort.scalar), true);
     } else {
         for (std::int32_t k = 1; k <= count; ++k) {
             const RandomScene scene = random_scene(static_cast<std::uint64_t>(k));
-            campaign.take(scene, play(scene), false);
+            campaign.take(scene, play(scene, effort.scalar), false);
         }
     }
     const auto figure = [&](const char* name, double value) {

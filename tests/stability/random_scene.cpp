@@ -167,6 +167,8 @@ RandomScene random_scene(std::uint64_t seed) {
     scene.dt_s = kFrame * random.one_of({0.1F, 0.5F, 1.0F, 1.0F, 2.0F, 6.0F});
     scene.jitter = random.chance(0.5F) ? random.uniform(0.0F, 0.9F) : 0.0F;
     scene.steps = random.integer(100, 300);
+    // Packed worlds alone have a use for it.
+    scene.def.top_speed_mps = kCell * random.one_of({0.0F, 100.0F, 500.0F, 2000.0F});
     return scene;
 }
 

@@ -46,4 +46,17 @@ void Report::not_offered(const std::string& name) {
     row(name, "not offered");
 }
 
+void Report::skipped(const std::string& name, const std::string& answer) {
+    std::printf("  %-50s skipped, %s\n", name.c_str(), answer.c_str());
+    row(name, "skipped");
+    ++skipped_;
+}
+
+void Report::summary() const {
+    measure::Report::summary();
+    if (skipped_ > 0) {
+        std::printf("%d skipped: beyond the arithmetic\n", skipped_);
+    }
+}
+
 }  // namespace stability

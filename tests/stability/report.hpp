@@ -35,6 +35,12 @@ public:
     void run(const std::string& name, const Tally& tally, const Bounds& bounds);
     /// A row for what the library does not offer.
     void not_offered(const std::string& name);
+    /// A row for what the arithmetic does not bear: the world's answer.
+    void skipped(const std::string& name, const std::string& answer);
+    void summary() const;
+
+private:
+    int skipped_ = 0;
 };
 
 }  // namespace stability

@@ -113,15 +113,17 @@ void rest(Report& report, const Scheme& scheme, std::int32_t steps) {
     Tank<Real> tank(box_def<Real>(scheme, 16));
     tank.fill(0, 0, 16, 8);
     tank.run(steps - 1000, scheme.dt_s());
-    const auto view = tank.world().particle_positions();
-    const std::vector<weir::Vec2<Real>> before(view.begin(), view.end());
+    std::vector<weir::Vec2<Look<Real>>> before;
+    for (std::int32_t k = 0; k < tank.particles(); ++k) {
+        before.push_back(tank.position(k));
+    }
     const std::uint64_t hash = tank.world().state_hash();
     tank.run(999, scheme.dt_s());
     const std::uint64_t last_but_one = tank.world().state_hash();
     tank.run(1, scheme.dt_s());
     double most = 0.0;
     for (std::size_t k = 0; k < before.size(); ++k) {
-        const auto now = tank.world().particle_positions()[static_cast<std::int32_t>(k)];
+        const auto now = tank.position(static_cast<std::int32_t>(k));
         most = std::max(most, std::hypot(static_cast<double>(now.x - before[k].x),
                                          static_cast<double>(now.y - before[k].y)));
     }
@@ -130,8 +132,13 @@ void rest(Report& report, const Scheme& scheme, std::int32_t steps) {
     report.run(name, tank.tally(), bounds_of(scheme));
     report.at_most(name + ".largest_way_in_last_1000", most, "cells",
                    scheme.elastic() ? 2.0 : 0.05);
-    report.figure(name + ".same_bits_as_1000_steps_ago", end == hash ? 1 : 0, "1");
-    report.figure(name + ".same_bits_as_the_step_before", end == last_but_one ? 1 : 0, "1");
+    if (kIsFixed<Real>) {
+        report.holds(name + ".same_bits_as_1000_steps_ago", end == hash);
+        report.holds(name + ".same_bits_as_the_step_before", end == last_but_one);
+    } else {
+        report.figure(name + ".same_bits_as_1000_steps_ago", end == hash ? 1 : 0, "1");
+        report.figure(name + ".same_bits_as_the_step_before", end == last_but_one ? 1 : 0, "1");
+    }
     report.figure(name + ".volume_drift", tank.volume_error(), "1");
 }
 
@@ -155,7 +162,7 @@ void pour(Report& report, const Scheme& scheme, const std::vector<float>& height
 }  // namespace
 
 void soak(Report& report, const Effort& effort) {
-    each_scheme(false, false, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, false, false, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
         for (const std::int32_t cells : {16, 32}) {
             if (cells > 16 && !effort.full) {
@@ -170,7 +177,7 @@ void soak(Report& report, const Effort& effort) {
 }
 
 void resting_pool(Report& report, const Effort& effort) {
-    each_scheme(false, false, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, false, false, [&](const Scheme& scheme, auto real) {
         const std::int32_t quick = scheme.elastic() ? 20000 : 100000;
         rest<decltype(real)>(report, scheme, effort.full ? 10 * quick : quick);
         if (!scheme.elastic()) {

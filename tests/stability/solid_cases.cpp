@@ -132,9 +132,9 @@ void squeeze(Report& report, const Scheme& scheme, float to_share) {
 
 }  // namespace
 
-void jet_into_wedge(Report& report, const Effort&) {
+void jet_into_wedge(Report& report, const Effort& effort) {
     const float half = 20.0F * static_cast<float>(std::tan(5.0 * kPi / 180.0));
-    each_scheme(true, true, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, true, true, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
         for (const float shift : {0.0F, 0.3F}) {
             Tank<Real> tank(tank_def(scheme, 33, 44, 400, 2, 10));
@@ -150,7 +150,7 @@ void jet_into_wedge(Report& report, const Effort&) {
 }
 
 void hostile_polygons(Report& report, const Effort& effort) {
-    each_scheme(true, effort.full, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, true, effort.full, [&](const Scheme& scheme, auto real) {
         for (const Shape& shape : shapes()) {
             pour_over<decltype(real)>(report, scheme, shape, 0.0F);
             if (shape.expected == Status::ok && shape.at.y < 8.5F && shape.at.x > 0) {
@@ -160,8 +160,8 @@ void hostile_polygons(Report& report, const Effort& effort) {
     });
 }
 
-void squeezing_body(Report& report, const Effort&) {
-    each_scheme(true, true, [&](const Scheme& scheme, auto real) {
+void squeezing_body(Report& report, const Effort& effort) {
+    each_scheme(effort.scalar, true, true, [&](const Scheme& scheme, auto real) {
         squeeze<decltype(real)>(report, scheme, 0.95F);
         squeeze<decltype(real)>(report, scheme, 0.5F);
     });

@@ -150,15 +150,19 @@ void rub(Report& report, const Scheme& scheme, float amount, float flip, bool so
 }  // namespace
 
 void step_sweep(Report& report, const Effort& effort) {
-    each_scheme(false, effort.full, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, false, effort.full, [&](const Scheme& scheme, auto real) {
         cfl_sweep<decltype(real)>(report, scheme);
         solver_sweep<decltype(real)>(report, scheme, effort.full);
     });
-    sound_sweep<float>(report);
+    each_scheme(effort.scalar, false, false, [&](const Scheme& scheme, auto real) {
+        if (scheme.elastic()) {
+            sound_sweep<decltype(real)>(report);
+        }
+    });
 }
 
 void viscosity_sweep(Report& report, const Effort& effort) {
-    each_scheme(false, effort.full, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, false, effort.full, [&](const Scheme& scheme, auto real) {
         for (const float amount : {0.1F, 0.24F, 0.26F, 0.5F, 2.0F, 7.9F, 8.1F, 100.0F}) {
             thicken<decltype(real)>(report, scheme, amount, 32);
         }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cases.hpp"
+#include "math/vec2.hpp"
 #include "measure/random.hpp"
 
 namespace stability {
@@ -68,17 +69,16 @@ void build(Tank<Real>& tank, const Placement& placement) {
 /// Largest distance of a particle from where the other scene has it, cells.
 template <class Real>
 double difference(Tank<Real>& plain, Tank<Real>& other, const Placement& placement) {
-    const auto a = plain.world().particle_positions();
-    const auto b = other.world().particle_positions();
     double most = 0.0;
-    for (std::int32_t k = 0; k < a.size; ++k) {
-        const auto ax = static_cast<double>(a[k].x);
+    for (std::int32_t k = 0; k < plain.particles(); ++k) {
+        const auto a = weir::convert<double>(plain.position(k));
+        const auto b = weir::convert<double>(other.position(k));
+        const double ax = a.x;
         const double expected_x =
             placement.mirrored ? placement.width - ax : ax + static_cast<double>(placement.shift_x);
         const double expected_y =
-            static_cast<double>(a[k].y) + static_cast<double>(placement.shift_y);
-        most = std::max({most, std::fabs(static_cast<double>(b[k].x) - expected_x),
-                         std::fabs(static_cast<double>(b[k].y) - expected_y)});
+            a.y + static_cast<double>(placement.shift_y);
+        most = std::max({most, std::fabs(b.x - expected_x), std::fabs(b.y - expected_y)});
     }
     return most;
 }
@@ -173,8 +173,8 @@ void repeat(Report& report, const Scheme& scheme, std::int32_t steps) {
 // stays below 1e-8 (1e-5 with an equation of state, whose steps are a tenth as long). A splash
 // multiplies it a thousandfold in 50 steps, though, and in float it is 1e-5 after ten: the same to
 // the eye, not particle by particle for ever.
-void moved_scene(Report& report, const Effort&) {
-    each_scheme(false, true, [&](const Scheme& scheme, auto real) {
+void moved_scene(Report& report, const Effort& effort) {
+    each_scheme(effort.scalar, false, true, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
         const bool wide = sizeof(Real) == sizeof(double);
         const Agreement same = wide ? Agreement{1.0e-11, scheme.elastic() ? 1.0e-5 : 1.0e-8}
@@ -190,7 +190,7 @@ void moved_scene(Report& report, const Effort&) {
 }
 
 void same_run(Report& report, const Effort& effort) {
-    each_scheme(true, true, [&](const Scheme& scheme, auto real) {
+    each_scheme(effort.scalar, true, true, [&](const Scheme& scheme, auto real) {
         repeat<decltype(real)>(report, scheme, effort.full ? 2000 : 200);
     });
 }

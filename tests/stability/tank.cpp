@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <stdexcept>
 
 #include "contour/marching_squares.hpp"
+#include "math/vec2.hpp"
 
 namespace stability {
 
@@ -21,13 +21,8 @@ namespace {
 
 void require(Status status) {
     if (status != Status::ok) {
-        throw std::runtime_error(std::string("refused: ") + weir::status_text(status));
+        throw Refused(status);
     }
-}
-
-template <class Real>
-bool finite_pair(Vec2<Real> a) {
-    return std::isfinite(a.x) && std::isfinite(a.y);
 }
 
 }  // namespace
@@ -60,6 +55,7 @@ Tank<Real>::Tank(const weir::WorldDef& def, unsigned char dirt)
       gravity_mps2_(def.gravity_mps2) {
     std::memset(memory_.data(), dirt, memory_.size());
     require(world_.init(def, memory_.data(), memory_.size()));
+    to_cells_ = static_cast<double>(world_.velocity_scale()) / static_cast<double>(def.cell_m);
 }
 
 template <class Real>
@@ -204,8 +200,10 @@ double Tank<Real>::open_share(std::int32_t i, std::int32_t j) const {
         return 1.0;
     }
     const auto solid = world_.signed_distance();
-    const Real corner[4] = {solid.at(i, j), solid.at(i + 1, j), solid.at(i + 1, j + 1),
-                            solid.at(i, j + 1)};
+    const auto at = [&](std::int32_t column, std::int32_t row) {
+        return static_cast<Look<Real>>(solid.at(column, row));
+    };
+    const Look<Real> corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
     return static_cast<double>(weir::open_area(corner));
 }
 
@@ -216,8 +214,8 @@ void Tank<Real>::count_compression() {
     const auto density = world_.density();
     const AtRest rest = at_rest();
     double surface = rest.surface;
-    for (const Vec2<Real> x : world_.particle_positions()) {
-        surface = std::min(surface, fall({static_cast<double>(x.x), static_cast<double>(x.y)}));
+    for (const auto x : world_.particle_positions()) {
+        surface = std::min(surface, fall(weir::convert<double>(x)));
     }
     for (std::int32_t j = 0; j < density.rows; ++j) {
         for (std::int32_t i = 0; i < density.columns; ++i) {
@@ -254,26 +252,26 @@ StepReport Tank<Real>::step(float dt_s) {
     const StepReport report = world_.step(dt_s);
     expected_ -= report.particles_removed_stuck;
     tally_.removed += report.particles_removed_stuck;
-    const auto x = world_.particle_positions();
-    const auto v = world_.particle_velocities();
-    const auto width = static_cast<Real>(world_.cells_x());
-    const auto height = static_cast<Real>(world_.cells_y());
+    const std::int32_t count = world_.particle_positions().size;
+    const auto width = static_cast<Look<Real>>(world_.cells_x());
+    const auto height = static_cast<Look<Real>>(world_.cells_y());
     double fastest = 0.0;
     bool all_finite = true;
-    for (std::int32_t k = 0; k < x.size; ++k) {
-        const bool finite = finite_pair(x[k]) && finite_pair(v[k]);
+    for (std::int32_t k = 0; k < count; ++k) {
+        const Vec2<Look<Real>> x = position(k);
+        const Vec2<double> v = velocity(k);
+        const bool finite = weir::is_finite(x) && weir::is_finite(v);
         // False for a NaN. A periodic tank's lower side belongs to it.
-        const bool inside = (x[k].x > 0 || (def_.periodic_x && x[k].x >= 0)) && x[k].x < width &&
-                            (x[k].y > 0 || (def_.periodic_y && x[k].y >= 0)) && x[k].y < height;
+        const bool inside = (x.x > 0 || (def_.periodic_x && x.x >= 0)) && x.x < width &&
+                            (x.y > 0 || (def_.periodic_y && x.y >= 0)) && x.y < height;
         tally_.not_finite += finite ? 0 : 1;
         tally_.outside += inside ? 0 : 1;
         all_finite = all_finite && finite && inside;
-        fastest = std::max({fastest, std::fabs(static_cast<double>(v[k].x)),
-                            std::fabs(static_cast<double>(v[k].y))});
+        fastest = std::max({fastest, std::fabs(v.x), std::fabs(v.y)});
     }
     ++tally_.steps;
     tally_.substeps += report.substeps;
-    tally_.lost += x.size == expected_ ? 0 : 1;
+    tally_.lost += count == expected_ ? 0 : 1;
     tally_.reset += report.particles_reset;
     tally_.slowed += report.particles_slowed;
     tally_.clamped |= report.clamped;
@@ -283,8 +281,8 @@ StepReport Tank<Real>::step(float dt_s) {
         const auto take = [](double ratio, double& worst) {  // a NaN too
             worst = ratio <= worst ? worst : ratio;
         };
-        take(energy() / put_in_, tally_.energy_ratio);
-        take(energy() / (put_in_ + lost_), tally_.energy_of_all);
+        take(share_of(put_in_), tally_.energy_ratio);
+        take(share_of(put_in_ + lost_), tally_.energy_of_all);
     }
     if (tally_.solids && all_finite) {
         look_at_depths();
@@ -300,43 +298,45 @@ void Tank<Real>::run(std::int32_t steps, float dt_s) {
 }
 
 template <class Real>
-double Tank<Real>::depth(Vec2<Real> x) const {
+double Tank<Real>::depth(Vec2<Look<Real>> x) const {
     const auto field = world_.signed_distance();
     const auto i = static_cast<std::int32_t>(x.x);
     const auto j = static_cast<std::int32_t>(x.y);
-    const Real corner[4] = {field.at(i, j), field.at(i + 1, j), field.at(i + 1, j + 1),
-                            field.at(i, j + 1)};
-    const Vec2<Real> local{x.x - static_cast<Real>(i), x.y - static_cast<Real>(j)};
-    if (*std::max_element(corner, corner + 4) > Real(0)) {
-        return -static_cast<double>(
-            weir::contour_hit(corner, local).distance);
+    const auto at = [&](std::int32_t column, std::int32_t row) {
+        return static_cast<Look<Real>>(field.at(column, row));
+    };
+    const Look<Real> corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+    const Vec2<Look<Real>> local{x.x - static_cast<Look<Real>>(i), x.y - static_cast<Look<Real>>(j)};
+    if (*std::max_element(corner, corner + 4) > Look<Real>(0)) {
+        return -static_cast<double>(weir::contour_hit(corner, local).distance);
     }
-    const Real low = corner[0] + local.x * (corner[1] - corner[0]);
-    const Real high = corner[3] + local.x * (corner[2] - corner[3]);
+    const Look<Real> low = corner[0] + local.x * (corner[1] - corner[0]);
+    const Look<Real> high = corner[3] + local.x * (corner[2] - corner[3]);
     return -static_cast<double>(low + local.y * (high - low));
 }
 
 /// Whether the solid about the cell of a point has a node a cell or more inside it.
 template <class Real>
-bool Tank<Real>::thick_at(Vec2<Real> x) const {
+bool Tank<Real>::thick_at(Vec2<Look<Real>> x) const {
     const auto field = world_.signed_distance();
     const auto first_i = std::max(0, static_cast<std::int32_t>(x.x) - 1);
     const auto first_j = std::max(0, static_cast<std::int32_t>(x.y) - 1);
     const auto last_i = std::min(field.columns - 1, static_cast<std::int32_t>(x.x) + 2);
     const auto last_j = std::min(field.rows - 1, static_cast<std::int32_t>(x.y) + 2);
-    Real deepest = Real(0);
+    Look<Real> deepest = 0;
     for (std::int32_t j = first_j; j <= last_j; ++j) {
         for (std::int32_t i = first_i; i <= last_i; ++i) {
-            deepest = std::min(deepest, field.at(i, j));
+            deepest = std::min(deepest, static_cast<Look<Real>>(field.at(i, j)));
         }
     }
     // The paper's matrix knows inside from outside only.
-    return deepest <= (def_.contour == weir::Contour::mid_edge ? Real(-0.5) : Real(-1));
+    return deepest <= static_cast<Look<Real>>(def_.contour == weir::Contour::mid_edge ? -0.5 : -1);
 }
 
 template <class Real>
 void Tank<Real>::look_at_depths() {
-    for (const Vec2<Real> x : world_.particle_positions()) {
+    for (std::int32_t k = 0; k < world_.particle_positions().size; ++k) {
+        const Vec2<Look<Real>> x = position(k);
         const double deep = depth(x);
         if (deep > std::min(tally_.deepest, tally_.deepest_thin)) {
             double& worst = thick_at(x) ? tally_.deepest : tally_.deepest_thin;
@@ -348,10 +348,9 @@ void Tank<Real>::look_at_depths() {
 template <class Real>
 double Tank<Real>::kinetic_energy() const {
     double sum = 0.0;
-    for (const Vec2<Real> v : world_.particle_velocities()) {
-        const auto vx = static_cast<double>(v.x);
-        const auto vy = static_cast<double>(v.y);
-        sum += 0.5 * (vx * vx + vy * vy);
+    for (std::int32_t k = 0; k < world_.particle_velocities().size; ++k) {
+        const Vec2<double> v = velocity(k);
+        sum += 0.5 * (v.x * v.x + v.y * v.y);
     }
     return sum;
 }
@@ -359,12 +358,9 @@ double Tank<Real>::kinetic_energy() const {
 template <class Real>
 double Tank<Real>::energy_of(std::int32_t index) const {
     const Vec2<double> corner = lowest_corner();
-    const Vec2<Real> x = world_.particle_positions()[index];
-    const Vec2<Real> v = world_.particle_velocities()[index];
-    const auto vx = static_cast<double>(v.x);
-    const auto vy = static_cast<double>(v.y);
-    return 0.5 * (vx * vx + vy * vy) -
-           fall({static_cast<double>(x.x) - corner.x, static_cast<double>(x.y) - corner.y});
+    const auto x = weir::convert<double>(position(index));
+    const Vec2<double> v = velocity(index);
+    return 0.5 * (v.x * v.x + v.y * v.y) - fall({x.x - corner.x, x.y - corner.y});
 }
 
 template <class Real>
@@ -377,9 +373,17 @@ double Tank<Real>::energy() const {
 }
 
 template <class Real>
+double Tank<Real>::rounding_room() const {
+    const double all = std::max(1, expected_);
+    const double weight = std::fabs(fall({1.0, 0.0})) + std::fabs(fall({0.0, 1.0}));
+    const double speed = std::sqrt(2.0 * std::max(0.0, put_in_ + lost_) / all);  // root mean square
+    return all * (weight * place_unit() + speed * speed_unit());
+}
+
+template <class Real>
 double Tank<Real>::mean_height() const {
     double sum = 0.0;
-    for (const Vec2<Real> x : world_.particle_positions()) {
+    for (const auto x : world_.particle_positions()) {
         sum += static_cast<double>(x.y);
     }
     return sum / std::max(1, expected_);
@@ -405,7 +409,8 @@ double Tank<Real>::highest_density() const {
     const auto columns = static_cast<std::size_t>(world_.cells_x());
     std::vector<int> count(columns * static_cast<std::size_t>(world_.cells_y()));
     int most = 0;
-    for (const Vec2<Real> x : world_.particle_positions()) {
+    for (std::int32_t k = 0; k < world_.particle_positions().size; ++k) {
+        const Vec2<Look<Real>> x = position(k);
         const std::size_t cell =
             static_cast<std::size_t>(x.y) * columns + static_cast<std::size_t>(x.x);
         most = std::max(most, ++count[cell]);
@@ -415,5 +420,7 @@ double Tank<Real>::highest_density() const {
 
 template class Tank<float>;
 template class Tank<double>;
+template class Tank<weir::Fixed>;
+template class Tank<weir::SmallFixed>;
 
 }  // namespace stability

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "measure/world_memory.hpp"
@@ -23,6 +25,38 @@ struct Scheme {
     /// A frame for the projection, a quarter of it for the equation of state.
     float dt_s() const { return elastic() ? 0.25F * kFrame : kFrame; }
     std::string name() const;
+};
+
+/// In which arithmetic; `usual`: float, and double where a case asks for both.
+enum class Scalar { usual, single, twice, fixed, small_fixed };
+
+template <class Real>
+inline constexpr bool kIsFixed = !std::is_floating_point<Real>::value;
+
+/// Numbers in which a tank is looked at: its own, but for fixed point, which is what is looked at.
+template <class Real>
+using Look = std::conditional_t<kIsFixed<Real>, double, Real>;
+
+/// What a number is known to: the last digit of fixed point; 0 for others.
+template <class Number>
+constexpr double unit_of() {
+    if constexpr (std::is_floating_point<Number>::value) {
+        return 0.0;
+    } else {
+        return static_cast<double>(Number::of_raw(1));
+    }
+}
+
+/// A world's answer that was not expected.
+class Refused : public std::runtime_error {
+public:
+    explicit Refused(weir::Status status)
+        : std::runtime_error(std::string("refused: ") + weir::status_text(status)),
+          status_(status) {}
+    weir::Status status() const { return status_; }
+
+private:
+    weir::Status status_;
 };
 
 using Ring = std::vector<weir::Vec2f>;
@@ -69,6 +103,18 @@ public:
     const weir::World<Real>& world() const { return world_; }
     const weir::WorldDef& def() const { return def_; }
     const Tally& tally() const { return tally_; }
+    weir::Vec2<Look<Real>> position(std::int32_t index) const {
+        const auto x = world_.particle_positions()[index];
+        return {static_cast<Look<Real>>(x.x), static_cast<Look<Real>>(x.y)};
+    }
+    /// Cells a second.
+    weir::Vec2<double> velocity(std::int32_t index) const {
+        const auto v = world_.particle_velocities()[index];
+        return {to_cells_ * static_cast<double>(v.x), to_cells_ * static_cast<double>(v.y)};
+    }
+    /// What places and velocities are known to, cells, cells a second.
+    double place_unit() const { return unit_of<weir::PositionOf<Real>>(); }
+    double speed_unit() const { return to_cells_ * unit_of<weir::VelocityOf<Real>>(); }
 
     /// All of these throw if the world refuses. Cells, cells a second.
     std::int32_t fill(float x0, float y0, float x1, float y1);
@@ -97,6 +143,10 @@ public:
     /// the tank that gravity points to.
     double energy() const;
     double kinetic_energy() const;
+    /// What rounding may make of the energy that was put in: fixed point puts each particle on the
+    /// nearest place that it knows, and gives it the nearest speed, so that all of them may stand
+    /// a unit higher and go a unit faster than they should. None in floating point.
+    double rounding_room() const;
     double mean_height() const;
     double rms_speed() const;
     /// Height of the centre of mass against that of the same liquid at rest, −1 … A box without
@@ -119,8 +169,8 @@ private:
                           bool moving);
     bool consistent(const weir::StepReport& report, float dt_s, double fastest) const;
     void look_at_depths();
-    double depth(weir::Vec2<Real> x) const;
-    bool thick_at(weir::Vec2<Real> x) const;
+    double depth(weir::Vec2<Look<Real>> x) const;
+    bool thick_at(weir::Vec2<Look<Real>> x) const;
     double energy_of(std::int32_t index) const;
     double stored_energy() const;
     double open_share(std::int32_t i, std::int32_t j) const;
@@ -128,6 +178,8 @@ private:
     double fall(weir::Vec2<double> x) const;
     weir::Vec2<double> lowest_corner() const;
     AtRest at_rest() const;
+    /// Of the energy, of what may be there.
+    double share_of(double put_in) const { return energy() / (put_in + rounding_room()); }
     weir::Vec2f to_m(weir::Vec2f cells) const {
         return {cells.x * def_.cell_m, cells.y * def_.cell_m};
     }
@@ -136,6 +188,7 @@ private:
     measure::WorldMemory memory_;
     weir::World<Real> world_;
     weir::Vec2f gravity_mps2_;
+    double to_cells_ = 1.0;  ///< what the world's velocities are in, cells a second
     std::int32_t expected_ = 0;
     double put_in_ = 0.0;
     double lost_ = 0.0;  ///< of what was put in before gravity turned
@@ -144,18 +197,31 @@ private:
 
 extern template class Tank<float>;
 extern template class Tank<double>;
+extern template class Tank<weir::Fixed>;
+extern template class Tank<weir::SmallFixed>;
 
-/// Calls visit(scheme, Real{}) for both pressures, both contours where solids take part, and both
-/// arithmetics if `twice`.
+/// Calls visit(scheme, Real{}) for both pressures, both contours where solids take part, and the
+/// arithmetic that is asked for; usually float, and double, too, if `twice`.
 template <class Visit>
-void each_scheme(bool solids, bool twice, Visit visit) {
+void each_scheme(Scalar scalar, bool solids, bool twice, Visit visit) {
     for (const auto pressure : {weir::Pressure::projection, weir::Pressure::equation_of_state}) {
         for (const auto contour : {weir::Contour::interpolated, weir::Contour::mid_edge}) {
-            if (contour == weir::Contour::interpolated || solids) {
-                visit(Scheme{pressure, contour}, float{});
+            const Scheme scheme{pressure, contour};
+            const bool exact = contour == weir::Contour::interpolated;
+            if (!exact && !solids) {
+                continue;
             }
-            if (twice && contour == weir::Contour::interpolated) {
-                visit(Scheme{pressure, contour}, double{});
+            switch (scalar) {
+                case Scalar::usual:
+                    visit(scheme, float{});
+                    if (twice && exact) {
+                        visit(scheme, double{});
+                    }
+                    break;
+                case Scalar::single: visit(scheme, float{}); break;
+                case Scalar::twice: visit(scheme, double{}); break;
+                case Scalar::fixed: visit(scheme, weir::Fixed{}); break;
+                case Scalar::small_fixed: visit(scheme, weir::SmallFixed{}); break;
             }
         }
     }
@@ -163,7 +229,13 @@ void each_scheme(bool solids, bool twice, Visit visit) {
 
 template <class Real>
 const char* real_name() {
-    return sizeof(Real) == sizeof(float) ? ".float" : ".double";
+    if constexpr (std::is_same<Real, weir::SmallFixed>::value) {
+        return ".small_fixed";
+    } else if constexpr (kIsFixed<Real>) {
+        return ".fixed";
+    } else {
+        return sizeof(Real) == sizeof(float) ? ".float" : ".double";
+    }
 }
 
 /// `S5.projection.float` and the like.
