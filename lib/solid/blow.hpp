@@ -42,8 +42,9 @@ void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
     if (scene.walls.load != nullptr) {
         receive_blow(scene.walls, slot, kind, x, before - after);
     }
+    const Vec2<Real> kept = particles.velocity[k];  // as it is stored
     scene.result.max_speed =
-        maximum(scene.result.max_speed, maximum(absolute(after.x), absolute(after.y)));
+        maximum(scene.result.max_speed, maximum(absolute(kept.x), absolute(kept.y)));
 }
 
 /// The surface of a body answers a particle that hits it at `x`.
