@@ -67,10 +67,12 @@ void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepR
         if (plan.sound_speed < simulation.settings.sound_speed) {
             mark(report, Clamped::sound_speed);
         }
-        if (plan.viscosity < simulation.settings.viscosity) {
+        // With substeps to spare, what is missing is rounding.
+        const bool all_used = plan.substeps == simulation.settings.max_substeps;
+        if (all_used && plan.viscosity < simulation.settings.viscosity) {
             mark(report, Clamped::viscosity);
         }
-        if (plan.surface_tension < simulation.settings.surface_tension) {
+        if (all_used && plan.surface_tension < simulation.settings.surface_tension) {
             mark(report, Clamped::surface_tension);
         }
         report.dt_s = unit * static_cast<float>(dt);
