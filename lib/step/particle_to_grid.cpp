@@ -19,27 +19,28 @@ void clear_faces(const StaggeredGrid<Real>& grid, const Part& rows) {
 }
 
 template <class Real>
-void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
-                         Real second_density, StaggeredGrid<Real>& grid,
-                         const ThinWalls<Real>* thin, Work work) {
+std::int32_t scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& borders,
+                                 Real second_density, StaggeredGrid<Real>& grid,
+                                 const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
+    std::int32_t full = 0;
     const Part rows = work.take(shape.ny + 2, shape.nx + 2);
     clear_faces(grid, rows);
     clear_rows(shape, rows, grid.inverse_density_u);
     clear_rows(shape, rows, grid.inverse_density_v);
     const Part part = work.take(particles.count, 1);
     if (thin != nullptr) {
-        scatter_past_walls(particles.part(part.first, part.end - part.first), *thin,
-                           second_density, grid);
+        full = scatter_past_walls(particles.part(part.first, part.end - part.first), *thin,
+                                  second_density, grid);
     }
     for (std::int32_t k = part.first; thin == nullptr && k < part.end; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
         const Real density = particles.kind[k] == Liquid::second ? second_density : Real(1);
-        scatter_dense<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), shape.stride,
-                            stencil_u(shape, x), density, v.x);
-        scatter_dense<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), shape.stride,
-                            stencil_v(shape, x), density, v.y);
+        full += scatter_dense<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(),
+                                    shape.stride, stencil_u(shape, x), density, v.x);
+        full += scatter_dense<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(),
+                                    shape.stride, stencil_v(shape, x), density, v.y);
     }
     if (work.once(shape.border())) {
         StaggeredGrid<Real> by_mass = grid;
@@ -48,6 +49,7 @@ void scatter_two_liquids(const Particles<Real>& particles, const Borders<Real>& 
         fold_borders(borders, by_mass);
         fold_counts(borders, shape, grid.mass_u, grid.mass_v);
     }
+    return full;
 }
 
 template <class Real>
@@ -61,21 +63,21 @@ std::int32_t scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<
         return scatter_packed(particles.part(part.first, part.end - part.first), grid);
     }
     if (kHasThinWalls<Real> && thin != nullptr) {
-        scatter_past_walls(particles.part(part.first, part.end - part.first), *thin, Real(1),
-                           grid);
-        return 0;
+        return scatter_past_walls(particles.part(part.first, part.end - part.first), *thin,
+                                  Real(1), grid);
     }
+    std::int32_t full = 0;
     if constexpr (kHasFpuLoops<Real>) {
         scatter_with_fpu(particles.part(part.first, part.end - part.first), grid);
     } else {
         for (std::int32_t k = part.first; k < part.end; ++k) {
             const Vec2<Real> x = particles.position[k];
             const Vec2<Real> v = particles.velocity[k];
-            scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
-            scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
+            full += scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
+            full += scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
         }
     }
-    return 0;
+    return full;
 }
 
 }  // namespace
@@ -86,8 +88,7 @@ std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Re
                               const ThinWalls<Real>* thin, Work work) {
     if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds have one liquid
         if (particles.kind != nullptr) {
-            scatter_two_liquids(particles, borders, second_density, grid, thin, work);
-            return 0;
+            return scatter_two_liquids(particles, borders, second_density, grid, thin, work);
         }
     }
     bool in_lanes = false;

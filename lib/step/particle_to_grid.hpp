@@ -12,7 +12,7 @@ namespace weir {
 /// With two liquids momentum and, beside the count, mass are weighted by the particle's density.
 /// Past thin walls (`thin`, null: there are none) a particle gives only to faces that it sees; such
 /// worlds run the plain loops.
-/// @return how often a particle found no room on faces that are full; 0 but in packed worlds.
+/// @return how often a particle found no room on faces that are full; 0 but in fixed point.
 /// Order: by particle, then by node. Cost: 8 weights and 16 sums a particle; two liquids: 24.
 template <class Real>
 std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,

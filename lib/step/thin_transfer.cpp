@@ -58,9 +58,10 @@ void components(const StaggeredGrid<Real>& grid, Component<Real>& u, Component<R
 }  // namespace
 
 template <class Real>
-void scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>& thin,
-                        Real second_density, StaggeredGrid<Real>& grid) {
+std::int32_t scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>& thin,
+                                Real second_density, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
+    std::int32_t full = 0;
     for (std::int32_t k = 0; k < particles.count; ++k) {
         const Vec2<Real> x = particles.position[k];
         const Vec2<Real> v = particles.velocity[k];
@@ -68,11 +69,12 @@ void scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>&
         const Real density = second ? second_density : Real(1);
         const std::uint32_t seen =
             beside_thin_wall(thin, s, x) ? seen_faces(thin, s, x) : 0xFFU;
-        scatter_weighed<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(), s.stride,
-                              stencil_u(s, x), density, v.x, seen & kAllFour);
-        scatter_weighed<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(), s.stride,
-                              stencil_v(s, x), density, v.y, seen >> 4U);
+        full += scatter_weighed<Real>(grid.mass_u, grid.inverse_density_u, grid.momentum_u(),
+                                      s.stride, stencil_u(s, x), density, v.x, seen & kAllFour);
+        full += scatter_weighed<Real>(grid.mass_v, grid.inverse_density_v, grid.momentum_v(),
+                                      s.stride, stencil_v(s, x), density, v.y, seen >> 4U);
     }
+    return full;
 }
 
 template <class Real>
@@ -214,7 +216,7 @@ void mirror_at_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
 }
 
 #define WEIR_INSTANTIATE(Real)                                                             \
-    template void scatter_past_walls(const Particles<Real>&, const ThinWalls<Real>&, Real, \
+    template std::int32_t scatter_past_walls(const Particles<Real>&, const ThinWalls<Real>&, Real, \
                                      StaggeredGrid<Real>&);                                \
     template TransferResult<Real> gather_past_walls(                                       \
         const StaggeredGrid<Real>&, const Transfer<Real>&, const ThinWalls<Real>&,         \

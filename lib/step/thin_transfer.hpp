@@ -17,9 +17,10 @@ inline bool beside_thin_wall(const ThinWalls<Real>& thin, const GridShape& s, Ve
 }
 
 /// Adds mass and momentum of all particles to the cleared grid; ghost rows are not folded back.
+/// @return how often a face took nothing (scatter.hpp).
 template <class Real>
-void scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>& thin,
-                        Real second_density, StaggeredGrid<Real>& grid);
+std::int32_t scatter_past_walls(const Particles<Real>& particles, const ThinWalls<Real>& thin,
+                                Real second_density, StaggeredGrid<Real>& grid);
 
 /// Gathers the particles of a block that stand beside thin walls anew: a face that a particle does
 /// not see has the value of the nearest one of its stencil that it sees; who sees none falls.

@@ -1,4 +1,7 @@
 // What fixed point refuses beyond what floats do, and what it saturates at.
+#include <algorithm>
+#include <cmath>
+
 #include "bad_input.hpp"
 #include "measure/world_memory.hpp"
 
@@ -136,6 +139,64 @@ TYPED_TEST(FixedWorld, AThousandParticlesInACellSaturate) {
             EXPECT_GT(right, 0.0);
         }
     }
+}
+
+/// How high a thousand particles in one place are that were thrown down from 8.25 cells.
+template <class Real>
+double height_of_crowd(StepReport& report) {
+    WorldDef def = small_def();
+    def.capacity.particles = 1000;
+    def.gravity_mps2 = {};
+    TestWorld<Real> world(def);
+    for (int k = 0; k < 1000; ++k) {
+        EXPECT_EQ(world->add_particle({0.165F, 0.165F}, {0.0F, -100.0F * def.cell_m}), Status::ok);
+    }
+    report = world->step(1.0e-3F);
+    return static_cast<double>(world->particle_positions()[0].y);
+}
+
+/// Their momentum is more than a face can hold: as long as it saturated they were carried at half
+/// their speed, and what falls so gains what it does not lose in height.
+TEST(FixedLimits, ACrowdIsCarriedAsFastAsItGoesAndReported) {
+    StepReport report;
+    const double expected = height_of_crowd<double>(report);
+    EXPECT_EQ(report.particles_crowded, 0);
+    EXPECT_NEAR(height_of_crowd<Fixed>(report), expected, 1.0e-3);
+    EXPECT_GT(report.particles_crowded, 0);
+}
+
+/// The speed that a blow leaves is rounded when it is kept. Reports were up to half a unit short.
+TEST(FixedLimits, NothingIsFasterThanReportedAfterABlow) {
+    WorldDef def = small_def();
+    TestWorld<SmallFixed> world(def);
+    BodyId id;
+    ASSERT_EQ(world->add_static_body(body_of(rectangle(0.16F, 0.08F), {0.16F, 0.06F}, 0.2F), &id),
+              Status::ok);
+    ASSERT_EQ(world->fill({{0.1F, 0.2F}, {0.22F, 0.3F}}), Status::ok);
+    for (int step = 0; step < 300; ++step) {
+        const StepReport report = world->step(1.0F / 60.0F);
+        double fastest = 0.0;
+        for (const auto& v : world->particle_velocities()) {
+            fastest = std::max({fastest, std::fabs(static_cast<double>(v.x)),
+                                std::fabs(static_cast<double>(v.y))});
+        }
+        const auto unit = static_cast<double>(world->velocity_scale());
+        ASSERT_LE(fastest * unit, static_cast<double>(report.max_speed_mps) * 1.000001) << step;
+    }
+}
+
+/// A step that suits the viscosity just so was reported as one that does not, by rounding.
+TEST(FixedLimits, ViscosityThatSubstepsBearIsNotReported) {
+    WorldDef def = small_def();
+    def.gravity_mps2 = {};
+    def.max_substeps = 32;
+    constexpr float kStep = 1.0F / 240.0F;
+    def.viscosity_m2ps = 2.0F * def.cell_m * def.cell_m / kStep;
+    TestWorld<Fixed> world(def);
+    ASSERT_EQ(world->fill({{0.1F, 0.1F}, {0.2F, 0.2F}}), Status::ok);
+    const StepReport report = world->step(kStep);
+    EXPECT_EQ(report.substeps, 8);
+    EXPECT_FALSE(report.has(Clamped::viscosity));
 }
 
 }  // namespace

@@ -85,8 +85,9 @@ struct StepReport {
     /// no room, as a piston in a full tank does. 0 with surface tension, and without
     /// `volume_gain`.
     std::int32_t cells_overfull = 0;
-    /// `World<SmallFixed>`: how often a particle came to faces that hold 32 particles already, and
-    /// they count no more. It takes part in the liquid again where there is room.
+    /// In fixed point: how often a particle came to faces that hold as much as they can, and they
+    /// count no more: 32 particles in `World<SmallFixed>`, in `World<Fixed>` 16,384 or a momentum
+    /// of that. It takes part in the liquid again where there is room.
     std::int32_t particles_crowded = 0;
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
     std::int32_t particles_slowed = 0;     ///< limited to 2 cells a substep
