@@ -330,8 +330,10 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
         result.max_speed = Real::of_raw(512 * static_cast<std::int32_t>(speed));
     }
     if (result.max_speed > transfer.limit) {
-        limit_all(particles, transfer.limit, result);
-        result.max_speed = transfer.limit;
+        // Down to what a velocity can be: rounded up, it would be faster than it may.
+        const Real limit = Real::of_raw(transfer.limit.raw & -512);
+        limit_all(particles, limit, result);
+        result.max_speed = limit;
     }
     if (transfer.settling) {
         settle(particles);
