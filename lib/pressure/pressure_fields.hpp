@@ -34,10 +34,20 @@ struct Solve {
     std::int32_t cycles = 0;
     Real rescale = Real(0);      ///< of the last pressure p, to start from
     Real share = Real(1);        ///< of that, in the end
-    std::uint32_t off = 0;       ///< packed: at least 16 if the old pressure is not the solution
+    /// Packed: at least 16 if the old pressure is not the solution. Fixed, while it settles: how far
+    /// from that it is, last digits.
+    std::uint32_t off = 0;
     Product<Real> wanted{};      ///< pᵀb, of the equations Ap = b
     Product<Real> there{};       ///< pᵀAp, but for its diagonal at first
 };
+
+/// Fixed point goes on for ever about its last digits, unless it is led to rest.
+template <class Real>
+inline constexpr bool kSettles = !std::is_floating_point<Real>::value;
+/// Velocities are known to 1/65536, packed ones to 1/128. Liquid that gravity holds is led to rest
+/// below this, cells/s.
+template <class Real>
+inline constexpr Real kSettling = Real(Stored<Real>::coarse ? 0.25 : 1.0 / 256.0);
 
 /// Substeps from one in which leaning surfaces are quieted to the next.
 inline constexpr std::uint16_t kQuietEvery = 4;
@@ -60,6 +70,7 @@ struct PressureFields {
     /// Substeps since leaning surfaces were quieted, kQuietEvery if there was none.
     std::uint16_t quiet_turn = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
+    bool settling = false;             ///< liquid of fixed point is being led to rest
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most 1: less if gravity has become weaker since it was
     /// solved for, or sound slower.

@@ -20,6 +20,10 @@ Real share_of_start(Product<Real> wanted, Product<Real> there) {
     return eight_times >= there ? share : Real(0);
 }
 
+/// A pressure of Fixed that is off by so many last digits is kept while liquid settles: sweeps leave
+/// as much.
+inline constexpr std::uint32_t kKeptRaw = 4;
+
 /// One row's part of pᵀAp, but for the diagonal.
 template <bool Solids, bool Mixed, class Real>
 Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t j,
@@ -38,7 +42,14 @@ Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     for (; c < end; ++c) {
         const Real inverse = fields.inverse_diagonal[c];
         if (!is_zero(inverse)) {
-            row.there = row.there - product(p[c], weights.weighted(p, c, inverse));
+            const Real sum = weights.weighted(p, c, inverse);
+            row.there = row.there - product(p[c], sum);
+            if constexpr (kSettles<Real>) {
+                if (fields.settling) {
+                    const Real led_to = (sum - fields.divergence[c]) * absolute(inverse);
+                    row.off = maximum(row.off, fixed::magnitude((led_to - p[c]).raw));
+                }
+            }
         }
     }
     return row;
@@ -70,7 +81,9 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     }
     if (work.once(1)) {
         solve.share = share_of_start<Real>(solve.wanted, solve.there);
-        if (Stored<Real>::coarse && solve.off < 2 * kExactRaw && solve.share == Real(1)) {
+        const bool solved = Stored<Real>::coarse ? solve.off < 2 * kExactRaw
+                                                 : fields.settling && solve.off <= kKeptRaw;
+        if (kSettles<Real> && solved && solve.share == Real(1)) {
             solve.cycles = 0;  // sweeps would go on for ever about their last digits
         }
     }

@@ -249,6 +249,7 @@ void add_rows(Work work, const Part& rows, const GridShape& s, PressureFields<Re
         for (std::int32_t j = rows.first; j < rows.end; ++j) {
             const Solve<Real> one = row(j);
             add(j, one.wanted, one.there, one.last_row >= 0);
+            total.off = maximum(total.off, one.off);
         }
     }
     fields.solve = total;

@@ -33,7 +33,7 @@ struct Transfer {
     Real near = Real(1.0e30);  ///< cells/s: who moves faster along an axis is counted as far
     Impulse<Real>* tank = nullptr;  ///< takes what hits the tank's walls; null: nobody asks
     const Face<Real>* particle_mass = nullptr;  ///< then: of either liquid, cells²
-    bool settling = false;     ///< packed velocities lose a unit
+    bool settling = false;     ///< packed velocities lose a unit, slow ones of Fixed half
     // In packed worlds:
     Real max_speed = Real(0);  ///< of particles before these: a root only for who is faster
     void* ways = nullptr;      ///< words of scratch, one for each of some particles; null: none

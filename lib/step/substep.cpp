@@ -60,6 +60,7 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     const detail::Elasticity<Real>* elasticity = simulation.pressure.elasticity;
     if (work.once(1)) {
         const Vec2<Real> g = settings.gravity;
+        simulation.pressure.settling = plan.settling;
         simulation.pressure.cell_weight = plan.dt_s * maximum(absolute(g.x), absolute(g.y));
         if (elasticity != nullptr) {
             elasticity->follow_sound(plan.sound_speed, simulation.pressure);
@@ -134,7 +135,7 @@ void fill_borders(Simulation<Real>& simulation, Work work) {
     }
 }
 
-/// Worlds with thin walls do without, and packed liquid that is being led to rest.
+/// Worlds with thin walls do without, and liquid that is being led to rest.
 template <class Real>
 void quiet_leaning(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     if (simulation.layers.walls.thin == nullptr && !plan.settling) {
@@ -322,7 +323,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     quiet_leaning(simulation, plan, work);
     blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
-    if (settings.volume_gain > Real(0) && !plan.settling) {
+    // In Fixed drift ends by itself: what does not make a last digit of a place is none.
+    if (settings.volume_gain > Real(0) && !(Stored<Real>::coarse && plan.settling)) {
         const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
         stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
               dt_s * settings.gravity, simulation.pressure, grid, report.cells_overfull, work);

@@ -26,11 +26,6 @@ constexpr Real kRootOfCapillary = Real(0.398942280);
 template <class Real>
 constexpr Real kCapillary = Real(0.159154943);
 
-/// Packed velocities are known to 1/128. Liquid that gravity holds is led to rest below this,
-/// cells/s.
-template <class Real>
-constexpr Real kSettling = Real(0.25);
-
 /// Ceiling that survives any finite ratio.
 template <class Real>
 std::int32_t at_least(Real ratio, std::int32_t most) {
@@ -112,7 +107,9 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);
     plan.surface_tension =
         minimum(settings.surface_tension, kCapillary<Real> / (plan.dt_s * plan.dt_s));
-    plan.settling = Stored<Real>::coarse && !simulation.pressure.crowded &&
+    // Where forces are counted, what is lost so would be nobody's; packed worlds do not balance them.
+    const bool counts = !Stored<Real>::coarse && simulation.two_way != nullptr;
+    plan.settling = kSettles<Real> && !counts && !simulation.pressure.crowded &&
                     speed <= kSettling<Real> && kSettling<Real> <= gravity * plan.dt_s;
     return plan;
 }

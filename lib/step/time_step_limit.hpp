@@ -13,7 +13,7 @@ struct SubstepPlan {
     Real sound_speed = Real(0);  ///< cells/s, softened if max_substeps is too few for it
     Real viscosity = Real(0);    ///< cells²/s, lowered likewise
     Real surface_tension = Real(0);  ///< cells³/s², lowered likewise
-    bool settling = false;  ///< all that moves is what packed numbers cannot tell from rest
+    bool settling = false;  ///< all that moves is what fixed point cannot tell from rest
     bool walls_held = false;  ///< moving bodies stay where they are drawn
 };
 

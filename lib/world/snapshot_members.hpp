@@ -79,8 +79,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             contacts, gathered, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, drift_turn, quiet_turn, crowded, last_dt, change,
-                            sound_speed, cell_weight, solve, elasticity,
+                            on_surface, leaps, drift_turn, quiet_turn, crowded, settling, last_dt,
+                            change, sound_speed, cell_weight, solve, elasticity,
                             second_liquid] = pressure_fields;
     auto& [position, velocity, count, capacity, kind] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,

@@ -165,6 +165,25 @@ TEST(FixedLimits, ACrowdIsCarriedAsFastAsItGoesAndReported) {
     EXPECT_GT(report.particles_crowded, 0);
 }
 
+/// A pool that was poured, and one that was a dam before: not a bit of their state changes any more.
+/// Velocities and pressure went round in last digits.
+TEST(FixedLimits, WhatIsAtRestStaysAsItIs) {
+    for (const Box& box : {Box{{0.0F, 0.0F}, {0.32F, 0.16F}}, Box{{0.0F, 0.0F}, {0.16F, 0.2F}}}) {
+        WorldDef def = small_def();
+        def.capacity.particles = 600;
+        TestWorld<Fixed> world(def);
+        ASSERT_EQ(world->fill(box), Status::ok);
+        for (int step = 0; step < 6000; ++step) {
+            world->step(1.0F / 60.0F);
+        }
+        const std::uint64_t still = world->state_hash();
+        for (int step = 0; step < 100; ++step) {
+            world->step(1.0F / 60.0F);
+            ASSERT_EQ(world->state_hash(), still) << step;
+        }
+    }
+}
+
 /// The speed that a blow leaves is rounded when it is kept. Reports were up to half a unit short.
 TEST(FixedLimits, NothingIsFasterThanReportedAfterABlow) {
     WorldDef def = small_def();
@@ -183,6 +202,19 @@ TEST(FixedLimits, NothingIsFasterThanReportedAfterABlow) {
         const auto unit = static_cast<double>(world->velocity_scale());
         ASSERT_LE(fastest * unit, static_cast<double>(report.max_speed_mps) * 1.000001) << step;
     }
+}
+
+/// The same where particles are slowed down to a limit that packed velocities do not know.
+TEST(FixedLimits, NothingIsFasterThanReportedWhereItIsLimited) {
+    WorldDef def = small_def();
+    def.max_substeps = 1;
+    TestWorld<SmallFixed> world(def);
+    ASSERT_EQ(world->add_particle({0.1F, 0.3F}, {0.0F, -200.0F * def.cell_m}), Status::ok);
+    const StepReport report = world->step(0.0123F);
+    EXPECT_EQ(report.particles_slowed, 1);
+    const auto speed = static_cast<double>(world->particle_velocities()[0].y);
+    EXPECT_LE(std::fabs(speed) * static_cast<double>(world->velocity_scale()),
+              static_cast<double>(report.max_speed_mps) * 1.000001);
 }
 
 /// A step that suits the viscosity just so was reported as one that does not, by rounding.
