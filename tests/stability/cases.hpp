@@ -12,6 +12,7 @@ struct Effort {
     Scalar scalar = Scalar::usual;
     std::uint64_t seed = 0;   ///< random scenes: replay this one alone; 0: all
     std::int32_t scenes = 0;  ///< random scenes: how many; 0: as the effort wants
+    std::int32_t steps = 0;   ///< soak and rest: how many; 0: as the effort wants
 };
 
 void coincident_particles(Report& report, const Effort& effort);  // S1

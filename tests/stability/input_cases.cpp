@@ -105,15 +105,16 @@ public:
     }
 
     /// Memory goes bad under the world: a velocity becomes NaN or infinite, or in fixed point, where
-    /// every bit pattern is a number, the largest that there is.
+    /// every bit pattern is a number, the largest that there is: packed ones bear it.
     void bad_memory() {
         using Velocity = weir::VelocityOf<Real>;
         if constexpr (kIsFixed<Real>) {
             using Bits = decltype(Velocity::raw);
             for (const Bits bad : {std::numeric_limits<Bits>::max(),
                                    std::numeric_limits<Bits>::min()}) {
-                report_.at_least(name_ + ".bad_memory.particles_slowed",
-                                 step_with(Velocity::of_raw(bad)).particles_slowed, "1", 1);
+                const std::int32_t slowed = step_with(Velocity::of_raw(bad)).particles_slowed;
+                report_.at_least(name_ + ".bad_memory.particles_slowed", slowed, "1",
+                                 std::is_same<Real, weir::Fixed>::value ? 1 : 0);
             }
         } else {
             for (const Velocity bad : {std::numeric_limits<Velocity>::quiet_NaN(),

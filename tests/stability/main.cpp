@@ -1,6 +1,6 @@
-// weir_stability OUT.csv [quick|full] [real=R] [seed=N] [scenes=N] [case ...]: what the library is
-// put through, and whether it stays finite, whole, inside and within its energy. Without cases, all;
-// without an arithmetic in float, and what is cheap in double, too.
+// weir_stability OUT.csv [quick|full] [real=R] [seed=N] [scenes=N] [steps=N] [case ...]: what the
+// library is put through, and whether it stays finite, whole, inside and within its energy. Without
+// cases, all; without an arithmetic in float, and what is cheap in double, too.
 // Exit status 1 if anything that has to hold does not.
 #include <cstdlib>
 #include <string>
@@ -37,7 +37,8 @@ constexpr measure::Problem<stability::Report, stability::Effort> kCases[] = {
 };
 
 constexpr char kArguments[] =
-    "weir_stability OUT.csv [quick|full] [real=float|double|fixed|small_fixed] [seed=N] [scenes=N]";
+    "weir_stability OUT.csv [quick|full] [real=float|double|fixed|small_fixed] [seed=N] "
+    "[scenes=N] [steps=N]";
 
 bool take_scalar(const std::string& name, stability::Scalar& scalar) {
     constexpr std::pair<const char*, stability::Scalar> kScalars[] = {
@@ -65,6 +66,8 @@ bool take(const std::string& word, stability::Effort& effort, std::vector<std::s
         effort.seed = std::strtoull(word.c_str() + 5, nullptr, 10);
     } else if (word.rfind("scenes=", 0) == 0) {
         effort.scenes = std::atoi(word.c_str() + 7);
+    } else if (word.rfind("steps=", 0) == 0) {
+        effort.steps = std::atoi(word.c_str() + 6);
     } else if (measure::known(kCases, word)) {
         names.push_back(word);
     } else {

@@ -4,6 +4,18 @@
 
 namespace stability {
 
+bool beyond_arithmetic(weir::Status status) {
+    using weir::Status;
+    for (const Status one : {Status::cells_out_of_range, Status::top_speed_out_of_range,
+                             Status::gravity_out_of_range, Status::velocity_out_of_range,
+                             Status::motion_out_of_range}) {
+        if (status == one) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void Report::run(const std::string& name, const Tally& t, const Bounds& bounds) {
     bool ok = true;
     const auto none = [&](const char* what, std::int64_t count) {

@@ -27,6 +27,9 @@ inline Bounds bounds_of(const Scheme& scheme) {
 inline constexpr Bounds kNoEnergy{0.0, 0.15, false};
 inline constexpr Bounds kOnlyKept{0.0, 0.0, false};
 
+/// Whether a world answers so what its arithmetic does not bear.
+bool beyond_arithmetic(weir::Status status);
+
 class Report : public measure::Report {
 public:
     using measure::Report::Report;
@@ -42,5 +45,18 @@ public:
 private:
     int skipped_ = 0;
 };
+
+/// Runs a case. What fixed point refuses is skipped with the world's answer; nothing else is.
+template <class Real, class Case>
+void attempt(Report& report, const std::string& name, const Case& run) {
+    try {
+        run();
+    } catch (const Refused& refusal) {
+        if (!kIsFixed<Real> || !beyond_arithmetic(refusal.status())) {
+            throw;
+        }
+        report.skipped(name, refusal.what());
+    }
+}
 
 }  // namespace stability

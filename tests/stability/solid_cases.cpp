@@ -137,7 +137,9 @@ void jet_into_wedge(Report& report, const Effort& effort) {
     each_scheme(effort.scalar, true, true, [&](const Scheme& scheme, auto real) {
         using Real = decltype(real);
         for (const float shift : {0.0F, 0.3F}) {
-            Tank<Real> tank(tank_def(scheme, 33, 44, 400, 2, 10));
+            weir::WorldDef def = tank_def(scheme, 33, 44, 400, 2, 10);
+            def.top_speed_mps = 2000.0F * kCell;
+            Tank<Real> tank(def);
             const float apex = 16.5F + shift;
             tank.add_static({{-1, -1}, {apex, -1}, {apex, 0}, {apex - half, 20}, {-1, 20}}, {0, 0});
             tank.add_static({{apex, -1}, {34, -1}, {34, 20}, {apex + half, 20}, {apex, 0}}, {0, 0});

@@ -233,11 +233,12 @@ void Tank<Real>::count_compression() {
 template <class Real>
 bool Tank<Real>::consistent(const StepReport& r, float dt_s, double fastest) const {
     const bool usable = std::isfinite(dt_s) && dt_s >= 1.0e-9F;
-    const bool time = usable ? r.dt_s > 0.0F && r.dt_s <= dt_s * 1.000001F && r.substeps >= 1 &&
+    const float rounding = 1.0e-6F * dt_s + static_cast<float>(time_unit());
+    const bool time = usable ? r.dt_s > 0.0F && r.dt_s <= dt_s + rounding && r.substeps >= 1 &&
                                    r.substeps <= def_.max_substeps
                              : r.dt_s == 0.0F && r.substeps == 0;
     const bool pause = dt_s == 0.0F;
-    const bool shortened = !pause && (!usable || r.dt_s < dt_s * 0.999999F);
+    const bool shortened = !pause && (!usable || r.dt_s < dt_s - rounding);
     const bool flags = r.has(Clamped::time_step) == shortened &&
                        r.has(Clamped::speed) == (r.particles_slowed > 0) &&
                        r.has(Clamped::not_finite) == (r.particles_reset > 0) &&

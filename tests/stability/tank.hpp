@@ -2,6 +2,7 @@
 // are written in cells; a cell's edge is a power of two of a metre, so nothing is rounded between.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -114,6 +115,8 @@ public:
     }
     /// What places and velocities are known to, cells, cells a second.
     double place_unit() const { return unit_of<weir::PositionOf<Real>>(); }
+    /// And steps, s.
+    double time_unit() const { return kIsFixed<Real> ? std::ldexp(1.0 / to_cells_, -30) : 0.0; }
     double speed_unit() const { return to_cells_ * unit_of<weir::VelocityOf<Real>>(); }
 
     /// All of these throw if the world refuses. Cells, cells a second.
