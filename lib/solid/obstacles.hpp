@@ -84,7 +84,7 @@ struct Meetings {
 
     explicit Meetings(const BodyTable<Real>& table)
         : room(kMeetingsPerBody * table.capacity) {
-        const auto loads = static_cast<std::size_t>(table.capacity + 1);
+        const auto loads = static_cast<std::size_t>(load_records<Real>(table.capacity));
         const auto pushes = static_cast<std::size_t>(room + 1);
         std::byte* at = reinterpret_cast<std::byte*>(table.load);
         at += detail::block_bytes(kBodyLoadBytes<Real>, loads);

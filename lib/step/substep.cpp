@@ -269,6 +269,8 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
     }
 }
 
+}  // namespace
+
 template <bool Solids, class Real>
 void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
              StepReport& report) {
@@ -287,7 +289,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     skip_empty(simulation, plan, work);
     order_particles(simulation, work);
     const detail::TwoWay<Real>* two_way = simulation.two_way;
-    if (kHasLedger<Real> && two_way != nullptr) {
+    if (kLedgerWithin<Real> && two_way != nullptr) {
         two_way->open_ledger(simulation, work);
     }
     if (Solids && two_way != nullptr) {
@@ -344,43 +346,18 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
             clock.charge(Stage::grid_to_particle);
         }
     }
-    if (kHasLedger<Real> && two_way != nullptr) {
+    if (kLedgerWithin<Real> && two_way != nullptr) {
         two_way->close_ledger(simulation, dt_s, work);
         clock.charge(Stage::collide);
     }
     watch_asleep(simulation, work, clock, report);
 }
 
-}  // namespace
-
-template <class Real>
-const Stages<Real>& open_stages() {
-    static constexpr auto kNowhere = [](const GridShape&, const Walls<Real>&, Vec2<Real>) {
-        return false;
-    };
-    static constexpr auto kNothing = [](Layers<Real>&, BodyTable<Real>&) -> std::int32_t {
-        return 0;
-    };
-    static constexpr auto kNoSolid = [](Layers<Real>&, const BodyTable<Real>&) -> std::int32_t {
-        return 0;
-    };
-    static constexpr Stages<Real> kStages{substep<false, Real>, kNowhere, kNothing, kNoSolid,
-                                          nullptr, nullptr, nullptr};
-    return kStages;
-}
-
-template <class Real>
-const Stages<Real>& solid_stages() {
-    static constexpr Stages<Real> kStages{substep<true, Real>, inside_solid<Real>,
-                                          merge_moving<Real>, draw_stored<Real>,
-                                          empty_lone_slivers<Real>, end_leads<Real>,
-                                          rest_on_solids<Real>};
-    return kStages;
-}
-
-#define WEIR_INSTANTIATE(Real)                        \
-    template const Stages<Real>& open_stages<Real>(); \
-    template const Stages<Real>& solid_stages<Real>();
+#define WEIR_INSTANTIATE(Real)                                                          \
+    template void substep<false>(Simulation<Real>&, const SubstepPlan<Real>&, Work,     \
+                                 StepReport&);                                          \
+    template void substep<true>(Simulation<Real>&, const SubstepPlan<Real>&, Work,      \
+                                StepReport&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

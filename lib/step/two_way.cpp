@@ -143,31 +143,13 @@ CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Rea
             simulation.body_diagonal};
 }
 
-/// Packed worlds keep no ledger.
-template <class Real>
-constexpr auto ledger_opener() {
-    if constexpr (kHasLedger<Real>) {
-        return open_ledger<Real>;
-    } else {
-        return nullptr;
-    }
-}
-template <class Real>
-constexpr auto ledger_closer() {
-    if constexpr (kHasLedger<Real>) {
-        return close_ledger<Real>;
-    } else {
-        return nullptr;
-    }
-}
-
-/// Nor are there free bodies in them.
+/// Packed worlds have no free bodies, so no pieces.
 template <class Real>
 constexpr Decompose<Real> decomposer() {
     if constexpr (Stored<Real>::shares_momentum) {
         return nullptr;
     } else {
-        return weir::decompose<Real>;
+        return decompose<Real>;
     }
 }
 
@@ -175,17 +157,16 @@ constexpr Decompose<Real> decomposer() {
 
 template <class Real>
 const detail::TwoWay<Real>& detail::two_way_in_open() {
-    static constexpr TwoWay<Real> kStages{ledger_opener<Real>(), press_tank<Real>,
-                                          ledger_closer<Real>(), nullptr, nullptr, nullptr,
-                                          nullptr, nullptr};
+    static constexpr TwoWay<Real> kStages{open_ledger<Real>, press_tank<Real>, close_ledger<Real>,
+                                          nullptr, nullptr, nullptr, nullptr, nullptr};
     return kStages;
 }
 
 template <class Real>
 const detail::TwoWay<Real>& detail::two_way_among_solids() {
-    static constexpr TwoWay<Real> kStages{ledger_opener<Real>(), press_tank<Real>,
-                                          ledger_closer<Real>(), accelerate_bodies<Real>,
-                                          coupled_solve<Real>,   press_bodies<Real>,
+    static constexpr TwoWay<Real> kStages{open_ledger<Real>,   press_tank<Real>,
+                                          close_ledger<Real>,  accelerate_bodies<Real>,
+                                          coupled_solve<Real>, press_bodies<Real>,
                                           move_free_bodies<Real>, decomposer<Real>()};
     return kStages;
 }

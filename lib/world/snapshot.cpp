@@ -129,8 +129,9 @@ bool harmless(Block block, const Simulation<Real>& world, const std::byte* from,
         case Block::kept_density: return all_finite<DensityOf<Real>>(from, elements);
         case Block::region_tile: return true;  // any number names a region
         case Block::body_load:
-            return all_finite<Face<Real>>(from, elements * (sizeof(BodyLoad<Real>) /
-                                                            sizeof(Face<Real>)));
+            // Of the ledger's whole numbers any will do.
+            return all_finite<Face<Real>>(from, (elements - kLedgerRecords<Real>) *
+                                                    (sizeof(BodyLoad<Real>) / sizeof(Face<Real>)));
         case Block::body_push:  // guesses, of whatever
             return all_finite<Face<Real>>(from, elements * (sizeof(Push<Real>) /
                                                             sizeof(Face<Real>)));

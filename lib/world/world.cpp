@@ -295,7 +295,7 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     }
     clear_thin_walls(simulation.layers.thin, simulation.grid.shape, def.capacity.bodies);
     if (def.capacity.two_way) {
-        for (std::int32_t slot = 0; slot <= def.capacity.bodies; ++slot) {
+        for (std::int32_t slot = 0; slot < load_records<Real>(def.capacity.bodies); ++slot) {
             new (simulation.bodies.load + slot) BodyLoad<Real>();
         }
         const auto share = Face<Real>(1) / static_cast<Face<Real>>(def.particles_per_cell);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "math/vec2.hpp"
+#include "measure/momentum_book.hpp"
+#include "measure/stirred_tank.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
 #include "world/world_state.hpp"
@@ -107,12 +109,48 @@ void balance(Report& report, const std::string& name, Scene scene, double most_s
                   100.0 * std::sqrt(weir::dot(rest, rest)) / kSteps, "%");
 }
 
+/// Fixed point: to the last unit, over a million steps. Mass, too.
+template <class Real>
+void whole_numbers(Report& report, const std::string& name, int steps, double most_settled) {
+    measure::Stirred how;
+    how.bodies = how.swings = true;
+    measure::StirredTank<Real> tank(how);
+    measure::MomentumBook<Real> book(tank.world(), tank.memory());
+    std::int64_t off = 0;
+    std::int64_t mass_off = 0;
+    std::int64_t gravity_off = 0;
+    std::int32_t lost = 0;
+    std::int32_t crowded = 0;
+    for (int k = 0; k < steps; ++k) {
+        tank.swing(k);
+        const weir::StepReport step = book.step(kFrame);
+        off = std::max(off, measure::largest(book.off()));
+        gravity_off = std::max(gravity_off, measure::largest(book.gravity_off()));
+        mass_off = std::max(mass_off, measure::largest(book.mass_off()));
+        lost = std::max(lost, std::abs(tank.particles() - step.particles));
+        crowded += step.particles_crowded;
+    }
+    report.figure(name + ".steps", steps, "1");
+    report.equals(name + ".drift_lsb", static_cast<double>(measure::largest(book.drift())), "LSB",
+                  0);
+    report.equals(name + ".worst_step_lsb", static_cast<double>(off), "LSB", 0);
+    report.equals(name + ".gravity_off_lsb", static_cast<double>(gravity_off), "LSB", 0);
+    report.equals(name + ".mass_on_faces_off_lsb", static_cast<double>(mass_off), "LSB", 0);
+    report.equals(name + ".particles_lost", lost, "1", 0);
+    report.figure(name + ".particles_crowded", crowded, "1");
+    report.at_most(name + ".settled_over_weight_rms", 100.0 * book.settled_rms(), "%",
+                   most_settled);
+}
+
 }  // namespace
 
-void third_law(Report& report, const Effort&) {
+void third_law(Report& report, const Effort& effort) {
     balance(report, "third_law.pool", Scene(1.28, 0.32, false), 0.001);
     balance(report, "third_law.pool_with_bodies", Scene(1.28, 0.32, true), 0.3);
     balance(report, "third_law.dam_break_over_bodies", Scene(0.4, 0.5, true), 5.0);
+    const int steps = effort.full ? 1'000'000 : 2'000;
+    whole_numbers<weir::Fixed>(report, "ledger.fixed", steps, 10.0);
+    whole_numbers<weir::SmallFixed>(report, "ledger.small_fixed", steps, 10.0);
 }
 
 }  // namespace solids

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "weir/config.hpp"
+#include "weir/storage.hpp"
 
 namespace weir {
 
@@ -14,6 +15,11 @@ template <class Real>
 const Stages<Real>& open_stages();
 template <class Real>
 const Stages<Real>& solid_stages();
+/// The same in packed worlds with `Capacity::two_way`.
+template <class Real>
+const Stages<Real>& balanced_open_stages();
+template <class Real>
+const Stages<Real>& balanced_solid_stages();
 
 namespace detail {
 
@@ -85,6 +91,10 @@ template <class Real>
     }
     if (room.two_way) {
         features.two_way = open ? &two_way_in_open<Real>() : &two_way_among_solids<Real>();
+        if constexpr (Stored<Real>::shares_momentum) {
+            features.stages =
+                open ? &balanced_open_stages<Real>() : &balanced_solid_stages<Real>();
+        }
     }
     if (def.viscosity_m2ps > 0.0F) {
         features.viscosity = open ? &viscosity_in_open<Real>() : &viscosity_among_solids<Real>();

@@ -113,6 +113,13 @@ template <class Real>
 inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
 inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 96 : 192;
+/// Records for so many bodies, for the tank, and in fixed point for the ledger in whole numbers.
+template <class Real>
+inline constexpr std::int32_t kLedgerRecords = std::is_floating_point_v<Real> ? 0 : 1;
+template <class Real>
+constexpr std::int32_t load_records(std::int32_t bodies) {
+    return bodies + 1 + kLedgerRecords<Real>;
+}
 /// Points at which free bodies are before something, for each body, and one more for their number.
 inline constexpr std::int32_t kMeetingsPerBody = 6;
 template <class Real>
@@ -310,7 +317,7 @@ constexpr Layout layout(const Capacity& capacity) {
     const std::size_t near_words = capacity.bodies > 0 ? count(near_entries<Real>(capacity)) : 0;
     const std::size_t wall_edges = capacity.bodies > 0 ? count(capacity.wall_edges) : 0;
     const std::size_t thin = wall_edges > 0 ? 1 : 0, bodies = count(capacity.bodies);
-    const std::size_t loads = capacity.two_way ? count(capacity.bodies) + 1 : 0;
+    const std::size_t loads = capacity.two_way ? count(load_records<Real>(capacity.bodies)) : 0;
     const std::size_t mixed_cells = capacity.second_liquid ? cells : 0,
                       kept_cells = capacity.sleeping_regions ? cells : 0;
     const std::size_t tiles = capacity.sleeping_regions ? count(coarse_cells(capacity.cells_x)) *

@@ -1,0 +1,63 @@
+// Mass and momentum of fixed-point worlds, as whole numbers: nothing is lost, step by step.
+#include <gtest/gtest.h>
+
+#include "measure/momentum_book.hpp"
+#include "measure/stirred_tank.hpp"
+
+namespace weir {
+namespace {
+
+using measure::MomentumBook;
+using measure::Stirred;
+using measure::StirredTank;
+using measure::Units;
+
+constexpr Units kNone{};
+
+/// @param most_settled of what was not counted where it was exchanged, over the liquid's weight:
+/// if nothing were counted that would be all of it.
+template <class Real>
+void expect_balance(const Stirred& how, double most_settled) {
+    StirredTank<Real> tank(how);
+    MomentumBook<Real> book(tank.world(), tank.memory());
+    const std::int32_t particles = tank.particles();
+    for (int k = 0; k < 2000 && !testing::Test::HasFailure(); ++k) {
+        SCOPED_TRACE(k);
+        tank.swing(k);
+        const StepReport report = book.step(StirredTank<Real>::kFrame);
+        EXPECT_EQ(report.particles, particles);
+        EXPECT_EQ(book.off(), kNone);
+        EXPECT_EQ(book.gravity_off(), kNone);
+        EXPECT_TRUE(book.tank_says_so());
+        EXPECT_EQ(book.mass_off(), kNone);
+        if (Stored<Real>::coarse) {
+            EXPECT_EQ(book.momentum_off(), kNone);
+        }
+    }
+    EXPECT_EQ(book.drift(), kNone);
+    EXPECT_LT(book.settled_rms(), most_settled);
+}
+
+template <class Real>
+class WholeLedgerOf : public testing::Test {};
+using Scalars = testing::Types<Fixed, SmallFixed>;
+TYPED_TEST_SUITE(WholeLedgerOf, Scalars, );
+
+TYPED_TEST(WholeLedgerOf, BalancesAPool) {
+    expect_balance<TypeParam>({}, 0.01);
+}
+
+TYPED_TEST(WholeLedgerOf, BalancesADamBreakOverBodies) {
+    Stirred how;
+    how.bodies = how.swings = true;
+    expect_balance<TypeParam>(how, 0.1);
+}
+
+TEST(WholeLedger, BalancesTwoLiquidsWithAFreeBody) {
+    Stirred how;
+    how.bodies = how.floating = how.second = how.swings = true;
+    expect_balance<Fixed>(how, 0.2);
+}
+
+}  // namespace
+}  // namespace weir
