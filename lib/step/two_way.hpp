@@ -8,8 +8,7 @@
 
 namespace weir {
 
-/// What a substep does for it; those of bodies are null where there is no room for any, those of
-/// the ledger in packed worlds.
+/// What a substep does for it; those of bodies are null where there is no room for any.
 template <class Real>
 struct detail::TwoWay {
     /// At the top (step/momentum_ledger.hpp).

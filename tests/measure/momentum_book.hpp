@@ -57,6 +57,12 @@ public:
 
     Units off() const { return in_units(off_); }      ///< of the last step
     Units drift() const { return in_units(drift_); }  ///< of all
+    /// Since the world began.
+    Units gravity() const { return in_units(gravity_); }
+    /// In the last step.
+    Units tank() const {
+        return in_units(weir::whole_received(simulation(), bodies().capacity));
+    }
     /// What was not counted where it was exchanged, over the liquid's weight, rms.
     double settled_rms() const { return std::sqrt(settled_square_ / steps_); }
 
@@ -68,11 +74,10 @@ public:
     }
     /// Whether the tank's record in floats is its whole numbers, rounded.
     bool tank_says_so() const {
-        const Units tank = in_units(weir::whole_received(simulation(), bodies().capacity));
         const float unit = simulation().layers.walls.particle_mass[0] / 4294967296.0F;
         const weir::Vec2<float> said = weir::tank_received(bodies()).linear;
-        return said.x == unit * static_cast<float>(tank[0]) &&
-               said.y == unit * static_cast<float>(tank[1]);
+        return said.x == unit * static_cast<float>(tank()[0]) &&
+               said.y == unit * static_cast<float>(tank()[1]);
     }
 
     /// Raw numbers on faces of either component less those of as many particles, twice: faces on

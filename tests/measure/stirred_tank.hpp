@@ -40,6 +40,9 @@ public:
 
     weir::World<Real>& world() { return world_; }
     std::byte* memory() { return memory_.data(); }
+    std::size_t snapshot_bytes() const {
+        return weir::snapshot_bytes<Real>(definition(how_).capacity);
+    }
     std::int32_t particles() const { return particles_; }  ///< as filled in
 
     /// As gravity stands before step k.

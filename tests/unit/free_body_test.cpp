@@ -237,6 +237,7 @@ TEST(Force, ActionIsReaction) {
     };
     check(gap<float>(Pressure::projection, true), 1e-5);
     check(gap<Fixed>(Pressure::projection, true), 1e-2);
+    check(gap<SmallFixed>(Pressure::projection, true), 1e-2);
     check(gap<float>(Pressure::projection, false), 0.1);
     check(gap<double>(Pressure::projection, false), 0.1);
     check(gap<Fixed>(Pressure::projection, false), 0.1);

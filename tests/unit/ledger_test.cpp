@@ -1,6 +1,8 @@
 // Mass and momentum of fixed-point worlds, as whole numbers: nothing is lost, step by step.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "measure/momentum_book.hpp"
 #include "measure/stirred_tank.hpp"
 
@@ -51,6 +53,30 @@ TYPED_TEST(WholeLedgerOf, BalancesADamBreakOverBodies) {
     Stirred how;
     how.bodies = how.swings = true;
     expect_balance<TypeParam>(how, 0.1);
+}
+
+// What gravity owes, too.
+TYPED_TEST(WholeLedgerOf, GoesOnFromASnapshot) {
+    Stirred how;
+    how.bodies = how.swings = true;
+    StirredTank<TypeParam> tanks[] = {StirredTank<TypeParam>(how), StirredTank<TypeParam>(how)};
+    for (int k = 0; k < 50; ++k) {
+        tanks[0].swing(k);
+        tanks[0].world().step(tanks[0].kFrame);
+    }
+    std::vector<std::byte> snapshot(tanks[0].snapshot_bytes());
+    std::size_t written = 0;
+    ASSERT_EQ(tanks[0].world().save(snapshot.data(), snapshot.size(), &written), Status::ok);
+    ASSERT_EQ(tanks[1].world().restore(snapshot.data(), written), Status::ok);
+    MomentumBook<TypeParam> one(tanks[0].world(), tanks[0].memory());
+    MomentumBook<TypeParam> other(tanks[1].world(), tanks[1].memory());
+    for (int k = 0; k < 50; ++k) {
+        one.step(tanks[0].kFrame);
+        other.step(tanks[1].kFrame);
+        ASSERT_EQ(one.tank(), other.tank()) << k;
+        ASSERT_EQ(one.gravity(), other.gravity()) << k;
+        ASSERT_EQ(other.off(), kNone) << k;
+    }
 }
 
 TEST(WholeLedger, BalancesTwoLiquidsWithAFreeBody) {
