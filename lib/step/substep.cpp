@@ -7,7 +7,6 @@
 #include "pressure/surface_level.hpp"
 #include "pressure/surface_tension.hpp"
 #include "pressure/volume_correction.hpp"
-#include "solid/collide.hpp"
 #include "step/bend_paths.hpp"
 #include "step/boundary_condition.hpp"
 #include "step/fly_beyond.hpp"
@@ -18,9 +17,9 @@
 #include "step/particle_to_grid.hpp"
 #include "step/quiet_surface.hpp"
 #include "step/regions.hpp"
-#include "step/rest_on_solids.hpp"
 #include "step/row_spans.hpp"
 #include "step/stage_clock.hpp"
+#include "step/stages.hpp"
 #include "step/thin_transfer.hpp"
 #include "step/two_way.hpp"
 #include "step/viscosity.hpp"
@@ -269,8 +268,6 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
     }
 }
 
-}  // namespace
-
 template <bool Solids, class Real>
 void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
              StepReport& report) {
@@ -353,11 +350,21 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     watch_asleep(simulation, work, clock, report);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                          \
-    template void substep<false>(Simulation<Real>&, const SubstepPlan<Real>&, Work,     \
-                                 StepReport&);                                          \
-    template void substep<true>(Simulation<Real>&, const SubstepPlan<Real>&, Work,      \
-                                StepReport&);
+}  // namespace
+
+template <class Real>
+const Stages<Real>& open_stages() {
+    return stages_in_open<Real, substep<false, Real>>();
+}
+
+template <class Real>
+const Stages<Real>& solid_stages() {
+    return stages_among_solids<Real, substep<true, Real>>();
+}
+
+#define WEIR_INSTANTIATE(Real)                        \
+    template const Stages<Real>& open_stages<Real>(); \
+    template const Stages<Real>& solid_stages<Real>();
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -7,15 +7,11 @@
 
 namespace weir {
 
-/// Advances everything by plan.dt_s, or does as much of it as the work allows. Adds counts and
-/// ticks to the report.
-template <bool Solids, class Real>
-void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
-             StepReport& report);
-
 /// What differs in a world with room for bodies: one without links no code for solids.
 template <class Real>
 struct Stages {
+    /// Advances everything by plan.dt_s, or does as much of it as the work allows. Adds counts and
+    /// ticks to the report.
     void (*substep)(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
                     StepReport& report);
     bool (*inside_solid)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point);

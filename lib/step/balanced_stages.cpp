@@ -1,0 +1,42 @@
+// A packed world that keeps a ledger has it around the substep: one that does not has no
+// instruction of it.
+#include "step/stage_clock.hpp"
+#include "step/stages.hpp"
+#include "step/two_way.hpp"
+
+namespace weir {
+
+namespace {
+
+template <bool Solids, class Real>
+void balanced_substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                      StepReport& report) {
+    StageClock opening(simulation.ticks, work, report);
+    simulation.two_way->open_ledger(simulation, work);
+    opening.charge(Stage::particle_to_grid);
+    const Stages<Real>& stages = Solids ? solid_stages<Real>() : open_stages<Real>();
+    stages.substep(simulation, plan, work, report);
+    StageClock closing(simulation.ticks, work, report);
+    simulation.two_way->close_ledger(simulation, plan.dt_s, work);
+    closing.charge(Stage::collide);
+}
+
+}  // namespace
+
+template <class Real>
+const Stages<Real>& balanced_open_stages() {
+    return stages_in_open<Real, balanced_substep<false, Real>>();
+}
+
+template <class Real>
+const Stages<Real>& balanced_solid_stages() {
+    return stages_among_solids<Real, balanced_substep<true, Real>>();
+}
+
+#define WEIR_INSTANTIATE(Real)                                 \
+    template const Stages<Real>& balanced_open_stages<Real>(); \
+    template const Stages<Real>& balanced_solid_stages<Real>();
+WEIR_FOR_PACKED(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir
