@@ -1,4 +1,4 @@
-// What of a world's stages hangs on whether there is room for bodies, around one substep or another.
+// What of a world's stages hangs on whether there is room for bodies, around whichever substep.
 #pragma once
 
 #include "solid/collide.hpp"
