@@ -58,7 +58,7 @@ public:
     Units off() const { return in_units(off_); }      ///< of the last step
     Units drift() const { return in_units(drift_); }  ///< of all
     /// Since the world began.
-    Units gravity() const { return in_units(gravity_); }
+    Units gravity() const { return in_units(given()); }
     /// In the last step.
     Units tank() const {
         return in_units(weir::whole_received(simulation(), bodies().capacity));

@@ -79,6 +79,23 @@ TYPED_TEST(WholeLedgerOf, GoesOnFromASnapshot) {
     }
 }
 
+TYPED_TEST(WholeLedgerOf, IsTheSameInSlices) {
+    Stirred how;
+    how.bodies = how.swings = true;
+    StirredTank<TypeParam> tanks[] = {StirredTank<TypeParam>(how), StirredTank<TypeParam>(how)};
+    const MomentumBook<TypeParam> whole(tanks[0].world(), tanks[0].memory());
+    const MomentumBook<TypeParam> sliced(tanks[1].world(), tanks[1].memory());
+    for (int k = 0; k < 50; ++k) {
+        tanks[0].world().step(tanks[0].kFrame);
+        StepReport report;
+        ASSERT_EQ(tanks[1].world().begin_step(tanks[1].kFrame, &report), Status::ok);
+        while (!tanks[1].world().advance(50 + k)) {
+        }
+        ASSERT_EQ(whole.tank(), sliced.tank()) << k;
+        ASSERT_EQ(whole.gravity(), sliced.gravity()) << k;
+    }
+}
+
 TEST(WholeLedger, BalancesTwoLiquidsWithAFreeBody) {
     Stirred how;
     how.bodies = how.floating = how.second = how.swings = true;
