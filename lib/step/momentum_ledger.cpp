@@ -8,6 +8,10 @@ namespace {
 /// over a million particles is then as exact as its numbers, wherever a step is cut.
 constexpr std::int32_t kSummed = 64;
 
+/// Packed worlds have one liquid.
+template <class Real>
+constexpr std::int32_t kLiquids = Stored<Real>::shares_momentum ? 1 : 2;
+
 /// Of either liquid.
 template <class Number>
 struct Sums {
@@ -21,8 +25,9 @@ Sums<Number> sums_of(const Particles<Real>& particles, std::int32_t first, std::
                      As as) {
     Sums<Number> sums;
     for (std::int32_t k = first; k < end; ++k) {
-        const std::int32_t kind =
-            particles.kind != nullptr && particles.kind[k] == Liquid::second ? 1 : 0;
+        const bool second = kLiquids<Real> > 1 && particles.kind != nullptr &&
+                            particles.kind[k] == Liquid::second;
+        const std::int32_t kind = second ? 1 : 0;
         sums.velocity[kind] = sums.velocity[kind] + as(Vec2<Real>(particles.velocity[k]));
         sums.count[kind] += Number(1);
     }
@@ -161,7 +166,7 @@ struct Ledger<Real, true> {
             simulation.particles, first, end, [](Vec2<Real> velocity) {
                 return convert<std::uint64_t>(Vec2<std::int32_t>{velocity.x.raw, velocity.y.raw});
             });
-        for (std::int32_t kind = 0; kind < 2; ++kind) {
+        for (std::int32_t kind = 0; kind < kLiquids<Real>; ++kind) {
             const std::uint64_t each = whole_weight(settings, kind == 1);
             const WholeMomentum momentum = each * sums.velocity[kind];
             book.received = opens_ ? book.received + momentum : book.received - momentum;
