@@ -15,6 +15,8 @@ public:
     Report& operator=(const Report&) = delete;
     ~Report();
 
+    /// Before the names of all rows from here on.
+    void name_rows(const std::string& prefix) { prefix_ = prefix; }
     void heading(const std::string& text) const;
     /// A figure without a target.
     void figure(const std::string& name, double value, const char* unit);
@@ -24,6 +26,9 @@ public:
     void equals(const std::string& name, double value, const char* unit, double expected);
     /// A statement that holds or does not.
     void holds(const std::string& name, bool ok) { equals(name, ok ? 1.0 : 0.0, "1", 1.0); }
+
+    /// Figures that cannot be had, and why.
+    void skipped(const std::string& name, const std::string& why);
 
     /// Folder of the CSV and its name without ending: what pictures' names start with.
     const std::string& stem() const { return stem_; }
@@ -43,7 +48,9 @@ private:
 
     std::FILE* csv_ = nullptr;
     std::string stem_;
+    std::string prefix_;
     int met_ = 0;
+    int skipped_ = 0;
     std::vector<std::string> short_;
 };
 

@@ -11,22 +11,23 @@ namespace solids {
 namespace {
 
 /// Pressure times what of each cell's outline is wall, cells³/s² times density.
-Vec force_on_solids(const Pool& pool, Vec low, Vec high) {
+template <class Real>
+Vec force_on_solids(const Pool<Real>& pool, Vec low, Vec high) {
     const auto field = pool.world().signed_distance();
+    const auto at = [&](int i, int j) { return static_cast<float>(field.at(i, j)); };
     // As the library has it: cells with less than 2 % of room are closed all around.
     const auto room = [&](int i, int j) {
-        const float corner[4] = {field.at(i, j), field.at(i + 1, j), field.at(i + 1, j + 1),
-                                 field.at(i, j + 1)};
+        const float corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
         return weir::open_area(corner) >= 0.02F;
     };
     const auto open_u = [&](int i, int j) {
         return room(i - 1, j) && room(i, j)
-                   ? static_cast<double>(weir::open_fraction(field.at(i, j), field.at(i, j + 1)))
+                   ? static_cast<double>(weir::open_fraction(at(i, j), at(i, j + 1)))
                    : 0.0;
     };
     const auto open_v = [&](int i, int j) {
         return room(i, j - 1) && room(i, j)
-                   ? static_cast<double>(weir::open_fraction(field.at(i, j), field.at(i + 1, j)))
+                   ? static_cast<double>(weir::open_fraction(at(i, j), at(i + 1, j)))
                    : 0.0;
     };
     Vec force;
@@ -49,6 +50,7 @@ double area_of(const Points& ring) {
 }
 
 /// Of the buoyancy, worst of upward and sideways.
+template <class Real>
 double force_error(int depth, int corners, double size, double angle) {
     Vessel vessel;
     vessel.cells_x = 2 * depth;
@@ -58,7 +60,7 @@ double force_error(int depth, int corners, double size, double angle) {
                                         angle + M_PI / corners);
     vessel.walls = {ring};
     vessel.liquid = [depth](Vec p) { return p.y < depth; };
-    Pool pool(vessel);
+    Pool<Real> pool(vessel);
     pool.run(300);
     Vec force;
     constexpr int kMean = 60;
@@ -71,9 +73,8 @@ double force_error(int depth, int corners, double size, double angle) {
     return std::max(std::abs(force.y / buoyancy - 1.0), std::abs(force.x / buoyancy));
 }
 
-}  // namespace
-
-void buoyancy(Report& report, const Effort& effort) {
+template <class Real>
+void submerged(Report& report, const Effort& effort) {
     constexpr double kDegree = M_PI / 180.0;
     for (const int depth : {16, 32, 64}) {
         if (depth > 32 && !effort.full) {
@@ -81,13 +82,20 @@ void buoyancy(Report& report, const Effort& effort) {
         }
         double worst = 0.0;
         for (const double degrees : {0.0, 15.0, 30.0, 45.0}) {
-            worst = std::max(worst, force_error(depth, 4, 0.25 * depth, degrees * kDegree));
+            worst = std::max(worst, force_error<Real>(depth, 4, 0.25 * depth, degrees * kDegree));
         }
-        worst = std::max(worst, force_error(depth, 3, 0.25 * depth, 0.1));
-        worst = std::max(worst, force_error(depth, 8, 0.125 * depth, 0.1));
+        worst = std::max(worst, force_error<Real>(depth, 3, 0.25 * depth, 0.1));
+        worst = std::max(worst, force_error<Real>(depth, 8, 0.125 * depth, 0.1));
         report.at_most("R4d.force." + std::to_string(depth), 100.0 * worst, "%",
                        depth == 16 ? 3.0 : (depth == 32 ? 1.5 : 0.75));
     }
+}
+
+}  // namespace
+
+void buoyancy(Report& report, const Effort& effort) {
+    in_scalar(report, effort.real,
+              [&](auto zero) { submerged<decltype(zero)>(report, effort); });
 }
 
 }  // namespace solids

@@ -21,8 +21,9 @@ const double kUnit_s = std::sqrt(kWidth / 9.81);
 /// The reference's first minimum, over the lift; at 2.58 units.
 constexpr double kFirstMinimum = -0.944;
 
+template <class Real>
 struct Box {
-    Tank<float> tank;
+    Tank<Real> tank;
     weir::BodyId id;
 
     Box(int cells, double lift) : tank(definition(cells)) {
@@ -68,8 +69,9 @@ struct Box {
 
 /// Mean difference to Archimedes' draft, of the width. The box sinks by z, the level around it
 /// rises by z / 3.
+template <class Real>
 double draft_error(int cells) {
-    Box box(cells, 0.0);
+    Box<Real> box(cells, 0.0);
     double time = 0.0;
     double sum = 0.0;
     int count = 0;
@@ -84,15 +86,27 @@ double draft_error(int cells) {
 }
 
 /// Lowest height over the lift within the first four units of time.
+template <class Real>
 double first_minimum(int cells) {
     const double lift = 1.5 / 32.0 * kWidth;  // so that the surface is a row of the lattice
-    Box box(cells, lift);
+    Box<Real> box(cells, lift);
     double lowest = 1.0;
     for (double time = 0.0; time < 4.0;) {
         time += box.step();
         lowest = std::min(lowest, box.height() / lift);
     }
     return lowest;
+}
+
+template <class Real>
+void float_box(Report& report, int cells) {
+    const std::string n = std::to_string(cells);
+    const double scale = 32.0 / cells;
+    report.at_most("R12.draft_error." + n, 100.0 * std::abs(draft_error<Real>(cells)),
+                   "% of width", 1.0 * scale);
+    report.at_most("R12.first_minimum_error." + n,
+                   100.0 * std::abs(first_minimum<Real>(cells) - kFirstMinimum), "% of lift",
+                   4.0 * scale);
 }
 
 }  // namespace
@@ -102,13 +116,10 @@ void floating_box(Report& report, const Effort& effort) {
         if (cells > 32 && !effort.full) {
             continue;
         }
-        const std::string n = std::to_string(cells);
-        const double scale = 32.0 / cells;
-        report.at_most("R12.draft_error." + n, 100.0 * std::abs(draft_error(cells)), "% of width",
-                       1.0 * scale);
-        report.at_most("R12.first_minimum_error." + n,
-                       100.0 * std::abs(first_minimum(cells) - kFirstMinimum), "% of lift",
-                       4.0 * scale);
+        in_scalar(report, effort.real, [&](auto zero) {
+            rows(report, "R12." + std::to_string(cells),
+                 [&] { float_box<decltype(zero)>(report, cells); });
+        });
     }
 }
 

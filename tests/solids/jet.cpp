@@ -20,6 +20,7 @@ struct PlateForce {
     double along = 0.0;
 };
 
+template <class Real>
 class Jet {
 public:
     /// `angle` between jet and plate.
@@ -91,7 +92,7 @@ private:
     /// Takes out what has come to the ends of the plate.
     void drain() {
         for (int k = tank_->particle_positions().size - 1; k >= 0; --k) {
-            const weir::Vec2<double> x = weir::convert<double>(tank_->particle_positions()[k]);
+            const weir::Vec2<double> x = tank_.position(k);
             if (std::abs(weir::dot(x - hit_, along_)) > kReach * cells_) {
                 require(tank_->remove_particle(k));
             }
@@ -101,9 +102,21 @@ private:
     int cells_;
     weir::Vec2<double> along_;  ///< the plate
     weir::Vec2<double> hit_;    ///< where the jet's axis meets it, cells
-    Tank<float> tank_;
+    Tank<Real> tank_;
     weir::BodyId plate_;
 };
+
+template <class Real>
+void push(Report& report, int cells, double degrees) {
+    const std::string name = "R13a." + std::to_string(static_cast<int>(degrees)) + "deg.";
+    const std::string n = std::to_string(cells);
+    rows(report, name + n, [&] {
+        const PlateForce force = Jet<Real>(cells, degrees * kDegree).run();
+        report.at_most(name + "force_error." + n, 100.0 * std::abs(force.normal - 1.0), "%",
+                       cells == 16 ? 2.0 : 1.0);
+        report.figure(name + "force_along_plate." + n, 100.0 * force.along, "%");
+    });
+}
 
 }  // namespace
 
@@ -113,12 +126,8 @@ void jet_on_plate(Report& report, const Effort& effort) {
             if (cells > 16 && degrees < 50.0 && !effort.full) {
                 continue;
             }
-            const PlateForce force = Jet(cells, degrees * kDegree).run();
-            const std::string name = "R13a." + std::to_string(static_cast<int>(degrees)) + "deg.";
-            report.at_most(name + "force_error." + std::to_string(cells),
-                           100.0 * std::abs(force.normal - 1.0), "%", cells == 16 ? 2.0 : 1.0);
-            report.figure(name + "force_along_plate." + std::to_string(cells),
-                          100.0 * force.along, "%");
+            in_scalar(report, effort.real,
+                      [&](auto zero) { push<decltype(zero)>(report, cells, degrees); });
         }
     }
 }

@@ -1,5 +1,7 @@
-// weir_solids OUT.csv [quick|full] [NAME ...]: what the solids hold, each figure with its target.
-// Without names, every problem. Exit status 1 if a target is short.
+// weir_solids OUT.csv [quick|full] [real=SCALAR] [NAME ...]: what the solids hold, each figure with
+// its target, in float unless another arithmetic is named. Without names, every problem. Exit status
+// 1 if a target is short.
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -28,13 +30,46 @@ constexpr measure::Problem<solids::Report, solids::Effort> kProblems[] = {
     // Still water.
     {"R4c", "still water between inclined walls", solids::still_water},
     {"R6b", "sloshing between inclined walls", solids::sloshing},
+    {"formats", "the same in fixed point against double", solids::formats},
     {"R4d", "force of still water on submerged polygons", solids::buoyancy},
     {"R14", "soak: vessels with thin, turned and pointed walls", solids::vessels_soak},
     // Cost.
     {"cost", "scenes with against without solids", solids::cost_of_solids},
 };
 
-constexpr char kArguments[] = "weir_solids OUT.csv [quick|full]";
+constexpr char kArguments[] =
+    "weir_solids OUT.csv [quick|full] [real=float|double|fixed|small_fixed]";
+
+/// Problems that are not for `real=`: geometry, what another program counts, all arithmetics at once.
+bool of_one_kind(const std::string& name) {
+    for (const char* one : {"R2", "R3", "third_law", "formats", "cost"}) {
+        if (name == one) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool take_scalar(const std::string& word, solids::Scalar& real) {
+    for (const solids::NamedScalar& one : solids::kScalars) {
+        if (word == std::string("real=") + one.name) {
+            real = one.scalar;
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Every problem that the arithmetic has.
+std::vector<std::string> all_names(solids::Scalar real) {
+    std::vector<std::string> names;
+    for (const auto& problem : kProblems) {
+        if (real == solids::Scalar::single_precision || !of_one_kind(problem.name)) {
+            names.emplace_back(problem.name);
+        }
+    }
+    return names;
+}
 
 }  // namespace
 
@@ -50,9 +85,16 @@ int main(int argc, char** argv) {
             effort.full = word == "full";
         } else if (measure::known(kProblems, word)) {
             names.push_back(word);
-        } else {
+        } else if (!take_scalar(word, effort.real)) {
             return measure::usage(kArguments, kProblems);
         }
     }
-    return measure::run<solids::Report>(argv[1], kProblems, names, effort);
+    const std::vector<std::string> all = all_names(effort.real);
+    for (const std::string& name : names) {
+        if (!measure::chosen(all, name)) {
+            std::fprintf(stderr, "%s: not for real=\n", name.c_str());
+            return 2;
+        }
+    }
+    return measure::run<solids::Report>(argv[1], kProblems, names.empty() ? all : names, effort);
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/vec2.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
 
@@ -63,16 +62,14 @@ Outcome press(weir::Pressure pressure, double speed, double stroke) {
         out.energy = std::max(out.energy, seen.kinetic_energy_m4ps2 /
                                               (0.5 * seen.mass_m2 * speed * speed));
     }
-    for (const auto& p : tank->particle_positions()) {
-        const weir::Vec2<double> x = weir::convert<double>(p);
+    out.alive = tank->particle_positions().size;
+    for (std::int32_t k = 0; k < out.alive; ++k) {
+        const weir::Vec2<double> x = tank.position(k);
+        const weir::Vec2<double> w = tank.velocity(k);
         out.finite = out.finite && std::isfinite(x.x) && std::isfinite(x.y);
         out.inside = out.inside && x.x >= 0.0 && x.x <= kCells && x.y >= 0.0 && x.y <= kCells;
-    }
-    for (const auto& v : tank->particle_velocities()) {
-        const weir::Vec2<double> w = weir::convert<double>(v);
         out.finite = out.finite && std::isfinite(w.x) && std::isfinite(w.y);
     }
-    out.alive = tank->particle_positions().size;
     return out;
 }
 
@@ -88,15 +85,23 @@ void press(Report& report, const std::string& name, weir::Pressure pressure, dou
     report.at_most(name + ".energy_over_all_at_piston_speed", out.energy, "1", 16.0);
 }
 
+template <class Real>
+void press_both(Report& report, double speed, const std::string& at) {
+    press<Real>(report, "piston.projection." + at, weir::Pressure::projection, speed);
+    press<Real>(report, "piston.equation_of_state." + at, weir::Pressure::equation_of_state,
+                speed);
+}
+
 }  // namespace
 
-void piston(Report& report, const Effort&) {
+void piston(Report& report, const Effort& effort) {
     for (const double speed : {0.1, 1.0}) {
         const std::string at = speed < 0.5 ? "slow" : "fast";
-        press<float>(report, "piston.projection." + at, weir::Pressure::projection, speed);
-        press<float>(report, "piston.equation_of_state." + at, weir::Pressure::equation_of_state,
-                     speed);
-        press<weir::Fixed>(report, "piston.fixed." + at, weir::Pressure::projection, speed);
+        in_scalar(report, effort.real,
+                  [&](auto zero) { press_both<decltype(zero)>(report, speed, at); });
+        if (effort.real == Scalar::single_precision) {
+            press<weir::Fixed>(report, "piston.fixed." + at, weir::Pressure::projection, speed);
+        }
     }
 }
 

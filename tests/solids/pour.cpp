@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 
 #include "math/vec2.hpp"
-#include "measure/world_memory.hpp"
+#include "tank.hpp"
 
 namespace solids {
 
@@ -57,6 +56,7 @@ double depth_in(const ListedPolygon& polygon, weir::Vec2<double> p) {
 
 }  // namespace
 
+template <class Real>
 PourResult pour(const ListedPolygon& drawn) {
     const ListedPolygon polygon = fitted(drawn);
     weir::WorldDef def;
@@ -66,33 +66,32 @@ PourResult pour(const ListedPolygon& drawn) {
     def.capacity.particles = 4000;
     def.capacity.bodies = 1;
     def.capacity.vertices = weir::kMaxBodyVertices;
-    const auto memory = measure::memory_for<float>(def);
-    weir::World<float> world;
-    const auto require = [&](weir::Status status) {
-        if (status != weir::Status::ok) {
-            throw std::runtime_error(polygon.name + ": " + weir::status_text(status));
-        }
-    };
-    require(world.init(def, memory.data(), memory.size()));
+    Tank<Real> tank(def);
     std::vector<weir::View<weir::Vec2f>> views;
     weir::BodyDef body = body_of(polygon, views);
     const weir::Vec2f at{12.3F, 2.7F};  // off the grid's lines
     body.motion.position_m = at;
     weir::BodyId id;
-    require(world.add_static_body(body, &id));
+    require(tank->add_static_body(body, &id));
     PourResult result;
-    require(world.fill({{2, 46}, {62, 62}}, &result.particles));
+    require(tank->fill({{2, 46}, {62, 62}}, &result.particles));
     int removed = 0;
     for (int step = 0; step < kSteps; ++step) {
-        removed += world.step(kStep_s).particles_removed_stuck;
+        removed += tank->step(kStep_s).particles_removed_stuck;
     }
-    for (const weir::Vec2<float>& x : world.particle_positions()) {
-        const double depth = depth_in(polygon, weir::convert<double>(x - at));
+    const std::int32_t left = tank->particle_positions().size;
+    for (std::int32_t k = 0; k < left; ++k) {
+        const double depth = depth_in(polygon, tank.position(k) - weir::convert<double>(at));
         result.deepest = std::max(result.deepest, depth);
         result.inside += depth > kTrappedDepth ? 1 : 0;
     }
-    result.lost = result.particles - removed - world.particle_positions().size;
+    result.lost = result.particles - removed - left;
     return result;
 }
+
+template PourResult pour<float>(const ListedPolygon&);
+template PourResult pour<double>(const ListedPolygon&);
+template PourResult pour<weir::Fixed>(const ListedPolygon&);
+template PourResult pour<weir::SmallFixed>(const ListedPolygon&);
 
 }  // namespace solids

@@ -18,6 +18,12 @@ inline constexpr double kTrappedDepth = 0.5;
 
 /// A polygon 40 cells wide or high in a tank of 64 × 64 cells, a block of liquid above it, and
 /// time to come to rest.
+template <class Real>
 PourResult pour(const ListedPolygon& polygon);
+
+extern template PourResult pour<float>(const ListedPolygon&);
+extern template PourResult pour<double>(const ListedPolygon&);
+extern template PourResult pour<weir::Fixed>(const ListedPolygon&);
+extern template PourResult pour<weir::SmallFixed>(const ListedPolygon&);
 
 }  // namespace solids

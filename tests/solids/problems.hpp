@@ -3,6 +3,7 @@
 #pragma once
 
 #include "measure/report.hpp"
+#include "scalar.hpp"
 
 namespace solids {
 
@@ -10,6 +11,7 @@ using measure::Report;
 
 struct Effort {
     bool full = false;  ///< long runs and large counts; else all problems take a few minutes
+    Scalar real = Scalar::single_precision;
 };
 
 // Contours.
@@ -34,6 +36,7 @@ void third_law(Report& report, const Effort& effort);
 // Still water.
 void still_water(Report& report, const Effort& effort);  // R4c
 void sloshing(Report& report, const Effort& effort);     // R6b
+void formats(Report& report, const Effort& effort);      // R6b in all arithmetics
 void buoyancy(Report& report, const Effort& effort);     // R4d
 void vessels_soak(Report& report, const Effort& effort);  // R14 ii-iv
 

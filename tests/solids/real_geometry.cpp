@@ -181,6 +181,7 @@ void report_set(Report& report, const std::string& name, const std::vector<Liste
 }
 
 /// Liquid over the polygons with most vertices, with holes and without.
+template <class Real>
 void report_pours(Report& report, const std::string& name, std::vector<ListedPolygon> list,
                   std::size_t most) {
     std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) {
@@ -194,7 +195,7 @@ void report_pours(Report& report, const std::string& name, std::vector<ListedPol
             if (!polygon.sound || (polygon.rings.size() > 1) != holed || done == most) {
                 continue;
             }
-            const PourResult result = pour(polygon);
+            const PourResult result = pour<Real>(polygon);
             if (result.inside > 0 || result.lost > 0) {
                 std::printf("  %s: %d inside, %d lost, deepest %.3f cells\n", polygon.name.c_str(),
                             result.inside, result.lost, result.deepest);
@@ -224,8 +225,12 @@ void real_geometry(Report& report, const Effort& effort) {
     } sets[] = {{"coast", "coast"}, {"letters", "letters"}, {"icons", "icons 20"}};
     for (const auto& set : sets) {
         const std::vector<ListedPolygon> list = list_polygons(set.arguments);
-        report_set(report, set.name, list);
-        report_pours(report, set.name, list, effort.full ? 10 : 2);
+        if (effort.real == Scalar::single_precision) {
+            report_set(report, set.name, list);
+        }
+        in_scalar(report, effort.real, [&](auto zero) {
+            report_pours<decltype(zero)>(report, set.name, list, effort.full ? 10 : 2);
+        });
     }
 }
 

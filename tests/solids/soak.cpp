@@ -104,7 +104,8 @@ Soak notch_and_needle(int n) {
 
 /// Particles that are off the room by more than half a cell, along the axes: through half of the
 /// thinnest wall. (The contour of a wall thinner than two cells is up to a quarter of a cell off.)
-int outside(const Soak& soak, const Pool& pool) {
+template <class Real>
+int outside(const Soak& soak, const Pool<Real>& pool) {
     int count = 0;
     for (int k = 0; k < pool.particles(); ++k) {
         const Vec p = pool.position(k);
@@ -126,7 +127,8 @@ struct Heights {
     std::vector<double> particles;  ///< in each basin
 };
 
-void add_heights(Heights& sums, const Soak& soak, const Pool& pool, Vec up) {
+template <class Real>
+void add_heights(Heights& sums, const Soak& soak, const Pool<Real>& pool, Vec up) {
     const double swaying = pool.rms_speed() * pool.rms_speed() / (2.0 * kGravity);
     sums.particles.resize(soak.basins.size());
     for (int k = 0; k < pool.particles(); ++k) {
@@ -152,8 +154,9 @@ double lift(const Heights& sums, const Soak& soak, int steps, Vec up) {
     return (sums.height - height) / (height - particles * bottom);
 }
 
+template <class Real>
 void run(Report& report, const std::string& name, const Soak& soak, int steps) {
-    Pool pool(soak.vessel);
+    Pool<Real> pool(soak.vessel);
     const int particles = pool.particles();
     int most_outside = 0;
     const Vec up = soak.vessel.gravity_tilts ? Vec{0.0, 1.0} : soak.vessel.turned_back({0.0, 1.0});
@@ -176,16 +179,25 @@ void run(Report& report, const std::string& name, const Soak& soak, int steps) {
                   "sqrt(gh)");
 }
 
+template <class Real>
+void run_all(Report& report, int steps) {
+    for (const int n : {16, 32}) {
+        const std::string cells = "." + std::to_string(n);
+        const auto in = [&](const std::string& vessel, const Soak& soak) {
+            const std::string name = "R14." + vessel + cells;
+            rows(report, name, [&] { run<Real>(report, name, soak, steps); });
+        };
+        in("ii_turned_box", turned_box(n));
+        in("iii_cup", cup(n));
+        in("iv_notch_and_needle", notch_and_needle(n));
+    }
+}
+
 }  // namespace
 
 void vessels_soak(Report& report, const Effort& effort) {
     const int steps = effort.full ? 1000000 : 3000;
-    for (const int n : {16, 32}) {
-        const std::string cells = "." + std::to_string(n);
-        run(report, "R14.ii_turned_box" + cells, turned_box(n), steps);
-        run(report, "R14.iii_cup" + cells, cup(n), steps);
-        run(report, "R14.iv_notch_and_needle" + cells, notch_and_needle(n), steps);
-    }
+    in_scalar(report, effort.real, [&](auto zero) { run_all<decltype(zero)>(report, steps); });
 }
 
 }  // namespace solids

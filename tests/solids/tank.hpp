@@ -2,18 +2,22 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
+#include <cstdint>
 #include <vector>
 
+#include "math/vec2.hpp"
 #include "measure/world_memory.hpp"
+#include "scalar.hpp"
 #include "weir/weir.hpp"
 
 namespace solids {
 
-inline void require(weir::Status status) {
-    if (status != weir::Status::ok) {
-        throw std::runtime_error(weir::status_text(status));
-    }
+/// Of a particle, cells/s.
+template <class Real>
+weir::Vec2<double> velocity_of(const weir::World<Real>& world, std::int32_t k) {
+    const double per_s =
+        static_cast<double>(world.velocity_scale()) / static_cast<double>(world.cell_m());
+    return per_s * weir::convert<double>(world.particle_velocities()[k]);
 }
 
 template <class Real>
@@ -23,8 +27,15 @@ public:
         require(world_.init(def, memory_.data(), memory_.size()));
     }
     weir::World<Real>* operator->() { return &world_; }
-    weir::World<Real>& operator*() { return world_; }
+    const weir::World<Real>* operator->() const { return &world_; }
+    const weir::World<Real>& operator*() const { return world_; }
     const std::byte* memory() const { return memory_.data(); }
+
+    /// Of a particle, cells and cells/s.
+    weir::Vec2<double> position(std::int32_t k) const {
+        return weir::convert<double>(world_.particle_positions()[k]);
+    }
+    weir::Vec2<double> velocity(std::int32_t k) const { return velocity_of(world_, k); }
 
 private:
     measure::WorldMemory memory_;

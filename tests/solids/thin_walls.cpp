@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "measure/world_memory.hpp"
 #include "problems.hpp"
+#include "tank.hpp"
 #include "weir/weir.hpp"
 
 namespace solids {
@@ -42,10 +42,12 @@ struct Column {
     double mean_height = 0.0;  ///< twice the mean of y on the left: depth of a full column
 };
 
-Column column_of(const weir::World<float>& world, const Wall& wall, double foot) {
+template <class Real>
+Column column_of(const Tank<Real>& tank, const Wall& wall, double foot) {
     Column column;
     double sum = 0.0;
-    for (const Vec2f x : world.particle_positions()) {
+    for (std::int32_t k = 0; k < tank->particle_positions().size; ++k) {
+        const auto x = weir::convert<float>(tank->particle_positions()[k]);
         if (side_of(wall, foot, x) < 0.0) {
             ++column.left;
             sum += static_cast<double>(x.y);
@@ -57,7 +59,8 @@ Column column_of(const weir::World<float>& world, const Wall& wall, double foot)
     return column;
 }
 
-void hold(Report& report, const Wall& wall, std::int32_t steps) {
+template <class Real>
+void hold(Report& report, const std::string& name, const Wall& wall, std::int32_t steps) {
     const std::int32_t rows = wall.depth + 12;
     weir::WorldDef def;
     def.cell_m = kCell;
@@ -67,9 +70,7 @@ void hold(Report& report, const Wall& wall, std::int32_t steps) {
     def.capacity.bodies = 1;
     def.capacity.vertices = 8;
     def.capacity.wall_edges = 700;
-    const auto memory = measure::memory_for<float>(def);
-    weir::World<float> world;
-    const std::string name = std::string("thin.") + wall.name;
+    Tank<Real> tank(def);
     const float foot = 20.37F;
     const float length = 1.5F * static_cast<float>(rows);
     const std::vector<Vec2f> plate = {{-0.025F * kCell, -length * kCell},
@@ -84,11 +85,7 @@ void hold(Report& report, const Wall& wall, std::int32_t steps) {
     body.motion.position_m = {foot * kCell, 0.0F};
     body.motion.angle_rad = wall.lean_rad;
     weir::BodyId id;
-    if (world.init(def, memory.data(), memory.size()) != weir::Status::ok ||
-        world.add_static_body(body, &id) != weir::Status::ok) {
-        report.holds(name + ".set_up", false);
-        return;
-    }
+    require(tank->add_static_body(body, &id));
     // Seeds on the side of the wall to which they belong.
     std::int32_t left = 0;
     std::int32_t right = 0;
@@ -100,28 +97,28 @@ void hold(Report& report, const Wall& wall, std::int32_t steps) {
             const bool on_left = side < -0.05;
             const bool on_right = side > 0.05 && j < 2 * wall.other_depth;
             if ((on_left || on_right) &&
-                world.add_particle({at.x * kCell, at.y * kCell}, {0, 0}) == weir::Status::ok) {
+                tank->add_particle({at.x * kCell, at.y * kCell}, {0, 0}) == weir::Status::ok) {
                 (on_left ? left : right) += 1;
             }
         }
     }
     for (std::int32_t step = 0; step < 120; ++step) {
-        world.step(kFrame);
+        tank->step(kFrame);
     }
-    const Column before = column_of(world, wall, static_cast<double>(foot));
+    const Column before = column_of(tank, wall, static_cast<double>(foot));
     double worst = 0.0;
     std::int32_t removed = 0;
     float fastest = 0.0F;
     for (std::int32_t step = 120; step < steps; ++step) {
-        const weir::StepReport done = world.step(kFrame);
+        const weir::StepReport done = tank->step(kFrame);
         removed += done.particles_removed_stuck;
         if (step % 50 == 0) {
-            const Column now = column_of(world, wall, static_cast<double>(foot));
+            const Column now = column_of(tank, wall, static_cast<double>(foot));
             worst = std::max(worst, std::abs(now.mean_height / before.mean_height - 1.0));
         }
         fastest = step > steps - 100 ? std::max(fastest, done.max_speed_mps) : 0.0F;
     }
-    const Column after = column_of(world, wall, static_cast<double>(foot));
+    const Column after = column_of(tank, wall, static_cast<double>(foot));
     report.equals(name + ".through", std::abs(after.left - left) + std::abs(after.right - right),
                   "particles", 0.0);
     report.equals(name + ".removed", removed, "particles", 0.0);
@@ -139,9 +136,14 @@ void thin_walls(Report& report, const Effort& effort) {
         {"line.straight", true, 0.0F, 32, 0},     {"line.rotated", true, kLean, 32, 0},
         {"line.both_sides", true, 0.0F, 32, 16},  {"line.both_sides_rotated", true, kLean, 32, 16},
     };
-    for (const Wall& wall : walls) {
-        hold(report, wall, effort.full ? 100000 : 2000);
-    }
+    in_scalar(report, effort.real, [&](auto zero) {
+        for (const Wall& wall : walls) {
+            const std::string name = std::string("thin.") + wall.name;
+            rows(report, name, [&] {
+                hold<decltype(zero)>(report, name, wall, effort.full ? 100000 : 2000);
+            });
+        }
+    });
 }
 
 }  // namespace solids

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace solids {
 
@@ -12,12 +11,6 @@ Vec rotate(Vec v, double angle) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
-
-void require(weir::Status status) {
-    if (status != weir::Status::ok) {
-        throw std::runtime_error(std::string("refused: ") + weir::status_text(status));
-    }
 }
 
 weir::Vec2f metres(Vec cells) {
@@ -38,6 +31,23 @@ std::vector<Vec> lattice(const Vessel& vessel) {
     return places;
 }
 
+weir::WorldDef definition(const Vessel& vessel, std::size_t particles) {
+    weir::WorldDef def;
+    def.cell_m = kCell_m;
+    def.capacity.cells_x = vessel.cells_x;
+    def.capacity.cells_y = vessel.cells_y;
+    def.capacity.particles = static_cast<std::int32_t>(particles);
+    def.capacity.bodies = static_cast<std::int32_t>(vessel.walls.size());
+    def.capacity.wall_edges = vessel.wall_edges;
+    def.max_substeps = 32;
+    for (const Points& wall : vessel.walls) {
+        def.capacity.vertices += static_cast<std::int32_t>(wall.size());
+    }
+    const Vec down = vessel.gravity_tilts ? vessel.turned({0.0, -9.81}) : Vec{0.0, -9.81};
+    def.gravity_mps2 = weir::convert<float>(down);
+    return def;
+}
+
 }  // namespace
 
 Vec Vessel::turned(Vec v) const {
@@ -53,23 +63,12 @@ Vec Vessel::to_frame(Vec p) const {
     return middle() + turned_back(p - middle());
 }
 
-Pool::Pool(const Vessel& vessel) : vessel_(vessel) {
-    const std::vector<Vec> places = lattice(vessel);
-    weir::WorldDef def;
-    def.cell_m = kCell_m;
-    def.capacity.cells_x = vessel.cells_x;
-    def.capacity.cells_y = vessel.cells_y;
-    def.capacity.particles = static_cast<std::int32_t>(places.size());
-    def.capacity.bodies = static_cast<std::int32_t>(vessel.walls.size());
-    def.capacity.wall_edges = vessel.wall_edges;
-    def.max_substeps = 32;
-    for (const Points& wall : vessel.walls) {
-        def.capacity.vertices += static_cast<std::int32_t>(wall.size());
-    }
-    const Vec down = vessel.gravity_tilts ? vessel.turned({0.0, -9.81}) : Vec{0.0, -9.81};
-    def.gravity_mps2 = weir::convert<float>(down);
-    memory_ = measure::memory_for<float>(def);
-    require(world_.init(def, memory_.data(), memory_.size()));
+template <class Real>
+Pool<Real>::Pool(const Vessel& vessel) : Pool(vessel, lattice(vessel)) {}
+
+template <class Real>
+Pool<Real>::Pool(const Vessel& vessel, const std::vector<Vec>& places)
+    : vessel_(vessel), tank_(definition(vessel, places.size())) {
     for (const Points& wall : vessel.walls) {
         std::vector<weir::Vec2f> ring;
         for (const Vec p : wall) {
@@ -78,58 +77,65 @@ Pool::Pool(const Vessel& vessel) : vessel_(vessel) {
         weir::BodyDef body;
         body.polygon = {ring.data(), static_cast<std::int32_t>(ring.size())};
         weir::BodyId id;
-        require(world_.add_static_body(body, &id));
+        require(tank_->add_static_body(body, &id));
     }
     for (const Vec p : places) {
-        const weir::Status status = world_.add_particle(metres(p), {});
+        const weir::Status status = tank_->add_particle(metres(p), {});
         if (status != weir::Status::particle_inside_solid) {  // a hair from a wall
             require(status);
         }
     }
 }
 
-void Pool::step(float dt_s) {
-    report_ = world_.step(dt_s);
+template <class Real>
+void Pool<Real>::step(float dt_s) {
+    report_ = tank_->step(dt_s);
 }
 
-void Pool::run(int steps) {
+template <class Real>
+void Pool<Real>::run(int steps) {
     for (int k = 0; k < steps; ++k) {
         step();
     }
 }
 
-Vec Pool::position(int k) const {
-    return vessel_.to_frame(weir::convert<double>(world_.particle_positions()[k]));
+template <class Real>
+Vec Pool<Real>::position(int k) const {
+    return vessel_.to_frame(tank_.position(k));
 }
 
-Vec Pool::velocity(int k) const {
-    return vessel_.turned_back(weir::convert<double>(world_.particle_velocities()[k]));
+template <class Real>
+Vec Pool<Real>::velocity(int k) const {
+    return vessel_.turned_back(tank_.velocity(k));
 }
 
-void Pool::stir(const std::function<Vec(Vec)>& velocity) {
+template <class Real>
+void Pool<Real>::stir(const std::function<Vec(Vec)>& velocity) {
     std::vector<Vec> places;
-    for (const auto& p : world_.particle_positions()) {
-        places.push_back(weir::convert<double>(p));
+    for (int k = 0; k < particles(); ++k) {
+        places.push_back(tank_.position(k));
     }
     while (particles() > 0) {
-        require(world_.remove_particle(particles() - 1));
+        require(tank_->remove_particle(particles() - 1));
     }
     for (const Vec p : places) {
-        require(world_.add_particle(metres(p),
+        require(tank_->add_particle(metres(p),
                                     metres(vessel_.turned(velocity(vessel_.to_frame(p))))));
     }
 }
 
-double Pool::rms_speed() const {
+template <class Real>
+double Pool<Real>::rms_speed() const {
     double sum = 0.0;
-    for (const auto& v : world_.particle_velocities()) {
-        sum += static_cast<double>(v.x) * static_cast<double>(v.x) +
-               static_cast<double>(v.y) * static_cast<double>(v.y);
+    for (int k = 0; k < particles(); ++k) {
+        const Vec v = tank_.velocity(k);
+        sum += weir::dot(v, v);
     }
     return std::sqrt(sum / std::max(particles(), 1));
 }
 
-double Pool::mean_height() const {
+template <class Real>
+double Pool<Real>::mean_height() const {
     double sum = 0.0;
     for (int k = 0; k < particles(); ++k) {
         sum += position(k).y;
@@ -137,10 +143,16 @@ double Pool::mean_height() const {
     return sum / std::max(particles(), 1);
 }
 
-double Pool::pressure(int i, int j) const {
-    return static_cast<double>(world_.pressure().at(i, j)) *
-           static_cast<double>(world_.pressure_scale()) * 64.0 * 64.0;
+template <class Real>
+double Pool<Real>::pressure(int i, int j) const {
+    return static_cast<double>(tank_->pressure().at(i, j)) *
+           static_cast<double>(tank_->pressure_scale()) * 64.0 * 64.0;
 }
+
+template class Pool<float>;
+template class Pool<double>;
+template class Pool<weir::Fixed>;
+template class Pool<weir::SmallFixed>;
 
 AtRest at_rest(const std::function<bool(Vec)>& region, double area, Vec low, Vec high, Vec up) {
     constexpr double kStep = 1.0 / 16.0;

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "measure/world_memory.hpp"
 #include "node_field.hpp"
+#include "tank.hpp"
 #include "weir/weir.hpp"
 
 namespace solids {
@@ -35,6 +35,7 @@ struct Vessel {
     Vec turned_back(Vec v) const;   ///< and to the vessel
 };
 
+template <class Real>
 class Pool {
 public:
     /// Throws if the library refuses. Particles stand on a lattice, 2 × 2 a cell.
@@ -42,7 +43,7 @@ public:
 
     void step(float dt_s = kFrame_s);
     void run(int steps);
-    int particles() const { return world_.particle_positions().size; }
+    int particles() const { return world().particle_positions().size; }
     Vec position(int k) const;  ///< in the vessel's frame, cells
     Vec velocity(int k) const;  ///< cells/s
     /// Gives every particle the velocity of its place.
@@ -51,16 +52,21 @@ public:
     double mean_height() const;  ///< in the vessel's frame, cells
     /// Pressure over density at the centre of a cell of the tank, cells²/s².
     double pressure(int i, int j) const;
-    weir::World<float>& world() { return world_; }
-    const weir::World<float>& world() const { return world_; }
+    const weir::World<Real>& world() const { return *tank_; }
     const weir::StepReport& report() const { return report_; }
 
 private:
+    Pool(const Vessel& vessel, const std::vector<Vec>& places);
+
     Vessel vessel_;
-    measure::WorldMemory memory_;
-    weir::World<float> world_{};
+    Tank<Real> tank_;
     weir::StepReport report_{};
 };
+
+extern template class Pool<float>;
+extern template class Pool<double>;
+extern template class Pool<weir::Fixed>;
+extern template class Pool<weir::SmallFixed>;
 
 /// Mean height of liquid of that area at rest in a region, its surface level; the frame's own y.
 struct AtRest {
