@@ -111,6 +111,36 @@ constexpr Real part_of(Real whole, std::int32_t parts) {
     return whole / static_cast<Real>(parts);
 }
 
+/// An inverse in the place of a number. Fixed point keeps as many digits of it as of other ratios:
+/// it meets a pressure that is as large as the liquid is deep, and what of a third were rounded off
+/// would flow out through every wall.
+template <class Real>
+inline Ratio<Real> inverse_of(Real stored) {
+    if constexpr (std::is_floating_point<Real>::value) {
+        return stored;
+    } else {
+        return Ratio<Real>::of_raw(stored.raw);
+    }
+}
+/// And how that of a number is stored.
+template <class Real>
+inline Real stored_inverse(Real number) {
+    if constexpr (std::is_floating_point<Real>::value) {
+        return Real(1) / number;
+    } else {
+        return Real::of_raw(fixed::quotient(Real(1).raw, number.raw, Ratio<Real>::fraction));
+    }
+}
+/// That of 4: of a cell with four open faces.
+template <class Real>
+inline Real stored_quarter() {
+    if constexpr (std::is_floating_point<Real>::value) {
+        return Real(0.25);
+    } else {
+        return Real::of_raw(Ratio<Real>(0.25).raw);
+    }
+}
+
 /// One small whole number over another.
 template <class Real>
 constexpr Real ratio_of(std::int32_t part, std::int32_t whole) {

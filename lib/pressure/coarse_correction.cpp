@@ -144,8 +144,9 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
             const Real held = fields.pressure[c];
             const Real residual =
                 (weights.weighted(fields.pressure, c, inverse) - fields.divergence[c]) -
-                (bound_key(inverse) == bound_key(Real(0.25)) ? Real(4) * held
-                                                             : held / absolute(inverse));
+                (bound_key(inverse) == bound_key(stored_quarter<Real>())
+                     ? Real(4) * held
+                     : held / inverse_of(absolute(inverse)));
             const Real beside = to.of_beside[x] * residual;
             const Real above = of_above * residual;
             own += residual - (beside + above);

@@ -23,7 +23,8 @@ Real counted_flow(const PressureFields<Real>& fields, std::int32_t c) {
         const Real flow = density * Real(fields.divergence[c]);
         return kept > Real(4) ? Real(4) * flow / kept : flow;
     } else {
-        return minimum(Real(1), Real(4) * kept) * density * fields.divergence[c];
+        const Real inverse = Real(inverse_of(kept));
+        return minimum(Real(1), Real(4) * inverse) * density * fields.divergence[c];
     }
 }
 

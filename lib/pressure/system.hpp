@@ -100,7 +100,8 @@ template <bool Solids, bool Mixed, class Real>
     }
     const bool wide = !Solids || untouched(weights.walls, c, c + s.stride);
     // The sign tells `relax` which cells a wall touches.
-    fields.inverse_diagonal[c] = Real(wide ? 1 : -1) / diagonal;
+    const Real inverse = stored_inverse(diagonal);
+    fields.inverse_diagonal[c] = wide ? inverse : -inverse;
     return {diagonal, divergence_of(weights, i, j, wide, leap, fields)};
 }
 
@@ -113,7 +114,7 @@ inline Equation<Real> plain_equation(const StaggeredGrid<Real>& grid, std::int32
     if (fields.leaps) {
         divergence += wanted_convergence(grid, c, leap);
     }
-    fields.inverse_diagonal[c] = Real(0.25);
+    fields.inverse_diagonal[c] = stored_quarter<Real>();
     return {Real(4), divergence};
 }
 

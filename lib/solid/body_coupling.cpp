@@ -297,7 +297,7 @@ void set_aside(const CoupledSolve<Real>& solve) {
     });
     const auto take = [&](std::int32_t c) {
         if (solve.inverse_diagonal[c] != Real(0)) {
-            solve.diagonal[c] = Real(1) / absolute(solve.inverse_diagonal[c]);
+            solve.diagonal[c] = Real(1) / inverse_of(absolute(solve.inverse_diagonal[c]));
             solve.inverse_diagonal[c] = Real(0);
         }
     };
@@ -329,7 +329,7 @@ template <class Real>
 void end_coupling(const CoupledSolve<Real>& solve) {
     for_each_cell(solve, [&](std::int32_t, std::int32_t, std::int32_t c) {
         if (solve.diagonal[c] != Real(0)) {
-            solve.inverse_diagonal[c] = Real(-1) / solve.diagonal[c];
+            solve.inverse_diagonal[c] = -stored_inverse(solve.diagonal[c]);
             solve.diagonal[c] = Real(0);
         }
     });
