@@ -57,6 +57,7 @@ public:
         def.contour = contour;
         def.particles_per_cell = particles_per_cell;
         def.gravity_mps2 = {};
+        def.top_speed_mps = 1.25F * static_cast<float>(kSpeed) * kCell_m;
         return def;
     }
 
