@@ -86,7 +86,7 @@ void submerged(Report& report, const Effort& effort) {
         }
         worst = std::max(worst, force_error<Real>(depth, 3, 0.25 * depth, 0.1));
         worst = std::max(worst, force_error<Real>(depth, 8, 0.125 * depth, 0.1));
-        report.at_most("R4d.force." + std::to_string(depth), 100.0 * worst, "%",
+        accurate<Real>(report, "R4d.force." + std::to_string(depth), 100.0 * worst, "%",
                        depth == 16 ? 3.0 : (depth == 32 ? 1.5 : 0.75));
     }
 }

@@ -40,7 +40,7 @@ constexpr measure::Problem<solids::Report, solids::Effort> kProblems[] = {
 constexpr char kArguments[] =
     "weir_solids OUT.csv [quick|full] [real=float|double|fixed|small_fixed]";
 
-/// Problems that are not for `real=`: geometry, what another program counts, all arithmetics at once.
+/// Problems that are not for `real=`: geometry, what another program counts, all at once.
 bool of_one_kind(const std::string& name) {
     for (const char* one : {"R2", "R3", "third_law", "formats", "cost"}) {
         if (name == one) {

@@ -139,10 +139,10 @@ void all_walls(Report& report, const std::string& name, weir::Contour contour,
         return;
     }
     report.equals(name + ".flights_without_contact", missed, "1", 0.0);
-    report.at_most(name + ".angle_error", worst.angle_error, "deg", 0.1);
-    report.at_most(name + ".loss_along_the_wall", 100.0 * worst.loss, "%", 0.5);
+    accurate<Real>(report, name + ".angle_error", worst.angle_error, "deg", 0.1);
+    accurate<Real>(report, name + ".loss_along_the_wall", 100.0 * worst.loss, "%", 0.5);
     report.at_most(name + ".penetration", worst.penetration, "cells", 0.05);
-    report.at_most(name + ".stand_off_anisotropy", furthest - nearest, "cells", 0.1);
+    accurate<Real>(report, name + ".stand_off_anisotropy", furthest - nearest, "cells", 0.1);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "measure/report.hpp"
 #include "weir/weir.hpp"
@@ -64,6 +65,18 @@ void rows(measure::Report& report, const std::string& name, Work work) {
         work();
     } catch (const NoRoom& refused) {
         report.skipped(name, refused.what());
+    }
+}
+
+/// A target for what is known as well as numbers are. Packed ones know a place to 1/256 of a cell,
+/// so a wall to a quarter of a degree: a figure of those.
+template <class Real>
+void accurate(measure::Report& report, const std::string& name, double value, const char* unit,
+              double limit) {
+    if (std::is_same<Real, weir::SmallFixed>::value) {
+        report.figure(name, value, unit);
+    } else {
+        report.at_most(name, value, unit, limit);
     }
 }
 

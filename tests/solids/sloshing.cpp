@@ -117,9 +117,9 @@ void slosh_at(Report& report, int depth) {
         report.figure(name + ".frequency", 100.0 * worst.frequency_error, "%");
         report.figure(name + ".loss", 100.0 * worst.loss, "%/period");
     } else {
-        report.at_most(name + ".frequency", 100.0 * worst.frequency_error, "%",
+        accurate<Real>(report, name + ".frequency", 100.0 * worst.frequency_error, "%",
                        depth == 32 ? 0.3 : 0.15);
-        report.at_most(name + ".loss", 100.0 * worst.loss, "%/period",
+        accurate<Real>(report, name + ".loss", 100.0 * worst.loss, "%/period",
                        depth == 32 ? 1.9 : 0.7);
     }
     report.at_most(name + ".penetration", worst.penetration, "cells", 0.05);

@@ -95,7 +95,7 @@ Still still(const Vessel& vessel, double depth, const SurfaceOf& surface_of) {
 constexpr int kStartsAtRest = 4;
 
 /// still_of(start): of one start.
-template <class StillOf>
+template <class Real, class StillOf>
 void report_rest(Report& report, const std::string& name, int depth, const StillOf& still_of) {
     double error = 0.0;
     double error_soon = 0.0;
@@ -108,10 +108,10 @@ void report_rest(Report& report, const std::string& name, int depth, const Still
         soon += one.soon.energy / kStartsAtRest;
         settled += one.settled.energy / kStartsAtRest;
     }
-    report.at_most(name + ".pressure_l2", 100.0 * error, "%",
+    accurate<Real>(report, name + ".pressure_l2", 100.0 * error, "%",
                    depth <= 16 ? 1.5 : (depth <= 32 ? 0.5 : 0.1));
     report.figure(name + ".pressure_l2_soon", 100.0 * error_soon, "%");
-    report.at_most(name + ".kinetic_energy", soon, "of mgh/2", 1e-5);
+    accurate<Real>(report, name + ".kinetic_energy", soon, "of mgh/2", 1e-5);
     report.figure(name + ".kinetic_energy_settled", settled, "of mgh/2");
 }
 
@@ -150,13 +150,13 @@ void rest_at(Report& report, int depth) {
     const std::string cells = "." + std::to_string(depth);
     for (const double tilt : {0.0, kTilt}) {
         const std::string turned = tilt > 0.0 ? "_turned" : "";
-        report_rest(report, "R4c.v_tank" + turned + cells, depth, [&](int start) {
+        report_rest<Real>(report, "R4c.v_tank" + turned + cells, depth, [&](int start) {
             const Wedge wedge = v_tank(depth, tilt, shift_of(start));
             return still<Real>(wedge.vessel, depth,
                                [&](double area) { return wedge.apex.y + std::sqrt(area); });
         });
     }
-    report_rest(report, "R4c.box_turned" + cells, depth, [&](int start) {
+    report_rest<Real>(report, "R4c.box_turned" + cells, depth, [&](int start) {
         const Vessel box = turned_box(depth, kTilt, shift_of(start));
         const double floor = box.middle().y - 0.75 * depth + shift_of(start).y;
         return still<Real>(box, depth,
