@@ -75,6 +75,7 @@ template <class Real>
 struct Kinds {
     using Seconds = Real;
     using Ratio = Real;
+    using Inverse = Real;
     using Product = Real;
     using Face = Real;
 };
@@ -82,6 +83,7 @@ template <class S>
 struct Kinds<FixedPoint<16, S>> {
     using Seconds = FixedSeconds<S>;
     using Ratio = FixedRatio<S>;
+    using Inverse = FixedPoint<22, S>;
     using Product = WideFixed<S>;
     using Face = float;
 };
@@ -91,6 +93,9 @@ using Seconds = typename Kinds<Real>::Seconds;
 /// A reciprocal, at most 100.
 template <class Real>
 using Ratio = typename Kinds<Real>::Ratio;
+/// That of a diagonal, at most 512: of a cell that is all but closed.
+template <class Real>
+using Inverse = typename Kinds<Real>::Inverse;
 /// A sum of two products of coordinates.
 template <class Real>
 using Product = typename Kinds<Real>::Product;
@@ -111,15 +116,15 @@ constexpr Real part_of(Real whole, std::int32_t parts) {
     return whole / static_cast<Real>(parts);
 }
 
-/// An inverse in the place of a number. Fixed point keeps as many digits of it as of other ratios:
-/// it meets a pressure that is as large as the liquid is deep, and what of a third were rounded off
-/// would flow out through every wall.
+/// An inverse in the place of a number. Fixed point keeps more digits of it than of that: it meets a
+/// pressure that is as large as the liquid is deep, and what of a third were rounded off would flow
+/// out through every wall.
 template <class Real>
-inline Ratio<Real> inverse_of(Real stored) {
+inline Inverse<Real> inverse_of(Real stored) {
     if constexpr (std::is_floating_point<Real>::value) {
         return stored;
     } else {
-        return Ratio<Real>::of_raw(stored.raw);
+        return Inverse<Real>::of_raw(stored.raw);
     }
 }
 /// And how that of a number is stored.
@@ -128,7 +133,7 @@ inline Real stored_inverse(Real number) {
     if constexpr (std::is_floating_point<Real>::value) {
         return Real(1) / number;
     } else {
-        return Real::of_raw(fixed::quotient(Real(1).raw, number.raw, Ratio<Real>::fraction));
+        return Real::of_raw(fixed::quotient(Real(1).raw, number.raw, Inverse<Real>::fraction));
     }
 }
 /// That of 4: of a cell with four open faces.
@@ -137,7 +142,7 @@ inline Real stored_quarter() {
     if constexpr (std::is_floating_point<Real>::value) {
         return Real(0.25);
     } else {
-        return Real::of_raw(Ratio<Real>(0.25).raw);
+        return Real::of_raw(Inverse<Real>(0.25).raw);
     }
 }
 
