@@ -34,8 +34,8 @@ struct Solve {
     std::int32_t cycles = 0;
     Real rescale = Real(0);      ///< of the last pressure p, to start from
     Real share = Real(1);        ///< of that, in the end
-    /// Packed: at least 16 if the old pressure is not the solution. Fixed, while it settles: how far
-    /// from that it is, last digits.
+    /// Packed: at least 16 if the old pressure is not the solution. Fixed, while it settles: how
+    /// far from that it is, last digits.
     std::uint32_t off = 0;
     Product<Real> wanted{};      ///< pᵀb, of the equations Ap = b
     Product<Real> there{};       ///< pᵀAp, but for its diagonal at first

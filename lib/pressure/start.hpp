@@ -20,8 +20,8 @@ Real share_of_start(Product<Real> wanted, Product<Real> there) {
     return eight_times >= there ? share : Real(0);
 }
 
-/// A pressure of Fixed that is off by so many last digits is kept while liquid settles: sweeps leave
-/// as much.
+/// A pressure of Fixed that is off by so many last digits is kept while liquid settles: sweeps
+/// leave as much.
 inline constexpr std::uint32_t kKeptRaw = 4;
 
 /// One row's part of pᵀAp, but for the diagonal.

@@ -8,9 +8,9 @@ namespace weir {
 /// Bits: lower left, lower right, upper left, upper right.
 inline constexpr std::uint32_t kAllFour = 15U;
 
-/// Whether a face takes one more particle. Sums in fixed point would saturate at twice as much: what
-/// goes on falling would be held back, and gain what it does not lose in height. The mean of those
-/// that came first is the face's velocity as well.
+/// Whether a face takes one more particle. Sums in fixed point would saturate at twice as much:
+/// what goes on falling would be held back, and gain what it does not lose in height. The mean of
+/// those that came first is the face's velocity as well.
 template <class Mass, class Real>
 inline bool has_room([[maybe_unused]] Mass mass, [[maybe_unused]] Real momentum) {
     if constexpr (std::is_same<Real, Fixed>::value) {

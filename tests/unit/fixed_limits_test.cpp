@@ -165,8 +165,8 @@ TEST(FixedLimits, ACrowdIsCarriedAsFastAsItGoesAndReported) {
     EXPECT_GT(report.particles_crowded, 0);
 }
 
-/// A pool that was poured, and one that was a dam before: not a bit of their state changes any more.
-/// Velocities and pressure went round in last digits.
+/// A pool that was poured, and one that was a dam before: not a bit of their state changes any
+/// more. Velocities and pressure went round in last digits.
 TEST(FixedLimits, WhatIsAtRestStaysAsItIs) {
     for (const Box& box : {Box{{0.0F, 0.0F}, {0.32F, 0.16F}}, Box{{0.0F, 0.0F}, {0.16F, 0.2F}}}) {
         WorldDef def = small_def();
