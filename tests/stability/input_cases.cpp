@@ -104,8 +104,8 @@ public:
         tank_.run(60, dt_s_);
     }
 
-    /// Memory goes bad under the world: a velocity becomes NaN or infinite, or in fixed point, where
-    /// every bit pattern is a number, the largest that there is: packed ones bear it.
+    /// Memory goes bad under the world: a velocity becomes NaN or infinite, or in fixed point,
+    /// where every bit pattern is a number, the largest that there is: packed ones bear it.
     void bad_memory() {
         using Velocity = weir::VelocityOf<Real>;
         if constexpr (kIsFixed<Real>) {

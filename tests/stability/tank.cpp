@@ -307,7 +307,8 @@ double Tank<Real>::depth(Vec2<Look<Real>> x) const {
         return static_cast<Look<Real>>(field.at(column, row));
     };
     const Look<Real> corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-    const Vec2<Look<Real>> local{x.x - static_cast<Look<Real>>(i), x.y - static_cast<Look<Real>>(j)};
+    const Vec2<Look<Real>> local{x.x - static_cast<Look<Real>>(i),
+                                 x.y - static_cast<Look<Real>>(j)};
     if (*std::max_element(corner, corner + 4) > Look<Real>(0)) {
         return -static_cast<double>(weir::contour_hit(corner, local).distance);
     }
