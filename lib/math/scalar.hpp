@@ -116,9 +116,9 @@ constexpr Real part_of(Real whole, std::int32_t parts) {
     return whole / static_cast<Real>(parts);
 }
 
-/// An inverse in the place of a number. Fixed point keeps more digits of it than of that: it meets a
-/// pressure that is as large as the liquid is deep, and what of a third were rounded off would flow
-/// out through every wall.
+/// An inverse in the place of a number. Fixed point keeps more digits of it than of that: it meets
+/// a pressure that is as large as the liquid is deep, and what of a third were rounded off would
+/// flow out through every wall.
 template <class Real>
 inline Inverse<Real> inverse_of(Real stored) {
     if constexpr (std::is_floating_point<Real>::value) {

@@ -343,7 +343,8 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts));
     add(Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices);
     add(Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices);
-    add(Block::piece_index, Owner::vertices, Kept::vertices, (cut ? kPieceIndicesPerVertex : 1) * index, vertices);
+    add(Block::piece_index, Owner::vertices, Kept::vertices,
+        (cut ? kPieceIndicesPerVertex : 1) * index, vertices);
     add(Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
         cut ? kScratchPerVertex * vertices : 0);
     add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
