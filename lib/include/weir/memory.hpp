@@ -241,6 +241,11 @@ template <class Real>
 constexpr bool keeps_pieces(const Capacity& capacity) {
     return capacity.two_way && !Stored<Real>::shares_momentum;
 }
+/// Of a vertex: its room for pieces, or for the ends of rings that would stand behind them.
+template <class Real>
+constexpr std::size_t piece_bytes(const Capacity& capacity) {
+    return (keeps_pieces<Real>(capacity) ? kPieceIndicesPerVertex : 1) * sizeof(std::uint16_t);
+}
 /// What a hole takes besides its vertices: its bridge to the outer ring doubles two of them, and
 /// one more place keeps the hole's end.
 inline constexpr std::int32_t kPlacesPerHole = 3;
@@ -324,7 +329,6 @@ constexpr Layout layout(const Capacity& capacity) {
                                                               count(coarse_cells(capacity.cells_y))
                                                         : 0;
     const std::size_t point = 2 * sizeof(Real), index = sizeof(std::uint16_t);
-    const bool cut = keeps_pieces<Real>(capacity);  // without pieces there are ends of rings alone
     const std::size_t scratch = Stored<Real>::shares_momentum ? 0 : sizeof(Real);
     const std::size_t speed = sizeof(VelocityOf<Real>), distance = sizeof(DistanceOf<Real>);
     const std::size_t share = sizeof(ShareOf<Real>), spans = count(row_spans<Real>(capacity));
@@ -343,10 +347,9 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts));
     add(Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices);
     add(Block::vertex_placed, Owner::vertices, Kept::redrawn, point, vertices);
-    add(Block::piece_index, Owner::vertices, Kept::vertices,
-        (cut ? kPieceIndicesPerVertex : 1) * index, vertices);
+    add(Block::piece_index, Owner::vertices, Kept::vertices, piece_bytes<Real>(capacity), vertices);
     add(Block::decomposition_scratch, Owner::vertices, Kept::nothing, index,
-        cut ? kScratchPerVertex * vertices : 0);
+        keeps_pieces<Real>(capacity) ? kScratchPerVertex * vertices : 0);
     add(Block::body_load, Owner::bodies, Kept::whole, kBodyLoadBytes<Real>, loads);
     detail::place_meetings<Real>(capacity, result);
     add(Block::body_diagonal, Owner::bodies, Kept::nothing, scratch, loads > 0 ? moving_cells : 0);
