@@ -107,8 +107,8 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);
     plan.surface_tension =
         minimum(settings.surface_tension, kCapillary<Real> / (plan.dt_s * plan.dt_s));
-    // Where forces are counted, what is lost so would be nobody's. Packed worlds do not balance
-    // them.
+    // Where forces are counted, what is lost so would have to be settled. Packed liquid cannot do
+    // without: it would creep on.
     const bool counts = !Stored<Real>::coarse && simulation.two_way != nullptr;
     plan.settling = kSettles<Real> && !counts && !simulation.pressure.crowded &&
                     speed <= kSettling<Real> && kSettling<Real> <= gravity * plan.dt_s;
