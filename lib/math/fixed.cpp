@@ -157,6 +157,20 @@ std::int32_t quotient(std::int32_t a, std::int32_t b, int shift) {
     return negative ? -limited : limited;
 }
 
+std::int32_t stored_inverse(std::int32_t raw) {
+    // 2^(shift + 16) / raw is above 2²⁴, and at most 2²⁵.
+    const int shift = 25 + 15 - __builtin_clz(static_cast<std::uint32_t>(raw));
+    const std::uint32_t digits = divide(std::uint64_t{1} << static_cast<unsigned>(shift + 16),
+                                        static_cast<std::uint32_t>(raw));
+    return static_cast<std::int32_t>(digits << 5U) + (shift - 8);
+}
+
+std::int32_t inverted(std::int32_t stored) {
+    const auto shift = 8U + (static_cast<std::uint32_t>(stored) & 31U);
+    return static_cast<std::int32_t>(divide(std::uint64_t{1} << (shift + 16U),
+                                            static_cast<std::uint32_t>(stored) >> 5U));
+}
+
 #if defined(__ARM_ARCH_6M__)
 // Bit by bit: no division on this processor.
 Root root_below(std::uint32_t value) {

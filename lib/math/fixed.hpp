@@ -79,6 +79,18 @@ constexpr std::int64_t wide_product(std::int32_t a, std::int32_t b) {
 /// a · 2^shift / b.
 std::int32_t quotient(std::int32_t a, std::int32_t b, int shift);
 
+/// The inverse of a positive number of 16 fractional bits, as 25 digits and, in the lowest five
+/// bits, how far they are shifted to the right beyond eight places.
+std::int32_t stored_inverse(std::int32_t raw);
+/// That of 4.
+inline constexpr std::int32_t kQuarter = (1 << 30) + (27 - 8);
+/// a times what is stored so.
+inline std::int32_t times_inverse(std::int32_t a, std::int32_t stored) {
+    return saturate(shifted(wide_product(a, stored >> 5), 8 + (stored & 31)));
+}
+/// What was inverted, if that was less than 256.
+std::int32_t inverted(std::int32_t stored);
+
 /// Root rounded down, and what its square leaves.
 struct Root {
     std::uint32_t root;

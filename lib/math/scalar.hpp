@@ -75,7 +75,6 @@ template <class Real>
 struct Kinds {
     using Seconds = Real;
     using Ratio = Real;
-    using Inverse = Real;
     using Product = Real;
     using Face = Real;
 };
@@ -83,7 +82,6 @@ template <class S>
 struct Kinds<FixedPoint<16, S>> {
     using Seconds = FixedSeconds<S>;
     using Ratio = FixedRatio<S>;
-    using Inverse = FixedPoint<22, S>;
     using Product = WideFixed<S>;
     using Face = float;
 };
@@ -93,9 +91,6 @@ using Seconds = typename Kinds<Real>::Seconds;
 /// A reciprocal, at most 100.
 template <class Real>
 using Ratio = typename Kinds<Real>::Ratio;
-/// That of a diagonal, at most 512: of a cell that is all but closed.
-template <class Real>
-using Inverse = typename Kinds<Real>::Inverse;
 /// A sum of two products of coordinates.
 template <class Real>
 using Product = typename Kinds<Real>::Product;
@@ -116,24 +111,15 @@ constexpr Real part_of(Real whole, std::int32_t parts) {
     return whole / static_cast<Real>(parts);
 }
 
-/// An inverse in the place of a number. Fixed point keeps more digits of it than of that: it meets
-/// a pressure that is as large as the liquid is deep, and what of a third were rounded off would
-/// flow out through every wall.
-template <class Real>
-inline Inverse<Real> inverse_of(Real stored) {
-    if constexpr (std::is_floating_point<Real>::value) {
-        return stored;
-    } else {
-        return Inverse<Real>::of_raw(stored.raw);
-    }
-}
-/// And how that of a number is stored.
+/// The inverse of a positive number, in the place of a number. Fixed point keeps 25 digits of it,
+/// whatever its size, and how far they are shifted: it meets a pressure that is as large as the
+/// liquid is deep, and what of a third were rounded off would flow out through every wall.
 template <class Real>
 inline Real stored_inverse(Real number) {
     if constexpr (std::is_floating_point<Real>::value) {
         return Real(1) / number;
     } else {
-        return Real::of_raw(fixed::quotient(Real(1).raw, number.raw, Inverse<Real>::fraction));
+        return Real::of_raw(fixed::stored_inverse(number.raw));
     }
 }
 /// That of 4: of a cell with four open faces.
@@ -142,7 +128,25 @@ inline Real stored_quarter() {
     if constexpr (std::is_floating_point<Real>::value) {
         return Real(0.25);
     } else {
-        return Real::of_raw(Inverse<Real>(0.25).raw);
+        return Real::of_raw(fixed::kQuarter);
+    }
+}
+/// factor / number, by the stored inverse of the number.
+template <class Real>
+inline Real times_inverse(Real factor, Real stored) {
+    if constexpr (std::is_floating_point<Real>::value) {
+        return factor * stored;
+    } else {
+        return Real::of_raw(fixed::times_inverse(factor.raw, stored.raw));
+    }
+}
+/// factor · number, which fixed point knows to the bit again if it was below 256.
+template <class Real>
+inline Real over_inverse(Real factor, Real stored) {
+    if constexpr (std::is_floating_point<Real>::value) {
+        return factor / stored;
+    } else {
+        return factor * Real::of_raw(fixed::inverted(stored.raw));
     }
 }
 

@@ -146,7 +146,7 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
                 (weights.weighted(fields.pressure, c, inverse) - fields.divergence[c]) -
                 (bound_key(inverse) == bound_key(stored_quarter<Real>())
                      ? Real(4) * held
-                     : held / inverse_of(absolute(inverse)));
+                     : over_inverse<Real>(held, absolute(inverse)));
             const Real beside = to.of_beside[x] * residual;
             const Real above = of_above * residual;
             own += residual - (beside + above);

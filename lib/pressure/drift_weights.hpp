@@ -14,15 +14,30 @@ namespace weir {
 template <class Real>
 using SumOf = std::conditional_t<std::is_floating_point<Real>::value, Real, std::int64_t>;
 
-/// Bits that each factor leaves off, so that 32 products of the largest numbers fit.
-inline constexpr int kLeftOff = 4;
+/// Bits that a product leaves off, so that 32 of the largest fit. None of its factors: what is cut
+/// off a slow drift, always the same way, would be work against a pressure that stands still.
+inline constexpr int kLeftOff = 8;
 
 template <class Real>
 inline SumOf<Real> summand(Real a, Real b) {
     if constexpr (std::is_floating_point<Real>::value) {
         return a * b;
     } else {
-        return std::int64_t{a.raw >> kLeftOff} * (b.raw >> kLeftOff);
+        return fixed::shifted(fixed::wide_product(a.raw, b.raw), kLeftOff);
+    }
+}
+
+/// Disorder is in this unit: squares of an excess of some hundredths are few last digits.
+template <class Real>
+inline constexpr double kOfDisorder = std::is_floating_point<Real>::value ? 1.0 : 1 << kLeftOff;
+
+/// part / whole, of which the part is small.
+template <class Real>
+inline Ratio<Real> share_of(Real part, SameAs<Real> whole) {
+    if constexpr (std::is_floating_point<Real>::value) {
+        return part / whole;
+    } else {
+        return Ratio<Real>::of_raw(fixed::quotient(part.raw, whole.raw, Ratio<Real>::fraction));
     }
 }
 
@@ -50,7 +65,7 @@ inline Weights<Real> weights_of(const Weights<SumOf<Real>>& sums) {
         weights.lifted[0] = number(lifted);
         weights.raised[0] = number(raised);
         weights.moving[0] = number(moving);
-        weights.disorder[0] = number(in_turn(sums.disorder) >> (16 - 2 * kLeftOff));
+        weights.disorder[0] = Real::of_raw(fixed::saturate(in_turn(sums.disorder)));
         return weights;
     }
 }

@@ -23,8 +23,7 @@ Real counted_flow(const PressureFields<Real>& fields, std::int32_t c) {
         const Real flow = density * Real(fields.divergence[c]);
         return kept > Real(4) ? Real(4) * flow / kept : flow;
     } else {
-        const Real inverse = Real(inverse_of(kept));
-        return minimum(Real(1), Real(4) * inverse) * density * fields.divergence[c];
+        return minimum(Real(1), times_inverse(Real(4), kept)) * density * fields.divergence[c];
     }
 }
 

@@ -104,7 +104,7 @@ struct Drift {
 /// Sum of squares of a patch's excess from which on it counts as stirred: 0.025 a cell. A lattice
 /// that a wave passes has a tenth of that.
 template <class Real>
-inline constexpr Real kStirred = Real(0.01);
+inline constexpr Real kStirred = Real(0.01 * kOfDisorder<Real>);
 
 /// A patch's velocity over the most that it pays of it: impacts keep their pressure.
 template <class Real>
@@ -128,7 +128,7 @@ inline Real work_of_drift(const Weights<Real>& sums) {
 /// From this sum of squares of its excess on a patch counts as torn: liquid that does not reach a
 /// wall. Pools that come to rest have less.
 template <class Real>
-inline constexpr Real kTorn = Real(0.025);
+inline constexpr Real kTorn = Real(0.025 * kOfDisorder<Real>);
 
 /// Which share of its drift a patch makes. What is torn is drawn up only as far as it can pay:
 /// liquid that falls from a wall has nothing to pay from at first.
@@ -143,14 +143,14 @@ inline Real share_of_drift(const Weights<Real>& sums, Real mean_excess) {
 /// Which share of its velocity a patch gives for what the drift lifts in it, and gets for what it
 /// lets down. Liquid in order is not asked: what it does is reversed later.
 template <class Real>
-inline Real price_of(const Weights<Real>& sums, Real most_refund) {
+inline Ratio<Real> price_of(const Weights<Real>& sums, Real most_refund) {
     const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
     const Real work = work_of_drift(sums) * (disorder / kStirred<Real>);
     const Real moving = in_turn(sums.moving);
     if (work > Real(0)) {
-        return work / (moving + kMostPrice<Real> * work);
+        return share_of(work, moving + kMostPrice<Real> * work);
     }
-    return moving > -most_refund * work ? work / moving : Real(0);
+    return moving > -most_refund * work ? share_of(work, moving) : Ratio<Real>(0);
 }
 
 /// Drift on each of a patch's open faces, column by column, as `for_each_face` meets them.
@@ -218,8 +218,8 @@ template <bool Weighed, bool Solids, class Real>
 }
 
 template <bool Pays, bool Solids, class Real>
-inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& ways, Real price,
-                          StaggeredGrid<Real>& grid) {
+inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& ways,
+                          Ratio<Real> price, StaggeredGrid<Real>& grid) {
     const Real* way = ways.of;
     VelocityOf<Real>* const u = grid.u;
     VelocityOf<Real>* const v = grid.v;
@@ -256,16 +256,16 @@ inline void drift_any(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>
     Weights<SumOf<Real>> sums;
     if (!pays) {
         find_ways<false>(drift, grid, ways, sums);
-        drift_columns<false>(drift, ways, Real(0), grid);
+        drift_columns<false>(drift, ways, Ratio<Real>(0), grid);
         return;
     }
     find_ways<true>(drift, grid, ways, sums);
     const Weights<Real> weights = weights_of<Real>(sums);
-    const Real price = price_of(weights, most_refund(drift.fields));
+    const Ratio<Real> price = price_of(weights, most_refund(drift.fields));
     if (slows_down(drift, weights)) {
         find_ways<false>(drift, grid, ways, sums);
     }
-    if (price != Real(0)) {
+    if (price != Ratio<Real>(0)) {
         drift_columns<true>(drift, ways, price, grid);
     } else {
         drift_columns<false>(drift, ways, price, grid);

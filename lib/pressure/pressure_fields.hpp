@@ -56,7 +56,7 @@ template <class Real>
 struct PressureFields {
     Real* pressure = nullptr;          ///< dt · p / ρ (the first liquid's), cells²/s; 0 in air
     VelocityOf<Real>* divergence = nullptr;        ///< net flow out of the cell, cells/s
-    VelocityOf<Real>* inverse_diagonal = nullptr;  ///< 0 where not liquid; see `inverse_of`
+    VelocityOf<Real>* inverse_diagonal = nullptr;  ///< 0 where not liquid; see `stored_inverse`
     DensityOf<Real>* density = nullptr;            ///< 1 = full at rest
     LevelOf<Real>* level = nullptr;    ///< of the surface over `least_head`, cells; > 0 liquid
     CoarseGrid<Real> coarse;

@@ -20,7 +20,7 @@ struct Rows {
 /// p[c] is led to what its equation says. `sum`: of the neighbours, each with its face.
 template <class Real>
 inline void relax_cell(Real& p, Real sum, Real divergence, Real inverse) {
-    const Real target = (sum - divergence) * inverse_of(inverse);
+    const Real target = times_inverse<Real>(sum - divergence, inverse);
     p += kRelaxation<Real> * (target - p);
 }
 

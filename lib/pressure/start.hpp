@@ -46,8 +46,8 @@ Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
             row.there = row.there - product(p[c], sum);
             if constexpr (kSettles<Real>) {
                 if (fields.settling) {
-                    const auto factor = inverse_of(absolute(inverse));
-                    const Real led_to = (sum - fields.divergence[c]) * factor;
+                    const Real led_to =
+                        times_inverse<Real>(sum - fields.divergence[c], absolute(inverse));
                     row.off = maximum(row.off, fixed::magnitude((led_to - p[c]).raw));
                 }
             }

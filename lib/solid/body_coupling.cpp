@@ -297,7 +297,7 @@ void set_aside(const CoupledSolve<Real>& solve) {
     });
     const auto take = [&](std::int32_t c) {
         if (solve.inverse_diagonal[c] != Real(0)) {
-            solve.diagonal[c] = Real(1) / inverse_of(absolute(solve.inverse_diagonal[c]));
+            solve.diagonal[c] = over_inverse(Real(1), absolute(solve.inverse_diagonal[c]));
             solve.inverse_diagonal[c] = Real(0);
         }
     };

@@ -107,10 +107,11 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);
     plan.surface_tension =
         minimum(settings.surface_tension, kCapillary<Real> / (plan.dt_s * plan.dt_s));
-    // Where forces are counted, what is lost so would have to be settled. Packed liquid cannot do
-    // without: it would creep on.
+    // Liquid that was just put there has not shown how fast it is. Where forces are counted, what
+    // is lost so would have to be settled. Packed liquid cannot do without: it would creep on.
     const bool counts = !Stored<Real>::coarse && simulation.two_way != nullptr;
     plan.settling = kSettles<Real> && !counts && !simulation.pressure.crowded &&
+                    simulation.pressure.last_dt > Seconds<Real>{} &&
                     speed <= kSettling<Real> && kSettling<Real> <= gravity * plan.dt_s;
     return plan;
 }

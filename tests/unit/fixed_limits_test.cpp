@@ -184,6 +184,35 @@ TEST(FixedLimits, WhatIsAtRestStaysAsItIs) {
     }
 }
 
+/// What slow particles of a pool move by in the first step after it was poured, cells/s, summed.
+/// It does not stand where a lattice at rest would.
+template <class Real>
+double first_creep() {
+    WorldDef def = small_def();
+    def.capacity.particles = 600;
+    TestWorld<Real> world(def);
+    for (int k = 0; k < 32 * 16; ++k) {
+        const Vec2f at{0.34F + 0.5F * static_cast<float>(k % 32),
+                       0.31F + 0.5F * static_cast<float>(k / 32)};
+        EXPECT_EQ(world->add_particle({def.cell_m * at.x, def.cell_m * at.y}, {}), Status::ok);
+    }
+    world->step(1.0F / 60.0F);
+    double sum = 0.0;
+    for (const auto& v : world->particle_velocities()) {
+        for (const double one : {static_cast<double>(v.x), static_cast<double>(v.y)}) {
+            sum += std::fabs(one) < 1.0 / 256.0 ? std::fabs(one) : 0.0;
+        }
+    }
+    return sum;
+}
+
+/// It is not led to rest before it has shown how fast it is: half of what was slow was lost.
+TEST(FixedLimits, WhatWasJustPutThereIsNotLedToRest) {
+    const double exact = first_creep<double>();
+    EXPECT_GT(exact, 0.01);
+    EXPECT_NEAR(first_creep<Fixed>(), exact, 0.1 * exact);
+}
+
 /// The speed that a blow leaves is rounded when it is kept. Reports were up to half a unit short.
 TEST(FixedLimits, NothingIsFasterThanReportedAfterABlow) {
     WorldDef def = small_def();

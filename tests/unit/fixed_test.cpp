@@ -73,6 +73,31 @@ TEST(FixedPoint, RatiosOfSmallNumbersAreTheNearest) {
     }
 }
 
+/// 25 digits whatever the size, and the way back.
+TEST(FixedPoint, InversesKeepTheirDigits) {
+    std::mt19937 random(11);
+    std::vector<std::int32_t> numbers = {1, 2, 65535, 65536, 65537, 3 << 16, 4 << 16, 0x7FFFFFFF};
+    for (int k = 0; k < 20000; ++k) {
+        numbers.push_back(static_cast<std::int32_t>((random() | 1U) >> (1U + random() % 31U)) | 1);
+    }
+    for (const std::int32_t raw : numbers) {
+        const Fixed number = Fixed::of_raw(raw);
+        const Fixed stored = stored_inverse(number);
+        ASSERT_GT(stored.raw, 0) << raw;
+        const std::int32_t factor = static_cast<std::int32_t>(random()) / 2;
+        const double exact = static_cast<double>(factor) * 65536.0 / raw;
+        if (std::fabs(exact) < 2147483647.0) {
+            ASSERT_NEAR(times_inverse(Fixed::of_raw(factor), stored).raw, exact,
+                        0.5 + std::fabs(exact) / (1 << 25)) << raw;
+        }
+        if (raw < (256 << 16)) {
+            ASSERT_EQ(over_inverse(Fixed(1), stored).raw, raw);
+        }
+    }
+    EXPECT_EQ(stored_inverse(Fixed(4)).raw, stored_quarter<Fixed>().raw);
+    EXPECT_EQ(times_inverse(Fixed::of_raw(kMostRaw), stored_inverse(Fixed(0.5))).raw, kMostRaw);
+}
+
 TEST(FixedPoint, RootsAreRoundedDown) {
     for (std::uint32_t root = 0; root <= 0xFFFFU; ++root) {
         const std::uint32_t most = root * root + 2U * root;

@@ -1,0 +1,44 @@
+// What a patch pays for its drift in fixed point: small numbers that decide what waves lose.
+#include <gtest/gtest.h>
+
+#include "pressure/patch_drift.hpp"
+
+namespace weir {
+namespace {
+
+TEST(DriftWeights, ASlowDriftDoesTheWorkOfASlowDrift) {
+    const Fixed pressure(-1.75);
+    const std::int64_t sixteenfold = summand(Fixed::of_raw(112), pressure);
+    const std::int64_t up = summand(Fixed::of_raw(7), pressure);
+    const std::int64_t down = summand(Fixed::of_raw(-7), pressure);
+    EXPECT_NE(sixteenfold, 0);
+    EXPECT_NEAR(static_cast<double>(16 * up), static_cast<double>(sixteenfold), 16.0);
+    EXPECT_NEAR(static_cast<double>(up + down), 0.0, 1.0);
+}
+
+TEST(DriftWeights, APriceHasItsDigits) {
+    Weights<Fixed> weights;
+    weights.moving[0] = Fixed(16);
+    weights.disorder[0] = kStirred<Fixed>;
+    for (const double work : {-0.0005, 0.0005}) {
+        weights.lifted[0] = Fixed(work);
+        weights.raised[0] = Fixed(work);
+        const double given = static_cast<double>(weights.lifted[0]);
+        EXPECT_NEAR(static_cast<double>(price_of(weights, Fixed(152))), given / 16.0, 2.0e-7);
+    }
+}
+
+/// 0.0125 of excess in each of 16 cells: a quarter of what counts as stirred, in full digits.
+TEST(DriftWeights, DisorderHasItsDigits) {
+    const Fixed excess(0.0125);
+    Weights<std::int64_t> sums;
+    for (std::int64_t& column : sums.disorder) {
+        column = 4 * summand(excess, excess);
+    }
+    const double told = static_cast<double>(in_turn(weights_of<Fixed>(sums).disorder));
+    const double given = static_cast<double>(excess);
+    EXPECT_NEAR(told / kOfDisorder<Fixed>, 16.0 * given * given, 1.0e-6);
+}
+
+}  // namespace
+}  // namespace weir
