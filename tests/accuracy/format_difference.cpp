@@ -2,8 +2,8 @@
 // cells on the same lattices in every format. The difference to double is taken in the norm of the
 // problem's own error; in fixed point it may be a tenth of double's error, the worst lattice of
 // each counting. Float's stands beside it: where trajectories are chaotic, any rounding makes as
-// much. R6a begins with 1000 steps of rest, in which a lattice creeps by less than a number of fixed
-// point a step: each format's own is another lattice. So it is also run from double's.
+// much. R6a begins with 1000 steps of rest, each format's own: what becomes of the lattice is part of
+// the difference. From double's, which it is also run from, the wave alone differs.
 #include <cmath>
 #include <functional>
 

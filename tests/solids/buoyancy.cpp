@@ -74,28 +74,24 @@ double force_error(int depth, int corners, double size, double angle) {
 }
 
 template <class Real>
-void submerged(Report& report, const Effort& effort) {
+void submerged(Report& report, int depth) {
     constexpr double kDegree = M_PI / 180.0;
-    for (const int depth : {16, 32, 64}) {
-        if (depth > 32 && !effort.full) {
-            continue;
-        }
-        double worst = 0.0;
-        for (const double degrees : {0.0, 15.0, 30.0, 45.0}) {
-            worst = std::max(worst, force_error<Real>(depth, 4, 0.25 * depth, degrees * kDegree));
-        }
-        worst = std::max(worst, force_error<Real>(depth, 3, 0.25 * depth, 0.1));
-        worst = std::max(worst, force_error<Real>(depth, 8, 0.125 * depth, 0.1));
-        accurate<Real>(report, "R4d.force." + std::to_string(depth), 100.0 * worst, "%",
-                       depth == 16 ? 3.0 : (depth == 32 ? 1.5 : 0.75));
+    double worst = 0.0;
+    for (const double degrees : {0.0, 15.0, 30.0, 45.0}) {
+        worst = std::max(worst, force_error<Real>(depth, 4, 0.25 * depth, degrees * kDegree));
     }
+    worst = std::max(worst, force_error<Real>(depth, 3, 0.25 * depth, 0.1));
+    worst = std::max(worst, force_error<Real>(depth, 8, 0.125 * depth, 0.1));
+    accurate<Real>(report, "R4d.force." + std::to_string(depth), 100.0 * worst, "%",
+                   depth == 16 ? 3.0 : (depth == 32 ? 1.5 : 0.75));
 }
 
 }  // namespace
 
 void buoyancy(Report& report, const Effort& effort) {
-    in_scalar(report, effort.real,
-              [&](auto zero) { submerged<decltype(zero)>(report, effort); });
+    at_resolutions(report, effort, {16, 32, 64}, [&](auto zero, int depth) {
+        submerged<decltype(zero)>(report, depth);
+    });
 }
 
 }  // namespace solids

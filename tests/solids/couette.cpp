@@ -194,17 +194,12 @@ void annulus(Report& report, int gap) {
 }  // namespace
 
 void couette(Report& report, const Effort& effort) {
-    for (const int gap : {16, 32, 64}) {
-        if (gap > 32 && !effort.full) {
-            continue;
-        }
-        in_scalar(report, effort.real, [&](auto zero) {
-            using Real = decltype(zero);
-            const std::string n = "." + std::to_string(gap);
-            rows(report, "R10.channel" + n, [&] { plane<Real>(report, gap); });
-            rows(report, "R10.annulus" + n, [&] { annulus<Real>(report, gap); });
-        });
-    }
+    at_resolutions(report, effort, {16, 32, 64}, [&](auto zero, int gap) {
+        using Real = decltype(zero);
+        const std::string n = "." + std::to_string(gap);
+        rows(report, "R10.channel" + n, [&] { plane<Real>(report, gap); });
+        rows(report, "R10.annulus" + n, [&] { annulus<Real>(report, gap); });
+    });
 }
 
 }  // namespace solids

@@ -112,15 +112,10 @@ void float_box(Report& report, int cells) {
 }  // namespace
 
 void floating_box(Report& report, const Effort& effort) {
-    for (const int cells : {32, 64}) {
-        if (cells > 32 && !effort.full) {
-            continue;
-        }
-        in_scalar(report, effort.real, [&](auto zero) {
-            rows(report, "R12." + std::to_string(cells),
-                 [&] { float_box<decltype(zero)>(report, cells); });
-        });
-    }
+    at_resolutions(report, effort, {32, 64}, [&](auto zero, int cells) {
+        rows(report, "R12." + std::to_string(cells),
+             [&] { float_box<decltype(zero)>(report, cells); });
+    });
 }
 
 }  // namespace solids

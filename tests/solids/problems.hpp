@@ -2,6 +2,8 @@
 // problems (R1 … R14) where there is one.
 #pragma once
 
+#include <initializer_list>
+
 #include "measure/report.hpp"
 #include "scalar.hpp"
 
@@ -13,6 +15,17 @@ struct Effort {
     bool full = false;  ///< long runs and large counts; else all problems take a few minutes
     Scalar real = Scalar::single_precision;
 };
+
+/// run(zero of the arithmetic, cells) at each of the resolutions; beyond 32 cells if all is run.
+template <class Run>
+void at_resolutions(Report& report, const Effort& effort, std::initializer_list<int> resolutions,
+                    Run run) {
+    for (const int cells : resolutions) {
+        if (cells <= 32 || effort.full) {
+            in_scalar(report, effort.real, [&](auto zero) { run(zero, cells); });
+        }
+    }
+}
 
 // Contours.
 void one_particle(Report& report, const Effort& effort);     // R1

@@ -195,13 +195,9 @@ void formats(Report& report, const Effort&) {
 }
 
 void sloshing(Report& report, const Effort& effort) {
-    for (const int depth : {16, 32, 64}) {
-        if (depth > 32 && !effort.full) {
-            continue;
-        }
-        in_scalar(report, effort.real,
-                  [&](auto zero) { slosh_at<decltype(zero)>(report, depth); });
-    }
+    at_resolutions(report, effort, {16, 32, 64}, [&](auto zero, int depth) {
+        slosh_at<decltype(zero)>(report, depth);
+    });
 }
 
 }  // namespace solids

@@ -168,13 +168,9 @@ void rest_at(Report& report, int depth) {
 }  // namespace
 
 void still_water(Report& report, const Effort& effort) {
-    for (const int depth : {16, 32, 64}) {
-        if (depth > 32 && !effort.full) {
-            continue;
-        }
-        in_scalar(report, effort.real,
-                  [&](auto zero) { rest_at<decltype(zero)>(report, depth); });
-    }
+    at_resolutions(report, effort, {16, 32, 64}, [&](auto zero, int depth) {
+        rest_at<decltype(zero)>(report, depth);
+    });
 }
 
 }  // namespace solids
