@@ -54,6 +54,9 @@ void flip(Report& report, const Effort& effort, const Scheme& scheme, std::int32
     const std::int32_t flips = effort.full ? (scheme.elastic() ? 1000 : 10000) : 100;
     for (std::int32_t k = 0; k < flips; ++k) {
         tank.set_gravity(k % 2 == 0 ? Vec2f{0.0F, 9.81F} : kDown);
+        if (scheme.elastic()) {
+            tank.count_compression();  // what was pressed together below may be above
+        }
         tank.run(100, scheme.dt_s());
     }
     tank.set_gravity(kDown);
