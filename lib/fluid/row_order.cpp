@@ -7,7 +7,7 @@ namespace {
 /// So many particles are looked at together.
 constexpr std::int32_t kTogether = 64;
 
-/// One of so many is asked.
+/// One of so many is asked, in one of so many groups.
 constexpr std::int32_t kSampled = 4;
 
 /// More rows than they have to span.
@@ -18,13 +18,19 @@ std::int32_t row_of(const Particles<Real>& particles, std::int32_t k) {
     return static_cast<std::int32_t>(Real(particles.position[k].y));
 }
 
-/// Rows that particles together span, beyond one, summed over the pool.
+/// Groups that are asked.
+constexpr std::int32_t asked_of(std::int32_t count) {
+    return count / (kTogether * kSampled);
+}
+
+/// Rows that particles together span, beyond one, summed over the groups that are asked.
 template <class Real>
 std::int64_t spanned(const Particles<Real>& particles, Work work) {
     std::int64_t rows[kMostPieces] = {};
-    const Part blocks{0, particles.count / kTogether};
-    work.share(blocks, kTogether / kSampled, 1, [&](const Part& some, std::int32_t piece) {
-        for (std::int32_t k = kTogether * some.first; k < kTogether * some.end; k += kTogether) {
+    constexpr std::int32_t kApart = kTogether * kSampled;
+    const Part groups{0, asked_of(particles.count)};
+    work.share(groups, kTogether / kSampled, 1, [&](const Part& some, std::int32_t piece) {
+        for (std::int32_t k = kApart * some.first; k < kApart * some.end; k += kApart) {
             auto low = particles.position[k].y;
             auto high = low;
             for (std::int32_t n = k + kSampled; n < k + kTogether; n += kSampled) {
@@ -156,11 +162,11 @@ void sort_by_row(const Part& rows, std::int32_t* next, std::int32_t* end,
 template <class Real>
 void keep_row_order(const Part& rows, ArrayView<std::int32_t> scratch,
                     Particles<Real>& particles, Work work) {
-    const std::int32_t blocks = particles.count / kTogether;
+    const std::int32_t groups = asked_of(particles.count);
     const std::int32_t count = rows.end - rows.first;
     const std::int32_t least = count * kTogether / maximum(particles.count, 1);
     if (2 * count <= scratch.size &&
-        spanned(particles, work) > static_cast<std::int64_t>(kMixed + least) * blocks) {
+        spanned(particles, work) > static_cast<std::int64_t>(kMixed + least) * groups) {
         sort_by_row(rows, scratch.data, scratch.data + count, particles, work);
     }
 }

@@ -74,33 +74,43 @@ inline auto slope_of_faces(const BendTask& task, std::int32_t face, std::int32_t
 /// Bends a group of faces but for the first few, which are done, and those beside solids.
 template <class L>
 inline void bend_group(const BendTask& task, std::int32_t face, std::int32_t done) {
-    auto kept = L::minimum(L::load(task.level + face), L::load(task.level + face - task.back)) >
-                L::all(kEmptyLevel<float>);
+    const std::int32_t back = task.back;
+    const std::int32_t side = back == 1 ? task.stride : 1;
+    const std::int32_t beyond = face - back;
+    const auto level = [&](std::int32_t at) { return L::load(task.level + at); };
+    // Both cells of a face have one another for a neighbour.
+    const auto own = L::minimum(level(face), level(beyond));
+    auto kept = own > L::all(kEmptyLevel<float>);
     if (done > 0) {
         kept &= L::load(kOnlyMiddle + 16 - done) == L::all(0.0F);
     }
     if (!L::any_true(kept)) {
         return;
     }
-    if (task.open_u != nullptr) {
-        kept &= wide_open<L>(task, face) & wide_open<L>(task, face - task.back);
-    }
-    const std::int32_t beyond = face - task.back;
-    const auto here = lowest_around<L>(task.level, task.stride, face) >
+    const auto around = [&](std::int32_t cell, std::int32_t next) {
+        return L::minimum(L::minimum(own, level(next)),
+                          L::minimum(level(cell - side), level(cell + side)));
+    };
+    const auto here = around(face, face + back) >
                       least_inside<L>(face, task.first, task.last, task.leaps);
-    const auto before = lowest_around<L>(task.level, task.stride, beyond) >
+    const auto before = around(beyond, beyond - back) >
                         least_inside<L>(beyond, task.first - task.before, task.last - task.before,
                                         task.leapt);
-    const auto bent = kept & ~(here & before);
+    auto bent = kept & ~(here & before);
     if (!L::any_true(bent)) {
         return;
     }
-    const std::int32_t side = task.back == 1 ? task.stride : 1;
+    if (task.open_u != nullptr) {
+        bent &= wide_open<L>(task, face) & wide_open<L>(task, beyond);
+        if (!L::any_true(bent)) {
+            return;
+        }
+    }
     const float* across = task.across + face;
     const auto mean =
-        L::all(0.25F) * ((L::load(across) + L::load(across - task.back)) +
-                         (L::load(across + side) + L::load(across + side - task.back)));
-    const auto turned = L::load(task.along + face) * slope_of_faces<L>(task, face, task.back) +
+        L::all(0.25F) * ((L::load(across) + L::load(across - back)) +
+                         (L::load(across + side) + L::load(across + side - back)));
+    const auto turned = L::load(task.along + face) * slope_of_faces<L>(task, face, back) +
                         mean * slope_of_faces<L>(task, face, side);
     const auto share = (here | before) ? L::all(0.5F * task.bend_s) : L::all(task.bend_s);
     const auto now = L::load(task.out + face);
