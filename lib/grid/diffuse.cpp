@@ -4,8 +4,8 @@ namespace weir {
 
 template <class Real>
 void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t first_i,
-             std::int32_t first_j, const Part& rows, Real amount, const VelocityOf<Real>* field,
-             VelocityOf<Real>* out) {
+             std::int32_t first_j, const Part& rows, Real amount, std::int32_t from,
+             const VelocityOf<Real>* field, VelocityOf<Real>* out) {
     const bool along_x = share.back == 1;
     // The face before the one on the seam has cells that lie two beyond it: its image has not.
     const std::int32_t period = share.back * (along_x ? s.nx : s.ny);
@@ -24,16 +24,17 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
                 const Real difference = field[neighbour] - here;
                 return other < own ? difference * (other / own) : difference;
             };
-            out[face] = here + amount * ((pull(face - 1) + pull(face + 1)) +
-                                         (pull(face - s.stride) + pull(face + s.stride)));
+            const Real sum = (pull(face - 1) + pull(face + 1)) +
+                             (pull(face - s.stride) + pull(face + s.stride));
+            out[face] = changed<Real>(field[face], amount * sum, from);
         }
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                      \
-    template void diffuse(const GridShape&, const FaceShare<Real>&, std::int32_t,   \
-                          std::int32_t, const Part&, Real, const VelocityOf<Real>*, \
-                          VelocityOf<Real>*);
+#define WEIR_INSTANTIATE(Real)                                                          \
+    template void diffuse(const GridShape&, const FaceShare<Real>&, std::int32_t,       \
+                          std::int32_t, const Part&, Real, std::int32_t,                \
+                          const VelocityOf<Real>*, VelocityOf<Real>*);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -67,7 +67,8 @@ struct PressureFields {
     /// Packed worlds drift every other substep: 1 and the cells that the last one found overfull;
     /// 0: it had none.
     std::uint16_t drift_turn = 0;
-    /// Substeps since leaning surfaces were quieted, kQuietEvery if there was none.
+    /// Substeps since leaning surfaces were quieted, or were to be; kQuietEvery if there was none.
+    /// Packed viscosity rounds by it.
     std::uint16_t quiet_turn = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest

@@ -145,7 +145,7 @@ void brake(const Walls<Real>& walls, std::uint16_t slot, Face<Real> mass, Vec2<R
 
 template <class Real>
 void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share, Real amount,
-                       const VelocityOf<Real>* field, VelocityOf<Real>* out) {
+                       std::int32_t from, const VelocityOf<Real>* field, VelocityOf<Real>* out) {
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         const Real d = axis.distance(face);
         if (!(d < kBand<Real>) || axis.sticking(face) == kNoBody) {
@@ -159,7 +159,7 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         const Real unbound = Real(field[face]) + amount * pull.liquid;
         const Real bound = (unbound + amount * pull.towards) /
                            (Real(1) + amount * pull.weight);
-        out[face] = bound;
+        out[face] = changed<Real>(field[face], bound - Real(field[face]), from);
         if (axis.walls.load != nullptr) {
             // What pulls on faces that are bound to the wall, pulls on the wall.
             const bool is_bound = d < kBoundLayer<Real>;
@@ -194,19 +194,20 @@ void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
 
 template <class Real>
 void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fields, Real amount,
-                      StaggeredGrid<Real>& grid) {
+                      std::int32_t from, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const FaceShare<Real> on_u{fields.density, nullptr, 1};
     const FaceShare<Real> on_v{fields.density, nullptr, s.stride};
-    diffuse_component<Real>({s, walls, true}, on_u, amount, fields.divergence, grid.u);
-    diffuse_component<Real>({s, walls, false}, on_v, amount, fields.inverse_diagonal, grid.v);
+    diffuse_component<Real>({s, walls, true}, on_u, amount, from, fields.divergence, grid.u);
+    diffuse_component<Real>({s, walls, false}, on_v, amount, from, fields.inverse_diagonal,
+                            grid.v);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                            \
     template void centre_at_walls(const Walls<Real>&, PressureFields<Real>&,              \
                                   StaggeredGrid<Real>&, Work);                            \
     template void diffuse_to_walls(const Walls<Real>&, const PressureFields<Real>&, Real, \
-                                   StaggeredGrid<Real>&);
+                                   std::int32_t, StaggeredGrid<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -22,6 +22,6 @@ void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
 /// bodies receive. Reads the velocity before `diffuse` from the fields' scratch.
 template <class Real>
 void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fields, Real amount,
-                      StaggeredGrid<Real>& grid);
+                      std::int32_t from, StaggeredGrid<Real>& grid);
 
 }  // namespace weir

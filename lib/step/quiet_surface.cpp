@@ -204,14 +204,11 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
                    Particles<Real>& particles, Work work) {
     const bool asked =
         fields.cell_weight > Real(0) && !fields.on_surface && !(fields.sound_speed > Real(0));
-    if (!asked && !work.foreseeing()) {
-        return;
-    }
     std::uint16_t& turn = fields.quiet_turn;
     if (work.once(1)) {
         turn = static_cast<std::uint16_t>((turn + 1) % kQuietEvery);
     }
-    if (turn % kQuietEvery != 0 && !work.foreseeing()) {
+    if (!(asked && turn % kQuietEvery == 0) && !work.foreseeing()) {
         return;
     }
     const GridShape& s = grid.shape;

@@ -52,10 +52,12 @@ void diffuse_faces(const Borders<Real>& borders, const Walls<Real>& walls,
     const FaceShare<Real> on_u{fields.density, cut ? walls.open_u : nullptr, 1};
     const FaceShare<Real> on_v{fields.density, cut ? walls.open_v : nullptr, s.stride};
     const Part rows = work.take(s.ny, s.nx);
-    diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, fields.divergence, grid.u);
-    diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, fields.inverse_diagonal, grid.v);
+    const std::int32_t from = fields.settling ? kNearest : rounded_from(fields.quiet_turn);
+    diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, from, fields.divergence, grid.u);
+    diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, from, fields.inverse_diagonal,
+            grid.v);
     if (sticking && work.once(s.size())) {
-        diffuse_to_walls(walls, fields, amount, grid);
+        diffuse_to_walls(walls, fields, amount, from, grid);
     }
     if (tank != nullptr && work.once(2 * s.border())) {
         drag_on_tank(borders, s, on_u, on_v, amount, fields, *tank);

@@ -1,9 +1,12 @@
 // World<SmallFixed>: what its whole-number stages promise.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <random>
 #include <vector>
 
+#include "grid/diffuse.hpp"
 #include "measure/format_wave.hpp"
 #include "measure/world_memory.hpp"
 #include "pressure/level_packed.hpp"
@@ -240,6 +243,59 @@ TEST(Packed, LevelsAreThoseOfTheFormula) {
         const double level = level_of_density(density / 256.0);
         EXPECT_NEAR(packed_level(density) + kHeadRaw, 64.0 * level, 0.5001) << density;
     }
+}
+
+// Of four substeps as many change a velocity as there are quarters of a unit to change it by.
+TEST(Packed, SmallChangesAddUp) {
+    const Speed here = Speed::of_raw(-70);
+    for (std::int32_t eighths = -20; eighths <= 20; ++eighths) {
+        std::int32_t units = 0;
+        for (std::uint32_t turn = 0; turn < 4; ++turn) {
+            const SmallFixed now =
+                changed(here, SmallFixed::of_raw(64 * eighths), rounded_from(turn));
+            EXPECT_EQ(now.raw % 512, 0);
+            units += now.raw / 512 - here.raw;
+        }
+        EXPECT_LE(std::abs(2 * units - eighths), 1) << eighths;
+    }
+    EXPECT_EQ(Speed(changed(Speed::of_raw(32767), SmallFixed(1.0e4F), kNearest)).raw, 32767);
+    EXPECT_EQ(Speed(changed(Speed::of_raw(-32768), SmallFixed(-1.0e5F), 64)).raw, -32768);
+}
+
+// Couette flow of Re 10 in a channel of 32 cells: near its end a step changes velocities by less
+// than half a unit, and always rounded to the nearest it would stay 3 % off.
+TEST(Packed, GentleBendsOfViscousFlowAreFelt) {
+    constexpr float kSpeed = 0.64F;
+    constexpr std::int32_t kCells = 32;
+    WorldDef def;
+    def.capacity.cells_x = 8;
+    def.capacity.cells_y = kCells;
+    def.capacity.particles = 4 * 8 * kCells;
+    def.gravity_mps2 = {};
+    def.periodic_x = true;
+    def.walls.bottom.no_slip = true;
+    def.walls.top.no_slip = true;
+    def.walls.top.conveyor_mps = -kSpeed;
+    const float height = def.cell_m * static_cast<float>(kCells);
+    def.viscosity_m2ps = kSpeed * height / 10.0F;
+    def.top_speed_mps = 1.25F * kSpeed;
+    TestWorld<SmallFixed> world(def);
+    ASSERT_EQ(world->fill({{0.0F, 0.0F}, {0.16F, height}}), Status::ok);
+    for (int step = 0; step < 640; ++step) {  // h² / viscosity is 10 s
+        world->step(1.0F / 64.0F);
+    }
+    double off = 0.0;
+    double norm = 0.0;
+    const auto places = world->particle_positions();
+    const auto speeds = world->particle_velocities();
+    for (std::int32_t k = 0; k < places.size; ++k) {
+        const double exact = static_cast<double>(kSpeed / kCells * static_cast<float>(places[k].y));
+        const double speed =
+            static_cast<double>(world->velocity_scale() * static_cast<float>(speeds[k].x));
+        off += (speed - exact) * (speed - exact);
+        norm += exact * exact;
+    }
+    EXPECT_LT(std::sqrt(off / norm), 0.015);
 }
 
 }  // namespace
