@@ -226,8 +226,8 @@ void extrapolate_component(const Component<Real>& component, const PressureField
 }  // namespace
 
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real> dt_s,
-                 const LevelOf<Real>* level, StaggeredGrid<Real>& grid, Work work) {
+void grid_update(const Borders<Real>& borders, Vec2<Real> fall, const LevelOf<Real>* level,
+                 StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
     // One component after the other: packed velocities take the place of momenta.
     const auto component = [&](const Real* momentum, VelocityOf<Real>* mass,
@@ -251,8 +251,8 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> gravity, Seconds<Real>
             });
         }
     };
-    component(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, gravity.x * dt_s, grid.u);
-    component(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, gravity.y * dt_s, grid.v);
+    component(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, fall.x, grid.u);
+    component(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, fall.y, grid.v);
     if (work.once(s.border())) {
         close_walls(borders, level, grid);
     }
@@ -280,7 +280,7 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
 }
 
 #define WEIR_INSTANTIATE(Real)                                                   \
-    template void grid_update(const Borders<Real>&, Vec2<Real>, Seconds<Real>,   \
+    template void grid_update(const Borders<Real>&, Vec2<Real>,                  \
                               const LevelOf<Real>*, StaggeredGrid<Real>&, Work); \
     template void extrapolate(const Borders<Real>&, const Walls<Real>&,          \
                               const PressureFields<Real>&, bool,                 \

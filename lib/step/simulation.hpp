@@ -7,6 +7,7 @@
 #include "solid/contacts.hpp"
 #include "solid/free_body.hpp"
 #include "solid/layers.hpp"
+#include "step/fall.hpp"
 #include "step/settings.hpp"
 #include "weir/features.hpp"
 #include "weir/report.hpp"
@@ -48,6 +49,7 @@ struct Simulation {
     Real* body_diagonal = nullptr;                      ///< for them, a cell field
     Contacts<Real> contacts;
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
+    Fall<Real> fall;
     Extent<Real> extent;       ///< of all particles
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;

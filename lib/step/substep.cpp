@@ -103,6 +103,25 @@ void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, W
                   fields, simulation.stages->empty_slivers, work);
 }
 
+/// As Fall::of says. Sound makes substeps so short that what is rounded shows; a flow that is as
+/// slow as that may be led to rest, but a pool is, which wants the same fall in each of them.
+template <class Real>
+Real most_owed(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
+    const bool elastic = simulation.pressure.elasticity != nullptr;
+    return elastic ? Real(kMaxSpeedSmallFixed) : (plan.settling ? Real(0) : Real(0.25));
+}
+
+template <class Real>
+void update_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
+    const Vec2<Real> exact = plan.dt_s * simulation.settings.gravity;
+    const Real most = most_owed(simulation, plan);
+    grid_update(simulation.settings.borders, simulation.fall.of(exact, most),
+                simulation.pressure.level, simulation.grid, work);
+    if (work.once(1)) {
+        simulation.fall.give(exact, most);
+    }
+}
+
 /// The gain holds for a substep in which something moves half a cell, or a wave of the size of a
 /// cell would, under gravity or surface tension. Shorter ones, as viscosity asks for, get their
 /// share.
@@ -297,7 +316,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     clock.charge(Stage::particle_to_grid);
 
     find_surface(simulation, plan, work);
-    grid_update(settings.borders, settings.gravity, dt_s, simulation.pressure.level, grid, work);
+    update_grid(simulation, plan, work);
     if (plan.viscosity > Real(0)) {
         Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
         simulation.viscosity->diffuse(settings.borders, walls, simulation.pressure,

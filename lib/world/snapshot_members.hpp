@@ -76,7 +76,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
            still_s, still_gravity, pending, substeps_left, plan, progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
                             bodies, layers, walls_behind, walls_moved, free_bodies, body_diagonal,
-                            contacts, gathered, extent, max_speed, ticks, stages,
+                            contacts, gathered, fall, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
                             on_surface, leaps, drift_turn, quiet_turn, crowded, settling, last_dt,
@@ -92,6 +92,11 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     any_member(stream, settings.gravity);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);
+    if constexpr (Stored<Real>::coarse) {
+        const Real unit(1.0 / 128.0);
+        stream.member(fall.owed.x, -unit, unit);
+        stream.member(fall.owed.y, -unit, unit);
+    }
     stream.member(walls_behind, Seconds<Real>{}, Seconds<Real>(1));
     stream.member(change, Real(0), Real(1));
     stream.member(sound_speed, Real(0), elasticity != nullptr ? settings.sound_speed : Real(0));

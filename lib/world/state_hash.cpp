@@ -115,6 +115,13 @@ std::uint64_t World<Real>::state_hash() const {
     if (simulation.pressure.sound_speed > Real(0)) {
         hash.add(simulation.pressure.sound_speed);
     }
+    if constexpr (Stored<Real>::coarse) {
+        const Vec2<Real> owed = simulation.fall.owed;
+        if (owed.x != Real(0) || owed.y != Real(0)) {
+            hash.add(owed.x);
+            hash.add(owed.y);
+        }
+    }
     if (may_sleep(*state_)) {
         hash.add(state_->still_s);
         hash.add(state_->still_gravity_mps2.x);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <random>
 #include <vector>
@@ -296,6 +297,31 @@ TEST(Packed, GentleBendsOfViscousFlowAreFelt) {
         norm += exact * exact;
     }
     EXPECT_LT(std::sqrt(off / norm), 0.015);
+}
+
+// A pull of 3.4 units a step is not one of 3; what is owed goes along with a snapshot.
+TEST(Packed, WeakGravityPullsAsItShould) {
+    WorldDef def = small_def();
+    def.gravity_mps2 = {0.0F, -0.034F};
+    TestWorld<SmallFixed> world(def);
+    ASSERT_EQ(world->fill({{0.0F, 0.06F}, {0.08F, 0.14F}}), Status::ok);
+    std::vector<std::byte> saved(
+        static_cast<std::size_t>(snapshot_bytes<SmallFixed>(def.capacity)));
+    std::uint64_t after = 0;
+    for (int step = 1; step <= 50; ++step) {
+        if (step == 48) {
+            ASSERT_EQ(world->save(saved.data(), saved.size()), Status::ok);
+        }
+        const float speed = world->step(1.0F / 64.0F).max_speed_mps / def.cell_m;
+        const float exact = 1.7F / 64.0F * static_cast<float>(step);
+        EXPECT_NEAR(speed, exact, 0.03F * exact + 1.5F / 128.0F) << step;
+        after = world->state_hash();
+    }
+    ASSERT_EQ(world->restore(saved.data(), saved.size()), Status::ok);
+    for (int step = 48; step <= 50; ++step) {
+        world->step(1.0F / 64.0F);
+    }
+    EXPECT_EQ(world->state_hash(), after);
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+// What gravity gives in a substep.
+#pragma once
+
+#include "math/packed.hpp"
+#include "math/vec2.hpp"
+
+namespace weir {
+
+template <class Real, bool Units = Stored<Real>::coarse>
+struct Fall {
+    static Vec2<Real> of(Vec2<Real> exact, Real) { return exact; }
+    static void give(Vec2<Real>, Real) {}
+};
+
+/// Packed velocities are known in units, of which a short substep gives few. What is less than one
+/// is owed to the next substep: rounded, it would be another gravity, and liquid that falls by more
+/// than its weight gains energy each time that it turns.
+template <class Real>
+struct Fall<Real, true> {
+    Vec2<Real> owed;  ///< cells/s, less than a unit
+
+    /// `most`: a fall of that much or more is rounded by itself, so that it is always the same.
+    Vec2<Real> of(Vec2<Real> exact, Real most) const {
+        return {whole_units(exact.x, owed.x, most), whole_units(exact.y, owed.y, most)};
+    }
+    /// After it was given.
+    void give(Vec2<Real> exact, Real most) {
+        owed = {rest(exact.x, owed.x, most), rest(exact.y, owed.y, most)};
+    }
+
+private:
+    static constexpr std::int32_t kUnit = 1 << 9;
+
+    /// What is to be given, with what is owed if that is the same way.
+    static std::int32_t due(Real exact, Real more) {
+        return (exact.raw ^ more.raw) < 0 ? exact.raw : (exact + more).raw;
+    }
+    static Real whole_units(Real exact, Real more, Real most) {
+        return absolute(exact) < most ? Real::of_raw(due(exact, more) / kUnit * kUnit)
+                                      : Real(VelocityOf<Real>(exact));
+    }
+    static Real rest(Real exact, Real more, Real most) {
+        return Real::of_raw(absolute(exact) < most ? due(exact, more) % kUnit : 0);
+    }
+};
+
+}  // namespace weir
