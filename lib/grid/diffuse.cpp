@@ -26,7 +26,7 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
             };
             const Real sum = (pull(face - 1) + pull(face + 1)) +
                              (pull(face - s.stride) + pull(face + s.stride));
-            out[face] = changed<Real>(field[face], amount * sum, from);
+            out[face] = changed<Real>(field[face], here + amount * sum, from);
         }
     }
 }

@@ -33,16 +33,18 @@ constexpr std::int32_t rounded_from(std::uint32_t turn) {
     return 64 + 128 * static_cast<std::int32_t>(turn & 3U);
 }
 
-/// A velocity and a change of it. Mirrored flows stay mirrored.
+/// A velocity that is to change a little. Mirrored flows stay mirrored.
 template <class Real>
-inline Real changed(VelocityOf<Real> here, Real change, [[maybe_unused]] std::int32_t from) {
+inline Real changed([[maybe_unused]] VelocityOf<Real> here, Real then,
+                    [[maybe_unused]] std::int32_t from) {
     if constexpr (Stored<Real>::coarse) {
+        const Real change = then - here;
         constexpr std::int32_t kMost = 0x7FFFFFFF >> 9;
         const auto size = static_cast<std::int32_t>(fixed::magnitude(change.raw) >> 1U);
         const std::int32_t units = minimum((size + 256 - from / 2) >> 8, kMost);
         return here + Real::of_raw((change.raw < 0 ? -units : units) * 512);
     } else {
-        return here + change;
+        return then;
     }
 }
 

@@ -159,7 +159,7 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         const Real unbound = Real(field[face]) + amount * pull.liquid;
         const Real bound = (unbound + amount * pull.towards) /
                            (Real(1) + amount * pull.weight);
-        out[face] = changed<Real>(field[face], bound - Real(field[face]), from);
+        out[face] = changed<Real>(field[face], bound, from);
         if (axis.walls.load != nullptr) {
             // What pulls on faces that are bound to the wall, pulls on the wall.
             const bool is_bound = d < kBoundLayer<Real>;
