@@ -49,7 +49,7 @@ struct Simulation {
     Real* body_diagonal = nullptr;                      ///< for them, a cell field
     Contacts<Real> contacts;
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
-    Fall<Real> fall;
+    [[no_unique_address]] Fall<Real> fall;  ///< empty where velocities are no units
     Extent<Real> extent;       ///< of all particles
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;
