@@ -68,7 +68,7 @@ struct PressureFields {
     /// 0: it had none.
     std::uint16_t drift_turn = 0;
     /// Substeps since leaning surfaces were quieted, or were to be; kQuietEvery if there was none.
-    /// Packed viscosity rounds by it.
+    /// In packed worlds viscosity rounds, and drift is paid for, by it.
     std::uint16_t quiet_turn = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest

@@ -103,8 +103,8 @@ void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, W
                   fields, simulation.stages->empty_slivers, work);
 }
 
-/// As Fall::of says. Sound makes substeps so short that what is rounded shows; a flow that is as
-/// slow as that may be led to rest, but a pool is, which wants the same fall in each of them.
+/// As Fall::of says. Sound makes substeps so short that rounding always shows. Others owe only where
+/// they are as short, cells/s, and not while liquid is led to rest: it wants the same fall each time.
 template <class Real>
 Real most_owed(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
     const bool elastic = simulation.pressure.elasticity != nullptr;
