@@ -12,7 +12,8 @@ namespace weir {
 /// Puts the particles in the order of their rows if they are mixed: if 64 that follow each other
 /// span three rows more, on the average, than they have to. In place; the order is a function of
 /// the places and the order before, and of nothing else. Cost: a look at a sixteenth of the places,
-/// and if they are mixed three passes and a swap for each particle that is not in its row's part of the pool.
+/// and if they are mixed three passes and a swap for each particle that is not in its row's part of
+/// the pool.
 /// @param rows that the particles are in.
 /// @param scratch two numbers for each row. Too little: nothing is done.
 template <class Real>

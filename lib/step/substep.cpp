@@ -103,8 +103,8 @@ void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, W
                   fields, simulation.stages->empty_slivers, work);
 }
 
-/// As Fall::of says. Sound makes substeps so short that rounding always shows. Others owe only where
-/// they are as short, cells/s, and not while liquid is led to rest: it wants the same fall each time.
+/// As Fall::of says. Sound makes substeps so short that rounding always shows. Others owe only
+/// what is as little, and nothing while liquid is led to rest, which wants the same fall in each.
 template <class Real>
 Real most_owed(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
     const bool elastic = simulation.pressure.elasticity != nullptr;
