@@ -36,7 +36,8 @@ void locate_bodies(BodyTable<Real>& table) {
         const Body<Real>& body = table.body[slot];
         if (body.kind != BodyKind::free) {
             BodyLoad<Real>& load = table.load[slot];
-            load.at = convert<Face<Real>>(body.position) + arm_of_centre(body, load);
+            load.arm = arm_of_centre(body, load);
+            load.at = convert<Face<Real>>(body.position) + load.arm;
         }
     }
 }

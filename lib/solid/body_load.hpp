@@ -34,11 +34,14 @@ template <class Real>
 struct BodyLoad {
     Vec2<Face<Real>> centre;                      ///< of mass, in the body's frame, cells
     Vec2<Face<Real>> at;                          ///< the same in the tank, as last located
+    Vec2<Face<Real>> arm;                         ///< from the body's origin to it, likewise
     Face<Real> mass = Face<Real>(0);              ///< over the liquid's density, cells²
     Face<Real> inertia = Face<Real>(0);           ///< about the centre, cells⁴
     /// 0: it moves as told. < 0: it is free, but led through this step (`World::move_body`).
     Face<Real> inverse_mass = Face<Real>(0);
-    Face<Real> inverse_inertia = Face<Real>(0);
+    Face<Real> inverse_inertia = Face<Real>(0);  ///< on a hinge about that; 0: held
+    /// 1 along axes along which it moves, 0 where it is held: along both by a hinge.
+    Vec2<Face<Real>> slides{Face<Real>(1), Face<Real>(1)};
     Impulse<Real> received;    ///< in this step, about the centre of mass
     Impulse<Real> blows;       ///< of particles, which a free body has not answered yet
     Face<Real> blow_mass = Face<Real>(0);  ///< of those particles
@@ -47,6 +50,7 @@ struct BodyLoad {
     Twist<Real> stopped;       ///< that part of the change which is due to what stops it
 
     bool is_free() const { return inverse_mass > Face<Real>(0); }
+    bool is_hinged() const { return slides.x == Face<Real>(0) && slides.y == Face<Real>(0); }
 };
 static_assert(sizeof(BodyLoad<float>) <= kBodyLoadBytes<float>, "raise kBodyLoadBytes");
 static_assert(sizeof(BodyLoad<double>) <= kBodyLoadBytes<double>, "raise kBodyLoadBytes");
@@ -73,10 +77,22 @@ inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Rea
     return wide.apply(load.centre);
 }
 
+/// What is left of a way where a body is held, but for hinges.
+template <class Real>
+inline Vec2<Face<Real>> along_slides(const BodyLoad<Real>& load, Vec2<Face<Real>> way) {
+    return {load.slides.x * way.x, load.slides.y * way.y};
+}
+
 /// How a free body's velocity answers an impulse.
 template <class Real>
 inline Twist<Real> answer(const BodyLoad<Real>& load, const Impulse<Real>& impulse) {
-    return {load.inverse_mass * impulse.linear, load.inverse_inertia * impulse.angular};
+    if (load.is_hinged()) {
+        const Face<Real> torque = impulse.angular + cross(load.arm, impulse.linear);
+        const Face<Real> spin = load.inverse_inertia * torque;
+        return {spin_velocity(spin, load.arm), spin};
+    }
+    return {along_slides(load, load.inverse_mass * impulse.linear),
+            load.inverse_inertia * impulse.angular};
 }
 
 /// What an impulse changes, besides what stops the body.

@@ -22,9 +22,20 @@ Twist<Real> twist_of(const Body<Real>& body, const BodyLoad<Real>& load) {
 
 template <class Real>
 void set_twist(const BodyLoad<Real>& load, const Twist<Real>& twist, Body<Real>& body) {
-    const Wide<Real> arm = arm_of_centre(body, load);
-    body.velocity = convert<Real>(twist.velocity - spin_velocity(twist.spin, arm));
+    if (!load.is_hinged()) {
+        const Wide<Real> arm = arm_of_centre(body, load);
+        body.velocity = convert<Real>(twist.velocity - spin_velocity(twist.spin, arm));
+    }
     body.spin = static_cast<Real>(twist.spin);
+}
+
+/// What gravity adds to a body's velocity in a substep.
+template <class Real>
+Twist<Real> falling(const Obstacles<Real>& obstacles, const BodyLoad<Real>& load) {
+    if (load.is_hinged()) {
+        return answer(load, Impulse<Real>{load.mass * obstacles.fall});
+    }
+    return {along_slides(load, obstacles.fall)};
 }
 
 /// Before the pressure, and what has changed.
@@ -76,11 +87,15 @@ void move(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seconds<Real
                                   (obstacles.dt * twist.velocity + parted.velocity);
         const Real turn = dt_s * body.spin + static_cast<Real>(parted.spin);
         body.angle = wrapped_angle(body.angle + turn);
-        body.position = convert<Real>(centre - arm_of_centre(body, load));
+        body.position = load.is_hinged() ? body.position + dt_s * body.velocity
+                                         : convert<Real>(centre - arm_of_centre(body, load));
         place(table, body);
         if (near_walls(s, body, Real(1))) {
             const Overhang<Real> beyond = overhang(s, table, body);
-            const Vec2<Real> back{beyond.low_x - beyond.high_x, beyond.low_y - beyond.high_y};
+            const Vec2<Real> back =
+                convert<Real>(along_slides(load, convert<Face<Real>>(Vec2<Real>{
+                                                     beyond.low_x - beyond.high_x,
+                                                     beyond.low_y - beyond.high_y})));
             if (back.x != Real(0) || back.y != Real(0)) {
                 body.position = body.position + back;
                 place(table, body);
@@ -102,8 +117,9 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
                                                             : Face<Real>(1);
         load.blows = Impulse<Real>{};
         load.blow_mass = Face<Real>(0);
-        twist.velocity = (twist.velocity + obstacles.fall) + share * blown.velocity;
-        twist.spin += share * blown.spin;
+        const Twist<Real> fall = falling(obstacles, load);
+        twist.velocity = (twist.velocity + fall.velocity) + share * blown.velocity;
+        twist.spin = (twist.spin + fall.spin) + share * blown.spin;
         load.unpressed = twist;
         load.change = load.stopped = Twist<Real>{};
     });

@@ -36,6 +36,13 @@ constexpr Face<Real> kSamePlace = Face<Real>(1.0 / 4.0);
 template <class Real>
 constexpr Face<Real> kMostRecalled = Face<Real>(2);
 
+/// What yields by less than this, of what free bodies of its mass would, is held in that direction:
+/// whatever pushes there does nothing.
+template <class Real>
+constexpr Face<Real> kRigid = Face<Real>(1.0e-3);
+template <class Real>
+constexpr Face<Real> kUnyielding = Face<Real>(1.0e30);
+
 /// One of the two bodies at a point, and a direction: how fast it goes along it, and how it yields.
 template <class Real>
 struct Side {
@@ -118,7 +125,13 @@ HeldWay<Real> held_way(const BodyTable<Real>& table, const Meeting<Real>& meetin
         held.told = dot(along, convert<Face<Real>>(velocity_at(table.body[meeting.other], at)));
     }
     const Way<Real> way(table, meeting, along, held);
+    const auto ease = [](const BodyLoad<Real>* load) {
+        return load == nullptr ? Face<Real>(0) : load->inverse_mass;
+    };
     held.yielding = way.own.yielding() + way.other.yielding();
+    if (held.yielding < kRigid<Real> * (ease(way.own.load) + ease(way.other.load))) {
+        held.yielding = kUnyielding<Real>;
+    }
     return held;
 }
 

@@ -77,6 +77,10 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
             for (const Face<Real> weight : weights) {
                 hash.add(weight);
             }
+            if (load.slides.x * load.slides.y != Face<Real>(1)) {
+                hash.add(load.slides.x);
+                hash.add(load.slides.y);
+            }
         }
         for (std::int32_t k = 0; k < body.vertex_count; ++k) {
             hash.add(table.local[body.first_vertex + k].x);

@@ -62,18 +62,6 @@ Status check_liquids(const WorldDef& def) {
     return Status::ok;
 }
 
-Status check_surface(const Surface& surface, float cell_m) {
-    if (!within(surface.restitution, 0.0F, 1.0F)) {
-        return Status::restitution_out_of_range;
-    }
-    if (!within(surface.friction, 0.0F, 1000.0F)) {
-        return Status::friction_out_of_range;
-    }
-    const float fastest = kMaxSpeed * cell_m;
-    return within(surface.conveyor_mps, -fastest, fastest) ? Status::ok
-                                                           : Status::conveyor_out_of_range;
-}
-
 Status check_borders(const WorldDef& def) {
     const Surface walls[] = {def.walls.bottom, def.walls.right, def.walls.top, def.walls.left};
     for (const Surface& wall : walls) {
@@ -291,8 +279,23 @@ Status check_body(const BodyDef& def, float cell_m, const Reach& reach) {
     if (surface != Status::ok) {
         return surface;
     }
+    if (def.hold > Hold::upright) {
+        return Status::unknown_option;
+    }
     return within(def.density_ratio, 1.0e-3F, 1.0e3F) ? Status::ok
                                                       : Status::body_density_out_of_range;
+}
+
+Status check_surface(const Surface& surface, float cell_m) {
+    if (!within(surface.restitution, 0.0F, 1.0F)) {
+        return Status::restitution_out_of_range;
+    }
+    if (!within(surface.friction, 0.0F, 1000.0F)) {
+        return Status::friction_out_of_range;
+    }
+    const float fastest = kMaxSpeed * cell_m;
+    return within(surface.conveyor_mps, -fastest, fastest) ? Status::ok
+                                                           : Status::conveyor_out_of_range;
 }
 
 Status check_box(const Box& box, float width_m, float height_m) {

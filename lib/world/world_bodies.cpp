@@ -312,6 +312,32 @@ Status World<Real>::motion(BodyId id, Motion* motion) const {
 }
 
 template <class Real>
+Status World<Real>::set_surface(BodyId id, const Surface& surface) {
+    Status valid = ready(state_);
+    if (valid == Status::ok) {
+        valid = check_id(*state_, id);
+    }
+    if (valid == Status::ok) {
+        valid = check_surface(surface, state_->def.cell_m);
+    }
+    if (valid != Status::ok) {
+        return valid;
+    }
+    BodyTable<Real>& table = state_->simulation.bodies;
+    Layers<Real>& layers = state_->simulation.layers;
+    Body<Real>& body = table.body[id.slot];
+    const bool stuck = body.surface.no_slip;
+    body.surface = surface_law<Real>(surface, pace_of(*state_));
+    if (surface.no_slip != stuck) {  // that is felt further away
+        layers.walls.any_sticking = any_without_slip(table);
+        redraw_all(layers, table);
+    }
+    touch_regions(state_->simulation.regions, body.drawn);
+    wake(*state_);
+    return Status::ok;
+}
+
+template <class Real>
 Status World<Real>::remove_body(BodyId id) {
     const Status free = ready(state_);
     if (free != Status::ok) {
@@ -339,6 +365,7 @@ Status World<Real>::remove_body(BodyId id) {
     template Status World<Real>::set_motion(BodyId, const Motion&);                 \
     template Status World<Real>::move_body(BodyId, Vec2f, float, float);            \
     template Status World<Real>::motion(BodyId, Motion*) const;                     \
+    template Status World<Real>::set_surface(BodyId, const Surface&);               \
     template Status World<Real>::remove_body(BodyId);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

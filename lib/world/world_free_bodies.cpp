@@ -3,6 +3,23 @@
 
 namespace weir {
 
+namespace {
+
+/// How it will answer impulses, by what holds it.
+template <class Real>
+void hold(Hold hold, BodyLoad<Real>& load) {
+    using Number = Face<Real>;
+    const bool turns = hold == Hold::none || hold == Hold::hinge;
+    const bool hinged = hold == Hold::hinge;
+    const Number about_origin = load.inertia + load.mass * dot(load.centre, load.centre);
+    load.inverse_mass = Number(1) / load.mass;
+    load.inverse_inertia = turns ? Number(1) / (hinged ? about_origin : load.inertia) : Number(0);
+    load.slides = {Number(hinged || hold == Hold::rail_y ? 0 : 1),
+                   Number(hinged || hold == Hold::rail_x ? 0 : 1)};
+}
+
+}  // namespace
+
 template <class Real>
 Status World<Real>::add_free_body(const BodyDef& def, BodyId* id) {
     if (state_ == nullptr) {
@@ -21,8 +38,7 @@ Status World<Real>::add_free_body(const BodyDef& def, BodyId* id) {
         const Status added = add_body(*state_, def, BodyKind::moving, id);
         if (added == Status::ok) {
             BodyLoad<Real>& load = simulation.bodies.load[id->slot];
-            load.inverse_mass = Face<Real>(1) / load.mass;
-            load.inverse_inertia = Face<Real>(1) / load.inertia;
+            hold(def.hold, load);
             simulation.free_bodies = &free_body_stages<Real>();
         }
         return added;

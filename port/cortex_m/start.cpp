@@ -33,8 +33,8 @@ void port_fault();
 
 /// No compiled code runs before the FPU is on: at -O2 the compiler may use its registers to copy
 /// memory. FPSCR = 0: denormals are kept and rounding is to nearest, which the same-bits promise
-/// needs. main() runs on the process stack (PSP), faults on the main stack (MSP), so that a fault
-/// caused by the former has somewhere to run.
+/// needs; but LTPSIZE stays, which loops of Armv8.1-M go by. main() runs on the process stack (PSP),
+/// faults on the main stack (MSP), so that a fault caused by the former has somewhere to run.
 [[gnu::naked, gnu::used]] void port_reset() {
   asm volatile(
 #if defined(__ARM_FP)
@@ -44,7 +44,8 @@ void port_fault();
       "str r1, [r0] \n"
       "dsb \n"
       "isb \n"
-      "movs r0, #0 \n"
+      "vmrs r0, fpscr \n"
+      "and r0, r0, #0x70000 \n"
       "vmsr fpscr, r0 \n"
 #endif
       "ldr r0, =port_prepare_memory \n"

@@ -211,6 +211,16 @@ struct Motion {
     float spin_radps = 0.0F;   ///< counter-clockwise
 };
 
+/// What holds a free body. A velocity that is held stays as told (`Motion`): of a hinge that of the
+/// origin, of the others that of the centre of mass.
+enum class Hold : std::uint8_t {
+    none,     ///< it moves and turns
+    hinge,    ///< it turns about its origin: a water wheel, a flap, a seesaw
+    rail_x,   ///< it goes along x and does not turn
+    rail_y,   ///< along y: a lift, a float in a shaft
+    upright,  ///< it moves and does not turn
+};
+
 /// A solid: a simple polygon, with holes or without, given in the body's own frame.
 struct BodyDef {
     /// Outer ring, m; 3 … kMaxBodyVertices vertices, holes included and 3 more for each; either
@@ -224,6 +234,7 @@ struct BodyDef {
     Surface surface;
     /// Of the body over the first liquid's, for `add_free_body` and `mass`; 1e-3 … 1e3.
     float density_ratio = 0.5F;
+    Hold hold = Hold::none;    ///< for `add_free_body`
 };
 
 }  // namespace weir

@@ -54,7 +54,9 @@ public:
     /// Bodies that are in each other are moved apart, by at most 1/16 cell in a substep. A body has
     /// room for 6 points at which it meets something, which all share; of more the nearest count.
     /// What is smaller than 2.4 cells is braked in its turning by the liquid that it is in.
-    /// Joints, and whatever else moves bodies, are for a physics engine (`examples/box2d`).
+    /// `def.hold` puts it on a hinge or a rail, which are part of the solve: a water wheel of any
+    /// density is stable. Other joints, and whatever else moves bodies, are for a physics engine
+    /// (`examples/box2d`).
     /// Any density is stable with Pressure::projection, down to about a tenth of the liquid's with
     /// the other. What is over 40 times as heavy as what it lies on wants steps below 1/60 s.
     /// Wants `capacity.two_way`; not in `SmallFixed` (`Status::free_body_in_small_world`).
@@ -74,9 +76,13 @@ public:
     Status move_body(BodyId id, Vec2f position_m, float angle_rad, float dt_s);
     /// Where a body is now, after the steps that were taken.
     Status motion(BodyId id, Motion* motion) const;
+    /// From now on: a belt that is switched on, a floor that becomes slippery. Any kind of body.
+    Status set_surface(BodyId id, const Surface& surface);
     Status remove_body(BodyId id);
 
-    /// What the liquid did to a body in the last step. Wants `capacity.two_way`. Of what the method
+    /// What the liquid did to a body in the last step. Wants `capacity.two_way`. To move a body by it
+    /// from step to step is stable only if that is heavier than the liquid that it takes along;
+    /// `add_free_body` knows no such limit. Of what the method
     /// itself does to momentum bodies that are not free, and the tank, have their share.
     Status force(BodyId id, BodyForce* force) const;
     /// And to the tank: pressure on its walls, particles that hit them, drag of those without slip.
