@@ -19,6 +19,11 @@ struct Part {
 /// More than this is left by no slice; `step` makes as many as it needs.
 inline constexpr std::int32_t kMostWork = 0x7FFFFFFF;
 
+/// What an item of that cost comes to if it turns out to take so much more. Saturates.
+inline std::int32_t cost_with(std::int32_t cost, std::int32_t more) {
+    return more < kMostWork - cost ? cost + more : kMostWork;
+}
+
 /// How far a walk has come, and how much of it may still be done now. Its unit is one cell or one
 /// particle looked at by one loop.
 class Progress {

@@ -60,10 +60,10 @@ inline std::int16_t short_of(std::int32_t value) {
 
 /// Factor, in 128ths, times value; |factor| < 2^15. In two halves where the product is too long.
 inline std::int32_t scaled(std::int32_t factor, std::int32_t value) {
-    const std::int32_t high = value >> 14;
+    const std::int32_t high = clamp(value >> 14, -0xFFFF, 0xFFFF);
     const std::int32_t low = value & 0x3FFF;
-    const std::int32_t most = 0x7FFFFFFF >> 7;
-    const std::int32_t part = clamp(high * factor, -most, most - 0x4000);
+    const std::int32_t most = (0x7FFFFFFF >> 7) - 0x8000;
+    const std::int32_t part = clamp(high * factor, -most, most);
     return part * 128 + ((low * factor) >> 7);
 }
 

@@ -56,7 +56,8 @@ template <bool Solids, class Weights, class Fields>
     const bool wide = !Solids || untouched(walls, c, up);
     std::int32_t flow = rounded_shift(outwards, 7);
     if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
-        flow += rounded_shift(wall_flow(s, walls, i, j).raw, 9);
+        constexpr std::int32_t kMost = 0x7FFFFE00;  // a fast spin's end saturates
+        flow += rounded_shift(minimum(wall_flow(s, walls, i, j).raw, kMost), 9);
     }
     fields.divergence[c].raw = short_of(flow);
     fields.inverse_diagonal[c].raw = short_of(wide ? diagonal : -diagonal);

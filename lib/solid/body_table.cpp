@@ -119,6 +119,17 @@ bool any_without_slip(const BodyTable<Real>& table) {
 }
 
 template <class Real>
+bool any_free(const BodyTable<Real>& table) {
+    for (std::int32_t slot = 0; table.load != nullptr && slot < table.capacity; ++slot) {
+        if (table.body[slot].kind != BodyKind::free &&
+            table.load[slot].inverse_mass != Face<Real>(0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <class Real>
 void place(BodyTable<Real>& table, const Body<Real>& body) {
     const Rotation<Real> turn = rotation(body.angle);
     for (std::int32_t k = 0; k < body.vertex_count; ++k) {
@@ -184,6 +195,7 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     template void add_polyline(BodyTable<Real>&, const BodyDef&, Face<Real>, Body<Real>&); \
     template void note_movable(BodyTable<Real>&);                                          \
     template bool any_without_slip(const BodyTable<Real>&);                                \
+    template bool any_free(const BodyTable<Real>&);                                        \
     template void place(BodyTable<Real>&, const Body<Real>&);                              \
     template void lead(BodyTable<Real>&, std::int32_t, bool);                              \
     template void end_leads(BodyTable<Real>&);                                             \

@@ -48,6 +48,7 @@ struct Body {
     bool open = false;              ///< a polyline
     bool hollow = false;            ///< thin all over: the nodes do not show it
     bool led = false;               ///< until the step is done: `World::move_body`
+    bool leapt = false;             ///< a call has put it elsewhere since the last step
 
     bool has_speed() const {
         return velocity.x != Real(0) || velocity.y != Real(0) || spin != Real(0);
@@ -130,6 +131,10 @@ void note_movable(BodyTable<Real>& table);
 /// Whether viscous liquid would stick to any body.
 template <class Real>
 bool any_without_slip(const BodyTable<Real>& table);
+
+/// Whether any body is free, also if it is led.
+template <class Real>
+bool any_free(const BodyTable<Real>& table);
 
 /// Turns and moves the vertices to the body's pose.
 template <class Real>

@@ -26,7 +26,7 @@ bool can_hold(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan)
             continue;
         }
         const Real speed = body.fastest_point();
-        if (body.moved || !(substeps * (plan.dt_s * speed) <= kFurthestHeld<Real>)) {
+        if (body.leapt || !(substeps * (plan.dt_s * speed) <= kFurthestHeld<Real>)) {
             return false;
         }
         moving = moving || speed > Real(0);

@@ -192,7 +192,9 @@ inline bool mirror_of(const FaceAxis<Real>& axis, const LevelOf<Real>* level,
         const Vec2<Real> wall =
             mirror.sticks ? axis.wall(slot, centre - Real::of_raw(128 * distance) * n, n)
                           : wall_velocity(walls, face, other, centre);
-        mirror.wall = {rounded_shift(wall.x.raw, 8), rounded_shift(wall.y.raw, 8)};
+        constexpr std::int32_t kMost = 0x7FFFFF00;  // a fast spin's end saturates
+        mirror.wall = {rounded_shift(clamp(wall.x.raw, -kMost, kMost), 8),
+                       rounded_shift(clamp(wall.y.raw, -kMost, kMost), 8)};
     }
     constexpr std::int32_t kReach = 512;
     const std::int32_t depth = mirror.sticks ? -distance : maximum(-distance, 0);

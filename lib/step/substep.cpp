@@ -35,6 +35,7 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s)
     walls.moving = false;
     for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         Body<Real>& body = table.body[slot];
+        body.leapt = false;
         if (body.kind != BodyKind::moving ||
             (table.load != nullptr && table.load[slot].is_free())) {
             continue;
@@ -59,7 +60,6 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     const detail::Elasticity<Real>* elasticity = simulation.pressure.elasticity;
     if (work.once(1)) {
         const Vec2<Real> g = settings.gravity;
-        simulation.pressure.settling = plan.settling;
         simulation.pressure.cell_weight = plan.dt_s * maximum(absolute(g.x), absolute(g.y));
         if (elasticity != nullptr) {
             elasticity->follow_sound(plan.sound_speed, simulation.pressure);
@@ -92,11 +92,13 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
                 settings.surface_tension > Real(0), simulation.grid, work);
 }
 
-/// Whoever looks at levels has to know whether there is surface tension (`least_head`).
+/// Whoever looks at levels has to know whether there is surface tension (`least_head`), and what
+/// follows whether liquid is led to rest.
 template <class Real>
 void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     const Settings<Real>& settings = simulation.settings;
     PressureFields<Real>& fields = simulation.pressure;
+    fields.settling = plan.settling;
     fields.on_surface = fields.on_surface ||
                         (!Stored<Real>::coarse && plan.surface_tension > Real(0));
     surface_level(simulation.grid, settings.borders, simulation.layers.walls, settings.rest_count,
@@ -240,8 +242,8 @@ void skip_empty(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
         simulation.occupied = simulation.grid.shape;
     }
     if (windowed && work.foreseeing()) {
-        work.expect(1, kLooksBeyond * particles.count);
-        work.expect(1, simulation.window.cells +
+        work.expect(1, kLooksBeyond * particles.count + 1);
+        work.expect(1, 1 + simulation.window.cells +
                            most_stored_nodes(simulation.layers, simulation.bodies));
     }
 }
@@ -283,7 +285,9 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         work.spend(nodes);
     }
     if (work.foreseeing()) {
-        work.expect(1, plan.walls_held ? 0 : most_nodes(simulation.layers, simulation.bodies));
+        const BodyTable<Real>& table = simulation.bodies;
+        work.expect(1, cost_with(maximum(std::int32_t{table.capacity}, table.vertices_used + 1),
+                                 plan.walls_held ? 0 : most_nodes(simulation.layers, table)));
     }
 }
 
@@ -349,10 +353,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     }
     clock.charge(Stage::volume);
 
-    if (Solids && two_way != nullptr && work.once(simulation.bodies.vertices_used + 1)) {
-        const std::int32_t before = report.nodes_rasterized;
-        two_way->move_bodies(simulation, dt_s, report);
-        work.spend(report.nodes_rasterized - before);
+    if (Solids && two_way != nullptr) {
+        move_free(simulation, dt_s, work, report);
         clock.charge(Stage::contour);
     }
     gather<Solids>(simulation, plan, work, clock, report);

@@ -167,6 +167,19 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along, std::uint32_t ow
               TankBlow<Real>{gather.transfer, nullptr}, x, v);
     place = {Place(x.x), Place(x.y)};
     speed = {Speed(v.x), Speed(v.y)};
+    // A conveyor may have made it faster than whatever comes after knows of.
+    const std::int32_t limit = gather.transfer.limit.raw / 512;
+    const std::int32_t fastest =
+        maximum(absolute(std::int32_t{speed.x.raw}), absolute(std::int32_t{speed.y.raw}));
+    if (fastest > limit) {
+        const auto within = [&](Speed along) {
+            const std::int32_t raw = clamp(std::int32_t{along.raw}, -limit, limit);
+            return Speed::of_raw(static_cast<std::int16_t>(raw));
+        };
+        speed = {within(speed.x), within(speed.y)};
+        ++result.slowed;
+    }
+    result.max_speed = maximum(result.max_speed, Real::of_raw(512 * minimum(fastest, limit)));
 }
 
 // Of ways and places in a word: halves of both, and what goes no further than a cell.
@@ -323,11 +336,12 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
         fastest = (transfer.keeps_places ? gather_v<true> : gather_v<kAlwaysKeeps>)(
             gather, strip, ways, fastest, result);
     }
-    result.max_speed = transfer.max_speed;
+    result.max_speed = maximum(result.max_speed, transfer.max_speed);
     if (fastest > known * known) {
         const std::uint32_t speed =
             fixed::root_below(static_cast<std::uint32_t>(fastest)).root;
-        result.max_speed = Real::of_raw(512 * static_cast<std::int32_t>(speed));
+        result.max_speed =
+            maximum(result.max_speed, Real::of_raw(512 * static_cast<std::int32_t>(speed)));
     }
     if (result.max_speed > transfer.limit) {
         // Down to what a velocity can be: rounded up, it would be faster than it may.

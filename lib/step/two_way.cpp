@@ -71,7 +71,8 @@ void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, Work wo
         }
     }
     if (free_bodies != nullptr && work.foreseeing()) {
-        work.expect(1, free_bodies->most_looks(simulation.bodies));
+        work.expect(1, cost_with(simulation.bodies.capacity,
+                                 free_bodies->most_looks(simulation.bodies)));
     }
 }
 
@@ -93,7 +94,7 @@ void charge_rounds(const Simulation<Real>& simulation, const SubstepPlan<Real>& 
         work.spend(rounds(false));
     }
     if (work.foreseeing()) {
-        work.expect(1, rounds(true));
+        work.expect(1, cost_with(1, rounds(true)));
     }
 }
 

@@ -32,4 +32,15 @@ struct detail::TwoWay {
     Decompose<Real> decompose;
 };
 
+/// Free bodies move, as the pressure has left them.
+template <class Real>
+inline void move_free(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work,
+                      StepReport& report) {
+    if (work.once(simulation.bodies.vertices_used + 1)) {
+        const std::int32_t before = report.nodes_rasterized;
+        simulation.two_way->move_bodies(simulation, dt_s, report);
+        work.spend(report.nodes_rasterized - before);
+    }
+}
+
 }  // namespace weir

@@ -237,7 +237,7 @@ void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldSta
         body_members(members, extents.vertices - places, table, body);
         const bool exists = body.kind != BodyKind::free;
         if (exists ? body.vertex_count < 2 || body.vertex_count > kMaxBodyVertices
-                   : body.room > 0 || body.moved) {
+                   : body.room > 0 || body.moved || body.leapt) {
             reader.refuse();
         }
         body.first_vertex = places;
@@ -269,12 +269,10 @@ void redraw(Simulation<Real>& simulation) {
         if (table.body[slot].kind != BodyKind::free) {
             ++table.used;
             place(table, table.body[slot]);
-            if constexpr (!Stored<Real>::shares_momentum) {
-                if (table.load != nullptr && table.load[slot].inverse_mass != Face<Real>(0)) {
-                    simulation.free_bodies = &free_body_stages<Real>();
-                }
-            }
         }
+    }
+    if constexpr (!Stored<Real>::shares_momentum) {
+        simulation.free_bodies = any_free(table) ? &free_body_stages<Real>() : nullptr;
     }
     note_movable(table);
     simulation.layers.walls.active = table.used > 0;

@@ -105,6 +105,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(quiet_turn, 0, kQuietEvery);
     stream.member(crowded, false, true);
     stream.member(still_s, 0.0F, def.sleep.after_s);
+    stream.member(stepped_s, 0.0F, 1.0e9F);
     any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);
     Extents extents;
@@ -133,7 +134,7 @@ void body_members(Stream& stream, std::int32_t most_places, const BodyTable<Real
                   Body<Real>& record) {
     auto& [position, velocity, angle, spin, surface, radius, first_vertex, vertex_count, room,
            rings, piece_length, drawn, left, met_position, met_angle, generation, kind, moved,
-           open, hollow, led] = record;
+           open, hollow, led, leapt] = record;
     auto& [restitution, friction, conveyor, no_slip] = surface;
     stream.member(kind, BodyKind::free, BodyKind::moving);
     stream.member(generation, 0, 0xFFFF);
@@ -149,6 +150,7 @@ void body_members(Stream& stream, std::int32_t most_places, const BodyTable<Real
     stream.member(moved, false, true);
     stream.member(open, false, true);
     stream.member(led, false, true);
+    stream.member(leapt, false, true);
     any_member(stream, met_position);
     angle_member(stream, met_angle);
     const std::int32_t places = stream.member(room, 0, most_places);

@@ -66,6 +66,9 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
         if (body.led) {
             hash.add(std::uint32_t{2});
         }
+        if (body.leapt) {
+            hash.add(std::uint32_t{3});
+        }
         for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
             hash.add(table.outline(body).end_of(ring));
         }

@@ -62,10 +62,10 @@ Status check_liquids(const WorldDef& def) {
     return Status::ok;
 }
 
-Status check_borders(const WorldDef& def) {
+Status check_borders(const WorldDef& def, const Reach& reach) {
     const Surface walls[] = {def.walls.bottom, def.walls.right, def.walls.top, def.walls.left};
     for (const Surface& wall : walls) {
-        const Status surface = check_surface(wall, def.cell_m);
+        const Status surface = check_surface(wall, def.cell_m, reach);
         if (surface != Status::ok) {
             return surface;
         }
@@ -215,7 +215,7 @@ Status check_world(const WorldDef& def, const Reach& reach) {
     if (liquids != Status::ok) {
         return liquids;
     }
-    const Status borders = check_borders(def);
+    const Status borders = check_borders(def, reach);
     if (borders != Status::ok) {
         return borders;
     }
@@ -275,7 +275,7 @@ Status check_body(const BodyDef& def, float cell_m, const Reach& reach) {
     if (motion != Status::ok) {
         return motion;
     }
-    const Status surface = check_surface(def.surface, cell_m);
+    const Status surface = check_surface(def.surface, cell_m, reach);
     if (surface != Status::ok) {
         return surface;
     }
@@ -286,14 +286,14 @@ Status check_body(const BodyDef& def, float cell_m, const Reach& reach) {
                                                       : Status::body_density_out_of_range;
 }
 
-Status check_surface(const Surface& surface, float cell_m) {
+Status check_surface(const Surface& surface, float cell_m, const Reach& reach) {
     if (!within(surface.restitution, 0.0F, 1.0F)) {
         return Status::restitution_out_of_range;
     }
     if (!within(surface.friction, 0.0F, 1000.0F)) {
         return Status::friction_out_of_range;
     }
-    const float fastest = kMaxSpeed * cell_m;
+    const float fastest = reach.speed * cell_m;
     return within(surface.conveyor_mps, -fastest, fastest) ? Status::ok
                                                            : Status::conveyor_out_of_range;
 }

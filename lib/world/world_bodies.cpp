@@ -92,6 +92,13 @@ void weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& b
     load.inertia = density * moments.inertia;
 }
 
+/// Nothing smaller than a thousandth of a cell does: its inverse would be noise.
+template <class Real>
+bool weighs_something(const BodyLoad<Real>& load) {
+    constexpr Face<Real> kLeast = Face<Real>(1.0e-12);
+    return load.mass > kLeast && load.inertia > kLeast;
+}
+
 /// Not in one frame with the check, which goes deeper than anything else that is done with a body.
 template <class Real>
 [[gnu::noinline]] Status enter(WorldState<Real>& state, const BodyDef& def, BodyKind kind,
@@ -118,6 +125,14 @@ template <class Real>
         table.vertices_used -= body.room;
         return Status::polygon_outside_domain;
     }
+    BodyLoad<Real> load;
+    if (table.load != nullptr) {
+        weigh(def, table, body, load);
+        if (!def.open && !weighs_something(load)) {
+            table.vertices_used -= body.room;
+            return Status::polygon_zero_area;
+        }
+    }
     body.radius = radius_of(table, body);
     body.met_position = body.position;
     body.met_angle = body.angle;
@@ -133,7 +148,7 @@ template <class Real>
     layers.walls.active = true;
     layers.walls.any_sticking = any_without_slip(table);
     if (table.load != nullptr) {
-        weigh(def, table, body, table.load[slot]);
+        table.load[slot] = load;
     }
     if (kind == BodyKind::fixed) {
         draw_static(layers, table, slot);
@@ -243,7 +258,7 @@ Status World<Real>::set_motion(BodyId id, const Motion& motion) {
     lead(table, id.slot, false);
     set_pose(*state_, motion, body);
     if (position.x != body.position.x || position.y != body.position.y || angle != body.angle) {
-        body.moved = true;
+        body.moved = body.leapt = true;
         place(table, body);
         touch_regions(state_->simulation.regions, body.drawn);
         touch_regions(state_->simulation.regions, box_of(state_->simulation, body));
@@ -318,7 +333,7 @@ Status World<Real>::set_surface(BodyId id, const Surface& surface) {
         valid = check_id(*state_, id);
     }
     if (valid == Status::ok) {
-        valid = check_surface(surface, state_->def.cell_m);
+        valid = check_surface(surface, state_->def.cell_m, reach_of<Real>(state_->unit_exponent));
     }
     if (valid != Status::ok) {
         return valid;
@@ -352,6 +367,9 @@ Status World<Real>::remove_body(BodyId id) {
     remove_drawn(state_->simulation.layers, table, id.slot);
     if (table.load != nullptr) {
         table.load[id.slot] = BodyLoad<Real>{};
+    }
+    if (!any_free(table)) {
+        state_->simulation.free_bodies = nullptr;
     }
     wake(*state_);
     return Status::ok;

@@ -22,8 +22,9 @@ void hold(Hold hold, BodyLoad<Real>& load) {
 
 template <class Real>
 Status World<Real>::add_free_body(const BodyDef& def, BodyId* id) {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     Simulation<Real>& simulation = state_->simulation;
     if (simulation.bodies.load == nullptr) {

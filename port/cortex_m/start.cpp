@@ -33,8 +33,9 @@ void port_fault();
 
 /// No compiled code runs before the FPU is on: at -O2 the compiler may use its registers to copy
 /// memory. FPSCR = 0: denormals are kept and rounding is to nearest, which the same-bits promise
-/// needs; but LTPSIZE stays, which loops of Armv8.1-M go by. main() runs on the process stack (PSP),
-/// faults on the main stack (MSP), so that a fault caused by the former has somewhere to run.
+/// needs; but LTPSIZE stays, which loops of Armv8.1-M go by. main() runs on the process stack
+/// (PSP), faults on the main stack (MSP), so that a fault caused by the former has somewhere to
+/// run.
 [[gnu::naked, gnu::used]] void port_reset() {
   asm volatile(
 #if defined(__ARM_FP)

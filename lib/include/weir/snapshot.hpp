@@ -13,7 +13,8 @@ namespace weir {
 
 /// Rooms for what is written member by member; snapshot.cpp checks that they suffice.
 inline constexpr std::size_t kSnapshotFrameBytes = 192;
-inline constexpr std::size_t kSnapshotBodyBytes = 128;
+template <class Real>
+inline constexpr std::size_t kSnapshotBodyBytes = sizeof(Real) == 4 ? 128 : 192;
 inline constexpr std::size_t kSnapshotRegionsBytes = 96;
 
 /// Bytes of the largest snapshot that a world of that capacity can have. A world that is not full
@@ -22,7 +23,7 @@ template <class Real>
 constexpr std::size_t snapshot_bytes(const Capacity& capacity) {
     const Layout plan = layout<Real>(capacity);
     std::size_t bytes = kSnapshotFrameBytes +
-                        kSnapshotBodyBytes * static_cast<std::size_t>(capacity.bodies);
+                        kSnapshotBodyBytes<Real> * static_cast<std::size_t>(capacity.bodies);
     bytes += capacity.sleeping_regions ? kSnapshotRegionsBytes : 0;
     for (std::int32_t block = 0; block < kBlockCount; ++block) {
         const Kept kept = plan.kept[block];

@@ -80,8 +80,8 @@ public:
     Status set_surface(BodyId id, const Surface& surface);
     Status remove_body(BodyId id);
 
-    /// What the liquid did to a body in the last step. Wants `capacity.two_way`. To move a body by it
-    /// from step to step is stable only if that is heavier than the liquid that it takes along;
+    /// What the liquid did to a body in the last step. Wants `capacity.two_way`. To move a body by
+    /// it from step to step is stable only if that is heavier than the liquid that it takes along;
     /// `add_free_body` knows no such limit. Of what the method
     /// itself does to momentum bodies that are not free, and the tank, have their share.
     Status force(BodyId id, BodyForce* force) const;
