@@ -1,12 +1,13 @@
 #include "port/port.hpp"
 #include "weir/weir.hpp"
 
-constexpr weir::Capacity kCapacity = [] {
-    weir::Capacity c;
-    c.particles = 1000, c.cells_x = 40, c.cells_y = 24, c.bodies = 2, c.vertices = 8;
-    return c;
+constexpr weir::WorldDef kWater = [] {
+    weir::WorldDef def;  // in cells of 2 cm; weir/config.hpp explains every field
+    def.capacity.particles = 1000, def.capacity.bodies = 2, def.capacity.vertices = 8;
+    def.capacity.cells_x = 40, def.capacity.cells_y = 24;
+    return def;
 }();
-alignas(weir::world_alignment) std::byte g_memory[weir::world_bytes<float>(kCapacity)];
+alignas(weir::world_alignment) std::byte g_memory[weir::world_bytes<float>(kWater.capacity)];
 static_assert(sizeof g_memory <= 96 * 1024, "must leave room in 128 KB of RAM");
 weir::World<float> g_world;
 
@@ -17,9 +18,7 @@ void require(weir::Status status) { if (status != weir::Status::ok) port::exit(1
 
 int main() {
     port::init();
-    weir::WorldDef def;  // water, in cells of 2 cm; weir/config.hpp explains every field
-    def.capacity = kCapacity;
-    require(g_world.init(def, g_memory));
+    require(g_world.init(kWater, g_memory));
     weir::BodyDef ramp, bar;
     weir::BodyId ramp_id, bar_id;
     ramp.polygon = {kRamp, 3};

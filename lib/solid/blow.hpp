@@ -33,6 +33,10 @@ template <class Real>
 void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
           Vec2<Real> after) {
     Particles<Real>& particles = scene.particles;
+    if constexpr (Stored<Real>::coarse) {  // what cannot be kept is not given, either
+        constexpr Real kMost = Real(256);
+        after = {clamp(after.x, -kMost, kMost), clamp(after.y, -kMost, kMost)};
+    }
     const Vec2<Real> before = particles.velocity[k];
     particles.velocity[k] = after;
     const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;

@@ -31,6 +31,31 @@ std::int32_t limited_distance(Number distance) {
     return distance < Number(0) ? -filled(Number(-distance)) : filled(distance);
 }
 
+/// Pixels' centres along an axis, one after the other, in 1/kOne cells. One division for all.
+class Places {
+public:
+    Places(std::int32_t pixels, std::int32_t cells)
+        : over_(2 * pixels), step_(2 * cells * kOne / over_), rest_(2 * cells * kOne % over_),
+          at_(cells * kOne / over_), left_(cells * kOne % over_) {}
+
+    std::int32_t at() const { return at_; }
+    void next() {
+        at_ += step_;
+        left_ += rest_;
+        if (left_ >= over_) {
+            left_ -= over_;
+            ++at_;
+        }
+    }
+
+private:
+    std::int32_t over_;
+    std::int32_t step_;
+    std::int32_t rest_;
+    std::int32_t at_;
+    std::int32_t left_;
+};
+
 /// A place along an axis between two samples.
 struct Between {
     std::int32_t low;
@@ -38,34 +63,54 @@ struct Between {
     std::int32_t part;  ///< 0 … kOne − 1 of the way
 };
 
-/// Pixel k of `pixels` over samples that stand at `first` + n, in 1/kOne cells; ends repeat.
-Between between(std::int32_t k, std::int32_t pixels, std::int32_t cells, std::int32_t first,
-                std::int32_t samples) {
-    // Most pixels over most cells are just below 2³².
-    const std::uint32_t place = static_cast<std::uint32_t>(2 * k + 1) *
-                                static_cast<std::uint32_t>(cells * kOne);
-    const std::int32_t at =
-        static_cast<std::int32_t>(place / static_cast<std::uint32_t>(2 * pixels)) - first;
-    const std::int32_t low = clamp(at >> 8, 0, samples - 1);
-    return {low, clamp((at >> 8) + 1, 0, samples - 1), at & (kOne - 1)};
+/// Samples stand at `first` + n, in 1/kOne cells; ends repeat.
+Between between(std::int32_t place, std::int32_t first, std::int32_t samples) {
+    const std::int32_t at = place - first;
+    return {clamp(at >> 8, 0, samples - 1), clamp((at >> 8) + 1, 0, samples - 1),
+            at & (kOne - 1)};
 }
 
-template <class Field, class Value>
-std::int32_t sample(const Field& field, std::int32_t beyond, const Between& x, const Between& y,
-                    Value value) {
-    const auto at = [&](std::int32_t i, std::int32_t j) {
-        i -= field.first_column;  // what is not stored is empty, and open
+/// Two rows of samples with a row of pixels between them. What is not stored is empty, and open.
+template <class Field, class Number>
+class Rows {
+public:
+    Rows(const Field& field, const Between& y, Number beyond)
+        : low_(row(field, y.low)), high_(row(field, y.high)), first_(field.first_column),
+          columns_(field.columns), part_(y.part), beyond_(beyond) {}
+
+    /// Whether test(sample) holds for all four around.
+    template <class Test>
+    bool all(const Between& x, Test test) const {
+        return test(at(low_, x.low)) && test(at(low_, x.high)) && test(at(high_, x.low)) &&
+               test(at(high_, x.high));
+    }
+    template <class Value>
+    std::int32_t sample(const Between& x, Value value) const {
+        const auto along = [&](const Number* row) {
+            const std::int32_t left = value(at(row, x.low));
+            return left * kOne + x.part * (value(at(row, x.high)) - left);
+        };
+        const std::int32_t low = along(low_);
+        return (low + part_ * ((along(high_) - low) >> 8)) >> 8;
+    }
+
+private:
+    static const Number* row(const Field& field, std::int32_t j) {
         j -= field.first_row;
-        return 0 <= i && i < field.columns && 0 <= j && j < field.rows ? value(field.at(i, j))
-                                                                       : beyond;
-    };
-    const auto row = [&](std::int32_t j) {
-        const std::int32_t left = at(x.low, j);
-        return left * kOne + x.part * (at(x.high, j) - left);
-    };
-    const std::int32_t low = row(y.low);
-    return (low + y.part * ((row(y.high) - low) >> 8)) >> 8;
-}
+        return 0 <= j && j < field.rows ? &field.at(0, j) : nullptr;
+    }
+    Number at(const Number* row, std::int32_t i) const {
+        i -= first_;
+        return row != nullptr && 0 <= i && i < columns_ ? row[i] : beyond_;
+    }
+
+    const Number* low_;
+    const Number* high_;
+    std::int32_t first_;
+    std::int32_t columns_;
+    std::int32_t part_;
+    Number beyond_;
+};
 
 /// The shade of so full a place, kept as long as it is near enough.
 std::uint32_t shade_of(const Display& display, std::int32_t full, std::uint32_t before) {
@@ -78,42 +123,56 @@ std::uint32_t shade_of(const Display& display, std::int32_t full, std::uint32_t 
     return static_cast<std::uint32_t>((exact + kOne / 2) >> 8);
 }
 
+/// A row of pixels at that height. Whether any changed.
+template <class Real>
+bool draw_row(const World<Real>& world, const Display& display, std::int32_t y,
+              std::uint8_t* pixels) {
+    const auto density = world.density();
+    const auto distance = world.signed_distance();
+    const std::int32_t columns = world.cells_x();
+    const std::int32_t rows = world.cells_y();
+    const Rows<FieldView<DensityOf<Real>>, DensityOf<Real>> cells(
+        density, between(y, kOne / 2, rows), DensityOf<Real>(0));
+    const Rows<FieldView<DistanceOf<Real>>, DistanceOf<Real>> nodes(
+        distance, between(y, 0, rows + 1), DistanceOf<Real>(1));
+    const auto is_open = [](DistanceOf<Real> d) { return d > DistanceOf<Real>(0); };
+    const auto near = [](DistanceOf<Real> d) { return limited_distance(d); };
+    const auto full = [](DensityOf<Real> d) { return filled(d); };
+    bool changed = false;
+    Places x(display.width, columns);
+    for (std::int32_t column = 0; column < display.width; ++column, x.next()) {
+        std::uint8_t& pair = pixels[column / 2];
+        const std::uint32_t shift = (column & 1) == 0 ? 4U : 0U;
+        const std::uint32_t before = (static_cast<std::uint32_t>(pair) >> shift) & 15U;
+        const Between node = between(x.at(), 0, columns + 1);
+        std::uint32_t shade = display.solid;
+        if (distance.data == nullptr || nodes.all(node, is_open) || nodes.sample(node, near) > 0) {
+            const Between cell = between(x.at(), kOne / 2, columns);
+            shade = shade_of(display, cells.sample(cell, full), before);
+        }
+        if (shade != before) {
+            pair = static_cast<std::uint8_t>((pair & (0xF0U >> shift)) | shade << shift);
+            changed = true;
+        }
+    }
+    return changed;
+}
+
 }  // namespace
 
 template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display) {
-    const auto density = world.density();
-    const auto distance = world.signed_distance();
     const bool can_be = display.pixels != nullptr && display.width % 2 == 0 &&
-                        display.width <= kMostPixels && within(display.height, 0, kMostPixels);
-    if (density.data == nullptr || !can_be) {
+                        within(display.width, 2, kMostPixels) &&
+                        within(display.height, 1, kMostPixels);
+    if (world.density().data == nullptr || !can_be) {
         return {};
     }
     ChangedRows changed{display.height, -1};
-    for (std::int32_t row = 0; row < display.height; ++row) {
-        const std::int32_t up = display.height - 1 - row;
-        const Between cell_y = between(up, display.height, world.cells_y(), kOne / 2,
-                                       world.cells_y());
-        const Between node_y = between(up, display.height, world.cells_y(), 0,
-                                       world.cells_y() + 1);
-        for (std::int32_t column = 0; column < display.width; ++column) {
-            std::uint8_t& pair = display.pixels[(row * display.width + column) / 2];
-            const std::uint32_t shift = (column & 1) == 0 ? 4U : 0U;
-            const std::uint32_t before = (static_cast<std::uint32_t>(pair) >> shift) & 15U;
-            const Between node_x =
-                between(column, display.width, world.cells_x(), 0, world.cells_x() + 1);
-            std::uint32_t shade = display.solid;
-            const auto near = [](auto value) { return limited_distance(value); };
-            if (distance.data == nullptr || sample(distance, kOne, node_x, node_y, near) > 0) {
-                const Between cell_x = between(column, display.width, world.cells_x(), kOne / 2,
-                                               world.cells_x());
-                const auto full = [](auto value) { return filled(value); };
-                shade = shade_of(display, sample(density, 0, cell_x, cell_y, full), before);
-            }
-            if (shade != before) {
-                pair = static_cast<std::uint8_t>((pair & (0xF0U >> shift)) | shade << shift);
-                changed = {minimum(changed.first, row), row};
-            }
+    Places y(display.height, world.cells_y());
+    for (std::int32_t row = display.height - 1; row >= 0; --row, y.next()) {
+        if (draw_row(world, display, y.at(), display.pixels + row * display.width / 2)) {
+            changed = {row, maximum(changed.last, row)};
         }
     }
     return changed;

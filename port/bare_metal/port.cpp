@@ -8,7 +8,7 @@
 namespace port {
 namespace {
 
-int g_console = -1;
+int g_console = 0;  // its handle + 1, so that a fault before data was set up finds it closed
 
 /// Not on the stack, where it would be the high-water mark of small programs.
 char g_command_line[512];
@@ -26,8 +26,8 @@ bool in_word(char character) { return character != '\0' && character != ' '; }
 void init() {}  // the start-up code has done it
 
 void write(const char* text, std::size_t bytes) {
-  if (g_console < 0) g_console = semihosting::open(":tt", semihosting::Mode::kConsoleWrite);
-  semihosting::write(g_console, text, bytes);
+  if (g_console == 0) g_console = semihosting::open(":tt", semihosting::Mode::kConsoleWrite) + 1;
+  semihosting::write(g_console - 1, text, bytes);
 }
 
 void exit(int code) { semihosting::exit(code); }

@@ -45,7 +45,8 @@ struct Capacity {
     bool moving_bodies = true;      ///< false: static ones only, and 4 to 6 bytes less a cell
     std::int32_t vertices = 0;      ///< 0 … kMaxVertices, of all bodies; and 3 a hole
     /// Walls thinner than 1.5 cells: room for their edges, 0 … kMaxWallEdges, about 3 for each cell
-    /// of their length and 6 for each edge. 0: none, and polygons that thin are not tight.
+    /// of their length and 6 for each edge. 0: none, and polygons that thin are not tight. With
+    /// such a wall anywhere in the tank steps take 1.5 to 3 times as long.
     std::int32_t wall_edges = 0;
     std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
     /// Room and time for what liquid does to bodies and tank: `World::force`, `add_free_body`
@@ -181,6 +182,7 @@ struct WorldDef {
 
     /// Density of the second liquid over that of the first; 0.01 … 100. Only with
     /// `capacity.second_liquid`, and with Pressure::projection. Unlike densities want more sweeps.
+    /// Poured in, 0.8 rises within 20 s of 30 cells of water, 0.9 within 80.
     float second_density_ratio = 1.0F;
 
     TankWalls walls;

@@ -29,7 +29,8 @@ struct ChangedRows {
 /// Draws the world over the whole display: the density of cells, bilinear between their centres,
 /// as `World::density` knows it; solids where the contour is. Integers only. A display that cannot
 /// be, without pixels or of an odd width, is left as it is.
-/// Cost: about 60 instructions a pixel.
+/// Cost: 140 instructions a pixel on a Cortex-M4, 190 where there are bodies, 240 and more on an
+/// M0: whoever sleeps draws once when `StepReport::asleep` first says so, and then no more.
 template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display);
 

@@ -19,8 +19,7 @@ struct Packed {
         return value;
     }
     constexpr explicit Packed(SmallFixed value)
-        : raw(packed(((value.raw < kRoom ? value.raw : kRoom) + kHalf + (value.raw >> 31)) >>
-                     kShift)) {}
+        : raw(packed((value.raw + kHalf + (value.raw >> 31)) >> kShift)) {}
     constexpr Packed& operator=(SmallFixed value) { return *this = Packed(value); }
     template <class Number, std::enable_if_t<std::is_arithmetic<Number>::value, int> = 0>
     constexpr explicit Packed(Number value) : Packed(SmallFixed(value)) {}
@@ -41,7 +40,6 @@ struct Packed {
 private:
     static constexpr int kShift = 16 - Fraction;
     static constexpr std::int32_t kHalf = 1 << (kShift - 1);
-    static constexpr std::int32_t kRoom = 0x7FFFFFFF - kHalf;  ///< sums saturate there
     static constexpr bool kSigned = std::is_signed<Bits>::value;
     static constexpr std::int32_t kMost = (1 << (8 * sizeof(Bits) - (kSigned ? 1 : 0))) - 1;
     static constexpr std::int32_t kLeast = kSigned ? -kMost - 1 : 0;

@@ -97,6 +97,9 @@ public:
     /// All or nothing: refuses if not every particle has room.
     /// @param added number of particles, may be null.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
+    /// Particles in the same place with the same velocity stay together for ever: an inlet spreads
+    /// them, or gives them a speed. Beneath the surface they press what is there together, which
+    /// takes tens of seconds to make room (with `volume_gain` 1 it does at once).
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
     /// Removes the particle at that place in the views; the last particle takes its place, but
     /// after `let_regions_sleep` a sleeper's is taken by another sleeper, and that one's by it.
@@ -138,7 +141,8 @@ public:
     /// What the next step can cost at most, known before it begins.
     Status work_bound(float dt_s, WorkBound* bound, std::int32_t rung = 0) const;
     /// The lowest rung on which the next step is sure to need no more than that; the last one if
-    /// none is. It follows from the world and the numbers alone, so a run can be repeated.
+    /// none is. It follows from the world and the numbers alone, so a run can be repeated. Ticks
+    /// over work of the steps before (`StepReport`) tell how much a frame has time for.
     std::int32_t rung_within(float dt_s, std::int64_t work) const;
 
     /// Where the particles are, in cells: multiply by `cell_m`. Valid until the next call that
@@ -180,6 +184,8 @@ public:
     /// truncated, damaged or of another kind, whatever its bytes are, and leaves the world as it
     /// was. Bodies that were placed since the last step are seen where they are. Names of bodies
     /// hold the place of the world in memory: in one that lies elsewhere ask for the new ones.
+    /// Contacts are those of the next step. Of the same definition is a world only if both or none
+    /// let regions sleep.
     Status restore(const void* snapshot, std::size_t bytes);
     /// The name of the body in that slot of the table, 0 … capacity.bodies − 1.
     Status body_in_slot(std::int32_t slot, BodyId* id) const;
