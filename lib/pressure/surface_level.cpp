@@ -94,7 +94,7 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& bo
         std::int32_t c = s.index(columns.first, j);
         const std::int32_t end = s.index(columns.end, j);
         Part slivers;
-        if (thin != nullptr) {
+        if (any_marked(thin, s, j, j, kTouching)) {
             densities_beside_thin(grid, *thin, per_face, cut, c, end, slivers, fields);
         } else {
             if constexpr (kHasLanes<Real>) {

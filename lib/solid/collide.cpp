@@ -276,6 +276,17 @@ bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bo
 }
 
 #if WEIR_HAS_LANES
+/// The same of any of a block that did not go further.
+bool any_near_thin(const GridShape& s, const ThinWalls<float>& thin, const Vec2<float>* x,
+                   std::int32_t count) {
+    std::uint32_t marks = thin.reach > 1.0F ? std::uint32_t{kNear} : 0U;
+    const auto whole_of = [](float place) { return static_cast<std::int32_t>(place); };
+    for (std::int32_t n = 0; n < count; ++n) {
+        marks |= thin.mark[s.index(whole_of(x[n].x), whole_of(x[n].y))];
+    }
+    return (marks & kNear) != 0;
+}
+
 /// A block of which nobody went far, and without thin walls. Most particles are clearly outside.
 void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
                       std::int32_t count) {
@@ -301,7 +312,6 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
     }
     scene.result.tested += near.count;
 }
-
 #endif
 
 /// Nearly all particles are in cells without solid, and nearly all others clearly in the open.
@@ -359,8 +369,9 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
     } else {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
-            if (!flight.far && walls.thin == nullptr && !flight.beyond &&
-                maximum(shape.stride, shape.ny) < 0x8000) {
+            const Vec2<float>* position = particles.position + first;
+            if (!flight.far && !flight.beyond && maximum(shape.stride, shape.ny) < 0x8000 &&
+                (walls.thin == nullptr || !any_near_thin(shape, *walls.thin, position, count))) {
                 collide_in_lanes(scene, flight, first, count);
                 return;
             }

@@ -78,6 +78,30 @@ struct ThinWalls {
     bool moving = false;             ///< one of them has a velocity or a spin
 };
 
+/// Whether a cell of some rows has that mark: what those rows go through is done in lanes if none
+/// has. Null: there are no thin walls.
+template <class Real>
+inline bool any_marked(const ThinWalls<Real>* thin, const GridShape& s, std::int32_t first_j,
+                       std::int32_t last_j, ThinMark mark) {
+    if (thin == nullptr) {
+        return false;
+    }
+    std::uint64_t marks = 0;
+    for (std::int32_t j = maximum(first_j, 0); j <= minimum(last_j, s.ny - 1); ++j) {
+        const std::uint8_t* row = thin->mark + s.index(0, j);
+        std::int32_t i = 0;
+        for (; i + 8 <= s.nx; i += 8) {
+            std::uint64_t eight;
+            __builtin_memcpy(&eight, row + i, sizeof eight);
+            marks |= eight;
+        }
+        for (; i < s.nx; ++i) {
+            marks |= row[i];
+        }
+    }
+    return (marks & (0x0101010101010101U * mark)) != 0;
+}
+
 /// Which of its faces a cell's centre sees.
 struct SeenFaces {
     bool left;

@@ -157,7 +157,7 @@ struct Bending {
                           [[maybe_unused]] std::int32_t j) const {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
-            if (walls.thin == nullptr && (i > 0 || !on_u()) && (j > 0 || on_u())) {
+            if ((i > 0 || !on_u()) && (j > 0 || on_u())) {
                 const auto inside = [&](std::int32_t y) {
                     return fields.leaps && (borders.wrap_y || (y > 0 && y + 1 < s.ny));
                 };
@@ -186,8 +186,9 @@ struct Bending {
 
     void row_in_lanes(std::int32_t first_i, std::int32_t j) const {
         const Part columns = s.columns(j);
+        const bool beside = any_marked<Real>(walls.thin, s, j - 1, j, kTouching);
         for (std::int32_t i = maximum(first_i, columns.first); i < columns.end;) {
-            i = in_lanes(i, columns.end, j);
+            i = beside ? i : in_lanes(i, columns.end, j);
             const std::int32_t end = minimum(on_u() && i == 0 ? 1 : i + 4, columns.end);
             for (; i < end; ++i) {
                 run(i, j, 1);

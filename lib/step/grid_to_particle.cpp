@@ -98,7 +98,8 @@ struct Sharpening {
     /// is copied on the way.
     void rows_in_lanes(std::int32_t first_i, std::int32_t first_j, const Part& rows) const {
         for (std::int32_t j = rows.first - 1; j < rows.end - 1; ++j) {
-            if (j < first_j || j >= s.ny || thin != nullptr || (back != 1 && j == 0)) {
+            if (j < first_j || j >= s.ny || (back != 1 && j == 0) ||
+                any_marked(thin, s, j - 1, j, kTouching)) {
                 copy_rows(s, {j + 1, j + 2}, field, out);
                 for (std::int32_t i = first_i; j >= first_j && j < s.ny && i < s.nx; ++i) {
                     one(i, j);

@@ -53,6 +53,23 @@ std::int32_t scatter_two_liquids(const Particles<Real>& particles, const Borders
 }
 
 template <class Real>
+std::int32_t scatter_plainly(const Particles<Real>& particles, StaggeredGrid<Real>& grid) {
+    std::int32_t full = 0;
+    if constexpr (kHasFpuLoops<Real>) {
+        scatter_with_fpu(particles, grid);
+    } else {
+        const GridShape& shape = grid.shape;
+        for (std::int32_t k = 0; k < particles.count; ++k) {
+            const Vec2<Real> x = particles.position[k];
+            const Vec2<Real> v = particles.velocity[k];
+            full += scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
+            full += scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
+        }
+    }
+    return full;
+}
+
+template <class Real>
 std::int32_t scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<Real>& grid,
                                 const ThinWalls<Real>* thin, Work work) {
     const GridShape& shape = grid.shape;
@@ -63,21 +80,18 @@ std::int32_t scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<
         return scatter_packed(particles.part(part.first, part.end - part.first), grid);
     }
     if (kHasThinWalls<Real> && thin != nullptr) {
-        return scatter_past_walls(particles.part(part.first, part.end - part.first), *thin,
-                                  Real(1), grid);
+        std::int32_t full = 0;
+        for_each_beside(
+            particles, part, *thin, shape,
+            [&](const Part& some) {
+                full += scatter_plainly(particles.part(some.first, some.end - some.first), grid);
+            },
+            [&](std::int32_t k) {
+                full += scatter_past_walls(particles.part(k, 1), *thin, Real(1), grid);
+            });
+        return full;
     }
-    std::int32_t full = 0;
-    if constexpr (kHasFpuLoops<Real>) {
-        scatter_with_fpu(particles.part(part.first, part.end - part.first), grid);
-    } else {
-        for (std::int32_t k = part.first; k < part.end; ++k) {
-            const Vec2<Real> x = particles.position[k];
-            const Vec2<Real> v = particles.velocity[k];
-            full += scatter(grid.mass_u, grid.momentum_u(), shape.stride, stencil_u(shape, x), v.x);
-            full += scatter(grid.mass_v, grid.momentum_v(), shape.stride, stencil_v(shape, x), v.y);
-        }
-    }
-    return full;
+    return scatter_plainly(particles.part(part.first, part.end - part.first), grid);
 }
 
 }  // namespace
@@ -93,9 +107,9 @@ std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Re
     }
     bool in_lanes = false;
     if constexpr (kHasLanes<Real>) {
-        in_lanes = grid.pairs != nullptr && thin == nullptr;
+        in_lanes = grid.pairs != nullptr;
         if (in_lanes) {
-            scatter_in_lanes(particles, grid, work);
+            scatter_in_lanes(particles, thin, grid, work);
         }
     }
     const std::int32_t crowded = in_lanes ? 0 : scatter_one_liquid(particles, grid, thin, work);

@@ -78,16 +78,19 @@ inline std::int32_t scatter_dense(VelocityOf<Real>* volume, VelocityOf<Real>* ma
 }
 
 /// The same to those of the four that `seen` names. `mass` null: one liquid, whose count is its
-/// mass.
+/// mass. `step`: numbers from one face to the next.
 template <class Real>
 inline std::int32_t scatter_weighed(VelocityOf<Real>* volume, VelocityOf<Real>* mass,
                                     Real* momentum, std::int32_t stride, const Stencil<Real>& at,
-                                    Real density, Real velocity, std::uint32_t seen) {
+                                    Real density, Real velocity, std::uint32_t seen,
+                                    std::int32_t step = 1) {
     const Real w1 = at.fx * at.fy;
     const Real right = at.fx - w1;
     const Real upper = at.fy - w1;
     const Real weight[] = {(Real(1) - at.fx) - upper, right, upper, w1};
-    const std::int32_t node[] = {at.base, at.base + 1, at.base + stride, at.base + stride + 1};
+    const std::int32_t first = step * at.base;
+    const std::int32_t upwards = step * stride;
+    const std::int32_t node[] = {first, first + step, first + upwards, first + upwards + step};
     std::int32_t full = 0;
     for (std::uint32_t k = 0; k < 4; ++k) {
         if ((seen >> k & 1U) == 0) {

@@ -16,6 +16,27 @@ inline bool beside_thin_wall(const ThinWalls<Real>& thin, const GridShape& s, Ve
             kTouching) != 0;
 }
 
+/// Calls away(part) for particles that follow each other and stand beside no thin wall, and
+/// beside(k) for those that do: all of a part, in the pool's order.
+template <class Real, class Away, class Beside>
+inline void for_each_beside(const Particles<Real>& particles, const Part& part,
+                            const ThinWalls<Real>& thin, const GridShape& s, Away away,
+                            Beside beside) {
+    std::int32_t first = part.first;
+    for (std::int32_t k = part.first; k < part.end; ++k) {
+        if (beside_thin_wall(thin, s, Vec2<Real>(particles.position[k]))) {
+            if (first < k) {
+                away(Part{first, k});
+            }
+            beside(k);
+            first = k + 1;
+        }
+    }
+    if (first < part.end) {
+        away(Part{first, part.end});
+    }
+}
+
 /// Adds mass and momentum of all particles to the cleared grid; ghost rows are not folded back.
 /// @return how often a face took nothing (scatter.hpp).
 template <class Real>

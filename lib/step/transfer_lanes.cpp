@@ -7,6 +7,8 @@
 
 #include "math/four_lanes.hpp"
 #include "step/extent_lanes.hpp"
+#include "step/scatter.hpp"
+#include "step/thin_transfer.hpp"
 #include "step/transfer_wide.hpp"
 #include "step/wide_faces.hpp"
 
@@ -60,6 +62,26 @@ void scatter(const Particles<float>& particles, const Part& part, const Pairs<fl
     }
 #endif
     scatter_all<FourLanes>(position, velocity, count, pairs, EveryRow());
+}
+
+/// The same sums where some do not see all of their faces.
+void scatter_past(const ThinWalls<float>& thin, const GridShape& s,
+                  const Particles<float>& particles, const Part& part,
+                  const Pairs<float>& pairs) {
+    for_each_beside(
+        particles, part, thin, s, [&](const Part& some) { scatter(particles, some, pairs); },
+        [&](std::int32_t k) {
+            const Vec2<float> x = particles.position[k];
+            const Vec2<float> v = particles.velocity[k];
+            const std::uint32_t seen = seen_faces(thin, s, x);
+            const auto give = [&](float* pair, const Stencil<float>& at, float speed,
+                                  std::uint32_t faces) {
+                scatter_weighed<float>(pair, nullptr, pair + 1, s.stride, at, 1.0F, speed, faces,
+                                       2);
+            };
+            give(pairs.u, stencil_u(s, x), v.x, seen & kAllFour);
+            give(pairs.v, stencil_v(s, x), v.y, seen >> 4U);
+        });
 }
 
 #if WEIR_PARALLEL
@@ -302,7 +324,8 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
 
 }  // namespace
 
-void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid, Work work) {
+void scatter_in_lanes(const Particles<float>& particles, const ThinWalls<float>* thin,
+                      StaggeredGrid<float>& grid, Work work) {
     const GridShape& s = grid.shape;
     const Pairs<float> pairs{grid.as_pairs(grid.v), grid.pairs, s.stride};
     each_row(work, s, [&](const Part& entries) {
@@ -312,9 +335,12 @@ void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& g
         std::memset(pairs.v + 2 * entries.first, 0, bytes);
     });
     const Part part = work.take(particles.count, 1);
-    bool done = false;
+    bool done = thin != nullptr;
+    if (thin != nullptr) {
+        scatter_past(*thin, s, particles, part, pairs);
+    }
 #if WEIR_PARALLEL
-    if (part.first == 0 && part.end == particles.count) {
+    if (!done && part.first == 0 && part.end == particles.count) {
         done = scatter_side_by_side(particles, grid, work, pairs);
     }
 #endif

@@ -9,8 +9,9 @@ namespace weir {
 
 #if WEIR_HAS_LANES
 /// Adds mass and momentum of one liquid's particles to the grid; ghost rows are not folded back.
-/// Overwrites all of mass_u, mass_v, u, v and the scratch of the grid.
-void scatter_in_lanes(const Particles<float>& particles, StaggeredGrid<float>& grid, Work work);
+/// Overwrites all of mass_u, mass_v, u, v and the scratch of the grid. `thin` null: no such walls.
+void scatter_in_lanes(const Particles<float>& particles, const ThinWalls<float>* thin,
+                      StaggeredGrid<float>& grid, Work work);
 
 /// As `prepare_gather`.
 void pair_fields(StaggeredGrid<float>& grid, Work work);
