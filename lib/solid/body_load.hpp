@@ -78,9 +78,10 @@ inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Rea
 }
 
 /// What is left of a way where a body is held, but for hinges.
-template <class Real>
-inline Vec2<Face<Real>> along_slides(const BodyLoad<Real>& load, Vec2<Face<Real>> way) {
-    return {load.slides.x * way.x, load.slides.y * way.y};
+template <class Real, class Number>
+inline Vec2<Number> along_slides(const BodyLoad<Real>& load, Vec2<Number> way) {
+    return {load.slides.x != Face<Real>(0) ? way.x : Number(0),
+            load.slides.y != Face<Real>(0) ? way.y : Number(0)};
 }
 
 /// How a free body's velocity answers an impulse.

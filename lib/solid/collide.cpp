@@ -270,9 +270,7 @@ bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far, bool 
 /// particle or a wall moved further than a cell.
 template <class Real>
 bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bool far) {
-    return far || thin.reach > Real(1) ||
-           (thin.mark[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))] &
-            kNear) != 0;
+    return far || thin.reach > Real(1) || (mark_at(thin, s, x) & kNear) != 0;
 }
 
 #if WEIR_HAS_LANES
@@ -280,9 +278,8 @@ bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bo
 bool any_near_thin(const GridShape& s, const ThinWalls<float>& thin, const Vec2<float>* x,
                    std::int32_t count) {
     std::uint32_t marks = thin.reach > 1.0F ? std::uint32_t{kNear} : 0U;
-    const auto whole_of = [](float place) { return static_cast<std::int32_t>(place); };
     for (std::int32_t n = 0; n < count; ++n) {
-        marks |= thin.mark[s.index(whole_of(x[n].x), whole_of(x[n].y))];
+        marks |= mark_at(thin, s, x[n]);
     }
     return (marks & kNear) != 0;
 }

@@ -92,10 +92,9 @@ void move(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seconds<Real
         place(table, body);
         if (near_walls(s, body, Real(1))) {
             const Overhang<Real> beyond = overhang(s, table, body);
-            const Vec2<Real> back =
-                convert<Real>(along_slides(load, convert<Face<Real>>(Vec2<Real>{
-                                                     beyond.low_x - beyond.high_x,
-                                                     beyond.low_y - beyond.high_y})));
+            const Vec2<Real> back = along_slides(
+                load,
+                Vec2<Real>{beyond.low_x - beyond.high_x, beyond.low_y - beyond.high_y});
             if (back.x != Real(0) || back.y != Real(0)) {
                 body.position = body.position + back;
                 place(table, body);

@@ -78,6 +78,12 @@ struct ThinWalls {
     bool moving = false;             ///< one of them has a velocity or a spin
 };
 
+/// The marks of the cell that a place lies in.
+template <class Real>
+inline std::uint32_t mark_at(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> x) {
+    return thin.mark[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))];
+}
+
 /// Whether a cell of some rows has that mark: what those rows go through is done in lanes if none
 /// has. Null: there are no thin walls.
 template <class Real>

@@ -12,8 +12,7 @@ namespace weir {
 /// Whether a thin wall may stand between a particle and a face that it reads.
 template <class Real>
 inline bool beside_thin_wall(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> x) {
-    return (thin.mark[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))] &
-            kTouching) != 0;
+    return (mark_at(thin, s, x) & kTouching) != 0;
 }
 
 /// Calls away(part) for particles that follow each other and stand beside no thin wall, and

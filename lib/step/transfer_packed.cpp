@@ -124,13 +124,22 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along, std::uint32_t ow
     return (way_of(pace, along) + chance(bits, 6)) >> 6;
 }
 
+/// Down to what a velocity can be: rounded up, it would be faster than it may.
+inline Real limit_of(const Transfer<Real>& transfer) {
+    return Real::of_raw(transfer.limit.raw & -512);
+}
+
+/// Not inline: few are too fast.
+[[gnu::noinline, gnu::cold]] void limit(Vec2<Speed>& v, Real most, TransferResult<Real>& result) {
+    const Vec2<Real> slower = limited(Vec2<Real>{v.x, v.y}, most, result);
+    v = {Speed(slower.x), Speed(slower.y)};
+}
+
 /// Where there are particles that are too fast.
-[[gnu::noinline]] void limit_all(const Particles<Real>& particles, Real limit,
+[[gnu::noinline]] void limit_all(const Particles<Real>& particles, Real most,
                                  TransferResult<Real>& result) {
     for (std::int32_t k = 0; k < particles.count; ++k) {
-        const Vec2<Speed> v = particles.velocity[k];
-        const Vec2<Real> slower = limited(Vec2<Real>{v.x, v.y}, limit, result);
-        particles.velocity[k] = {Speed(slower.x), Speed(slower.y)};
+        limit(particles.velocity[k], most, result);
     }
 }
 
@@ -168,18 +177,12 @@ inline std::int32_t moves(const Pace& pace, std::int32_t along, std::uint32_t ow
     place = {Place(x.x), Place(x.y)};
     speed = {Speed(v.x), Speed(v.y)};
     // A conveyor may have made it faster than whatever comes after knows of.
-    const std::int32_t limit = gather.transfer.limit.raw / 512;
-    const std::int32_t fastest =
-        maximum(absolute(std::int32_t{speed.x.raw}), absolute(std::int32_t{speed.y.raw}));
-    if (fastest > limit) {
-        const auto within = [&](Speed along) {
-            const std::int32_t raw = clamp(std::int32_t{along.raw}, -limit, limit);
-            return Speed::of_raw(static_cast<std::int16_t>(raw));
-        };
-        speed = {within(speed.x), within(speed.y)};
-        ++result.slowed;
+    const Real most = limit_of(gather.transfer);
+    const Real fastest = maximum(absolute(Real(speed.x)), absolute(Real(speed.y)));
+    if (fastest > most) {
+        limit(speed, most, result);
     }
-    result.max_speed = maximum(result.max_speed, Real::of_raw(512 * minimum(fastest, limit)));
+    result.max_speed = maximum(result.max_speed, minimum(fastest, most));
 }
 
 // Of ways and places in a word: halves of both, and what goes no further than a cell.
@@ -344,10 +347,9 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
             maximum(result.max_speed, Real::of_raw(512 * static_cast<std::int32_t>(speed)));
     }
     if (result.max_speed > transfer.limit) {
-        // Down to what a velocity can be: rounded up, it would be faster than it may.
-        const Real limit = Real::of_raw(transfer.limit.raw & -512);
-        limit_all(particles, limit, result);
-        result.max_speed = limit;
+        const Real most = limit_of(transfer);
+        limit_all(particles, most, result);
+        result.max_speed = most;
     }
     if (transfer.settling) {
         settle(particles);

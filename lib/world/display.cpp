@@ -71,10 +71,10 @@ Between between(std::int32_t place, std::int32_t first, std::int32_t samples) {
 }
 
 /// Two rows of samples with a row of pixels between them. What is not stored is empty, and open.
-template <class Field, class Number>
+template <class Number>
 class Rows {
 public:
-    Rows(const Field& field, const Between& y, Number beyond)
+    Rows(const FieldView<Number>& field, const Between& y, Number beyond)
         : low_(row(field, y.low)), high_(row(field, y.high)), first_(field.first_column),
           columns_(field.columns), part_(y.part), beyond_(beyond) {}
 
@@ -95,7 +95,7 @@ public:
     }
 
 private:
-    static const Number* row(const Field& field, std::int32_t j) {
+    static const Number* row(const FieldView<Number>& field, std::int32_t j) {
         j -= field.first_row;
         return 0 <= j && j < field.rows ? &field.at(0, j) : nullptr;
     }
@@ -123,18 +123,25 @@ std::uint32_t shade_of(const Display& display, std::int32_t full, std::uint32_t 
     return static_cast<std::uint32_t>((exact + kOne / 2) >> 8);
 }
 
+/// What of a world is drawn.
+template <class Real>
+struct Scene {
+    FieldView<DensityOf<Real>> density;
+    FieldView<DistanceOf<Real>> distance;  ///< empty: no solids
+    std::int32_t columns;
+    std::int32_t rows;
+};
+
 /// A row of pixels at that height. Whether any changed.
 template <class Real>
-bool draw_row(const World<Real>& world, const Display& display, std::int32_t y,
+bool draw_row(const Scene<Real>& scene, const Display& display, std::int32_t y,
               std::uint8_t* pixels) {
-    const auto density = world.density();
-    const auto distance = world.signed_distance();
-    const std::int32_t columns = world.cells_x();
-    const std::int32_t rows = world.cells_y();
-    const Rows<FieldView<DensityOf<Real>>, DensityOf<Real>> cells(
-        density, between(y, kOne / 2, rows), DensityOf<Real>(0));
-    const Rows<FieldView<DistanceOf<Real>>, DistanceOf<Real>> nodes(
-        distance, between(y, 0, rows + 1), DistanceOf<Real>(1));
+    const std::int32_t columns = scene.columns;
+    const bool solids = scene.distance.data != nullptr;
+    const Rows<DensityOf<Real>> cells(scene.density, between(y, kOne / 2, scene.rows),
+                                      DensityOf<Real>(0));
+    const Rows<DistanceOf<Real>> nodes(scene.distance, between(y, 0, scene.rows + 1),
+                                       DistanceOf<Real>(1));
     const auto is_open = [](DistanceOf<Real> d) { return d > DistanceOf<Real>(0); };
     const auto near = [](DistanceOf<Real> d) { return limited_distance(d); };
     const auto full = [](DensityOf<Real> d) { return filled(d); };
@@ -146,7 +153,7 @@ bool draw_row(const World<Real>& world, const Display& display, std::int32_t y,
         const std::uint32_t before = (static_cast<std::uint32_t>(pair) >> shift) & 15U;
         const Between node = between(x.at(), 0, columns + 1);
         std::uint32_t shade = display.solid;
-        if (distance.data == nullptr || nodes.all(node, is_open) || nodes.sample(node, near) > 0) {
+        if (!solids || nodes.all(node, is_open) || nodes.sample(node, near) > 0) {
             const Between cell = between(x.at(), kOne / 2, columns);
             shade = shade_of(display, cells.sample(cell, full), before);
         }
@@ -165,13 +172,15 @@ ChangedRows draw(const World<Real>& world, const Display& display) {
     const bool can_be = display.pixels != nullptr && display.width % 2 == 0 &&
                         within(display.width, 2, kMostPixels) &&
                         within(display.height, 1, kMostPixels);
-    if (world.density().data == nullptr || !can_be) {
+    const Scene<Real> scene{world.density(), world.signed_distance(), world.cells_x(),
+                            world.cells_y()};
+    if (scene.density.data == nullptr || !can_be) {
         return {};
     }
     ChangedRows changed{display.height, -1};
-    Places y(display.height, world.cells_y());
+    Places y(display.height, scene.rows);
     for (std::int32_t row = display.height - 1; row >= 0; --row, y.next()) {
-        if (draw_row(world, display, y.at(), display.pixels + row * display.width / 2)) {
+        if (draw_row(scene, display, y.at(), display.pixels + row * display.width / 2)) {
             changed = {row, maximum(changed.last, row)};
         }
     }

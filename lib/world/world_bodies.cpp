@@ -191,14 +191,17 @@ Status World<Real>::add_moving_body(const BodyDef& def, BodyId* id) {
 
 namespace {
 
+/// Whether anything can be done with that body now.
+template <class Real>
+Status check_known(const WorldState<Real>* state, BodyId id) {
+    const Status free = ready(state);
+    return free != Status::ok ? free : check_id(*state, id);
+}
+
 /// Whether that body can be given that motion now.
 template <class Real>
 Status check_movable(const WorldState<Real>* state, BodyId id) {
-    const Status free = ready(state);
-    if (free != Status::ok) {
-        return free;
-    }
-    const Status known = check_id(*state, id);
+    const Status known = check_known(state, id);
     if (known != Status::ok) {
         return known;
     }
@@ -328,10 +331,7 @@ Status World<Real>::motion(BodyId id, Motion* motion) const {
 
 template <class Real>
 Status World<Real>::set_surface(BodyId id, const Surface& surface) {
-    Status valid = ready(state_);
-    if (valid == Status::ok) {
-        valid = check_id(*state_, id);
-    }
+    Status valid = check_known(state_, id);
     if (valid == Status::ok) {
         valid = check_surface(surface, state_->def.cell_m, reach_of<Real>(state_->unit_exponent));
     }
@@ -354,11 +354,7 @@ Status World<Real>::set_surface(BodyId id, const Surface& surface) {
 
 template <class Real>
 Status World<Real>::remove_body(BodyId id) {
-    const Status free = ready(state_);
-    if (free != Status::ok) {
-        return free;
-    }
-    const Status known = check_id(*state_, id);
+    const Status known = check_known(state_, id);
     if (known != Status::ok) {
         return known;
     }

@@ -16,15 +16,6 @@ namespace {
 constexpr float kDt = 1.0F / 60.0F;
 
 template <class Real>
-std::vector<std::byte> saved(const World<Real>& world, const WorldDef& def) {
-    std::vector<std::byte> bytes(static_cast<std::size_t>(snapshot_bytes<Real>(def.capacity)));
-    std::size_t used = 0;
-    expect_ok(world.save(bytes.data(), bytes.size(), &used));
-    bytes.resize(used);
-    return bytes;
-}
-
-template <class Real>
 class Contract : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double, Fixed, SmallFixed>;
 TYPED_TEST_SUITE(Contract, Scalars);
@@ -36,7 +27,7 @@ TYPED_TEST(Contract, SnapshotsHaveRoomForManyBodies) {
     for (int bodies = 0; bodies < 200; bodies += 9) {
         def.capacity.bodies = static_cast<decltype(def.capacity.bodies)>(bodies);
         TestWorld<TypeParam> world{def};
-        saved(*world, def);
+        saved(*world, def.capacity);
     }
 }
 
@@ -86,8 +77,7 @@ TYPED_TEST(Contract, RestoredViscousLiquidGoesOn) {
     TestWorld<TypeParam> other{def};
     world->step(kDt);
     world->step(kDt);
-    const std::vector<std::byte> kept = saved(*world, def);
-    expect_ok(other->restore(kept.data(), kept.size()));
+    change_worlds(world, other, def);
     std::mt19937 random(1);
     const auto number = [&](float low, float high) {
         return low + (high - low) * static_cast<float>(random() % 1000) / 1000.0F;
@@ -112,8 +102,7 @@ TYPED_TEST(Contract, RestoredForcesKnowTheirTime) {
     TestWorld<TypeParam> other{def};
     expect_ok(world->fill({{0, 0}, {0.3F, 0.2F}}));
     world->step(kDt);
-    const std::vector<std::byte> kept = saved(*world, def);
-    expect_ok(other->restore(kept.data(), kept.size()));
+    change_worlds(world, other, def);
     BodyForce force;
     BodyForce restored;
     expect_ok(world->tank_force(&force));
@@ -167,10 +156,7 @@ TYPED_TEST(Contract, BoundsOfContoursHold) {
             std::int64_t before = 0;
             for (bool done = false; !done;) {
                 done = world->advance(1);
-                std::int64_t now = 0;
-                for (const std::uint32_t some : report.work) {
-                    now += some;
-                }
+                const std::int64_t now = work_of(report);
                 EXPECT_LE(now - before, bound.largest_item);
                 before = now;
             }
@@ -190,8 +176,7 @@ TEST(ContractOfPackedWorlds, WhereAStepIsCutSlowsNobody) {
         def.capacity.particles = 600;
         def.max_substeps = 1;
         def.gravity_mps2 = {0, -0.5F};
-        const Surface belt{0.0F, 1000.0F, false, 4.0F};
-        def.walls = {belt, belt, belt, belt};
+        def.walls = every_wall({0.0F, 1000.0F, false, 4.0F});
         TestWorld<SmallFixed> whole{def};
         TestWorld<SmallFixed> cut{def};
         const auto number = [&](float high) {
@@ -221,10 +206,9 @@ TEST(ContractOfPackedWorlds, WhatIsTooFastSaturates) {
     def.viscosity_m2ps = 1e-3F;
     def.walls.bottom.no_slip = true;
     def.walls.bottom.conveyor_mps = 400.0F;
-    const std::vector<std::byte> room(world_bytes<SmallFixed>(def.capacity) + 64);
+    measure::WorldMemory room = measure::memory_for<SmallFixed>(def);
     World<SmallFixed> world;
-    EXPECT_EQ(world.init(def, const_cast<std::byte*>(room.data()), room.size()),
-              Status::conveyor_out_of_range);
+    EXPECT_EQ(world.init(def, room.data(), room.size()), Status::conveyor_out_of_range);
     def.walls.bottom.conveyor_mps = 0.0F;
     def.capacity.bodies = 1;
     def.capacity.vertices = 4;
@@ -284,8 +268,7 @@ TYPED_TEST(ContractOfFreeBodies, TheLastOneLeavesNothing) {
     body.motion.velocity_mps = {0.1F, 0};
     expect_ok(world->add_moving_body(body, &id));
     world->step(kDt);
-    const std::vector<std::byte> kept = saved(*world, def);
-    expect_ok(other->restore(kept.data(), kept.size()));
+    change_worlds(world, other, def);
     for (int k = 0; k < 3; ++k) {
         EXPECT_EQ(world->step(kDt, 3).walls_held, other->step(kDt, 3).walls_held);
         EXPECT_EQ(world->state_hash(), other->state_hash());

@@ -18,16 +18,6 @@ static_assert(snapshot_bytes<float>(kSmall) > 200 * 16 + 18 * 18 * 4, "at compil
 
 using Bytes = std::vector<std::byte>;
 
-template <class Real>
-Bytes saved(const World<Real>& world, const Capacity& capacity) {
-    Bytes bytes(snapshot_bytes<Real>(capacity));
-    std::size_t written = 0;
-    EXPECT_EQ(world.save(bytes.data(), bytes.size(), &written), Status::ok);
-    EXPECT_LE(written, bytes.size());
-    bytes.resize(written);
-    return bytes;
-}
-
 /// Whatever a snapshot does not bring gets random bits, not-a-numbers among them.
 template <class Real>
 void scramble(TestWorld<Real>& world, const Capacity& capacity, Dice& dice) {

@@ -68,6 +68,17 @@ inline WorldDef small_def() {
 
 inline void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
 
+/// A snapshot, no longer than it has to be.
+template <class Real>
+std::vector<std::byte> saved(const World<Real>& world, const Capacity& capacity) {
+    std::vector<std::byte> bytes(snapshot_bytes<Real>(capacity));
+    std::size_t written = 0;
+    EXPECT_EQ(world.save(bytes.data(), bytes.size(), &written), Status::ok);
+    EXPECT_LE(written, bytes.size());
+    bytes.resize(written);
+    return bytes;
+}
+
 /// Of what the liquid's mass would fill.
 template <class Real>
 double volume_left(World<Real>& world) {
@@ -83,6 +94,13 @@ inline std::int64_t work_of(const StepReport& report) {
         all += work;
     }
     return all;
+}
+
+/// Saves one world and goes on in another.
+template <class Real>
+void change_worlds(TestWorld<Real>& from, TestWorld<Real>& to, const WorldDef& def) {
+    const std::vector<std::byte> bytes = saved(*from, def.capacity);
+    ASSERT_EQ(to->restore(bytes.data(), bytes.size()), Status::ok);
 }
 
 /// Whether every particle has finite numbers and lies in the tank.

@@ -26,14 +26,6 @@ std::vector<double> densities(const World<Real>& world) {
     return all;
 }
 
-template <class Real>
-void change_worlds(TestWorld<Real>& from, TestWorld<Real>& to, const WorldDef& def) {
-    std::vector<std::byte> bytes(snapshot_bytes<Real>(def.capacity));
-    std::size_t written = 0;
-    expect_ok(from->save(bytes.data(), bytes.size(), &written));
-    expect_ok(to->restore(bytes.data(), written));
-}
-
 /// A pool over which something falls, at the beginning of a step of one substep.
 template <class Real>
 void fill_pool(World<Real>& world) {

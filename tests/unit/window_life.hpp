@@ -22,15 +22,6 @@ inline bool same(const Diagnostics& a, const Diagnostics& b) {
            a.kinetic_energy_m4ps2 == b.kinetic_energy_m4ps2;
 }
 
-/// Saves one world and goes on in another.
-template <class Real>
-void change_worlds(TestWorld<Real>& from, TestWorld<Real>& to, const WorldDef& def) {
-    std::vector<std::byte> bytes(snapshot_bytes<Real>(def.capacity));
-    std::size_t written = 0;
-    ASSERT_EQ(from->save(bytes.data(), bytes.size(), &written), Status::ok);
-    ASSERT_EQ(to->restore(bytes.data(), written), Status::ok);
-}
-
 /// Distances wherever they are stored, and what bodies met.
 template <class Real>
 void expect_same_solids(const World<Real>& part, const World<Real>& whole) {
