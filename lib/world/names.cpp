@@ -144,6 +144,7 @@ const char* content_text(Status status) {
         case Status::box_not_finite: return "box has a NaN or infinite corner";
         case Status::box_is_empty: return "box: min must be below max along both axes";
         case Status::box_outside_domain: return "box: keep it within the tank";
+        case Status::share_out_of_range: return "share: 0 to 1";
         default: return nullptr;
     }
 }

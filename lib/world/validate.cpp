@@ -298,16 +298,12 @@ Status check_surface(const Surface& surface, float cell_m, const Reach& reach) {
                                                            : Status::conveyor_out_of_range;
 }
 
-Status check_box(const Box& box, float width_m, float height_m) {
+Status check_box(const Box& box) {
     if (!is_finite(box.min_m) || !is_finite(box.max_m)) {
         return Status::box_not_finite;
     }
-    if (!(box.min_m.x < box.max_m.x) || !(box.min_m.y < box.max_m.y)) {
-        return Status::box_is_empty;
-    }
-    const bool inside = within(box.min_m.x, 0.0F, width_m) && within(box.max_m.x, 0.0F, width_m) &&
-                        within(box.min_m.y, 0.0F, height_m) && within(box.max_m.y, 0.0F, height_m);
-    return inside ? Status::ok : Status::box_outside_domain;
+    const bool has_area = box.min_m.x < box.max_m.x && box.min_m.y < box.max_m.y;
+    return has_area ? Status::ok : Status::box_is_empty;
 }
 
 }  // namespace weir

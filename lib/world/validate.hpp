@@ -36,7 +36,7 @@ Status check_memory(const void* memory, std::size_t bytes, std::size_t needed);
 Status check_motion(const Motion& motion, float cell_m, const Reach& reach);
 Status check_body(const BodyDef& def, float cell_m, const Reach& reach);
 Status check_surface(const Surface& surface, float cell_m, const Reach& reach);
-Status check_box(const Box& box, float width_m, float height_m);
+Status check_box(const Box& box);
 /// False for NaN.
 template <class T>
 constexpr bool within(T value, SameAs<T> low, SameAs<T> high) {

@@ -161,6 +161,14 @@ void disturb(World<Real>& world, Dice& dice) {
             static_cast<void>(world.add_particle({dice.uniform(0.0F, 0.36F), 0.1F}, {1.0F, 0.5F}));
             break;
         case 7: static_cast<void>(world.remove_particle(dice.below(400))); break;
+        case 8: {
+            const Vec2f low{dice.uniform(-0.1F, 0.3F), dice.uniform(-0.1F, 0.2F)};
+            const float speed = dice.below(2) == 0 ? 0.0F : dice.uniform(-1.0F, 1.0F);
+            EXPECT_EQ(world.stir({low, {low.x + 0.2F, low.y + 0.1F}}, {speed, -speed},
+                                 dice.uniform(0.0F, 1.0F)),
+                      Status::ok);
+            break;
+        }
         default: break;
     }
 }

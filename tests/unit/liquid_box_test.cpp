@@ -1,6 +1,7 @@
 // Liquid in a box: counted, measured, taken out.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 
 #include "test_world.hpp"
@@ -129,6 +130,117 @@ TYPED_TEST(LiquidBox, SleepersAreTakenOutAndWakeTheirNeighbours) {
     EXPECT_EQ(world->particle_positions().size, kept + there - removed);
 }
 
+TYPED_TEST(LiquidBox, MayReachBeyondTheTank) {
+    TestWorld<TypeParam> world(tank());
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
+    const std::int32_t all = world->particle_positions().size;
+    EXPECT_EQ(found_in(*world, {{-1.0e30F, -1.0F}, {1.0e30F, 1.0F}}).particles, all);
+    EXPECT_EQ(found_in(*world, {{kSide, 0.0F}, {2 * kSide, kSide}}).particles, 0);
+    EXPECT_EQ(found_in(*world, {{-3.0F, -3.0F}, {-2.0F, -2.0F}}).particles, 0);
+    expect_ok(world->drain({{-1.0F, -1.0F}, {kSide / 2, 2 * kSide}}));
+    EXPECT_EQ(world->particle_positions().size, all / 2);
+}
+
+TYPED_TEST(LiquidBox, IsStirred) {
+    TestWorld<TypeParam> world(tank());
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
+    const Box left{{-1.0F, 0.0F}, {kSide / 2, kSide}};
+    const Box right{{kSide / 2, 0.0F}, {1.0F, kSide}};
+    const auto expect_velocity = [&](const Box& box, Vec2f expected) {
+        const Vec2f v = found_in(*world, box).velocity_mps;
+        EXPECT_NEAR(v.x, expected.x, 2.0e-4F);
+        EXPECT_NEAR(v.y, expected.y, 2.0e-4F);
+    };
+    expect_ok(world->stir(left, {0.4F, -0.2F}, 1.0F));
+    expect_velocity(left, {0.4F, -0.2F});
+    expect_velocity(right, {0.0F, 0.0F});
+    expect_ok(world->stir(left, {-0.4F, 0.2F}, 0.25F));
+    expect_velocity(left, {0.2F, -0.1F});
+    const std::uint64_t before = world->state_hash();
+    expect_ok(world->stir(left, {3.0F, 3.0F}, 0.0F));
+    expect_velocity(left, {0.2F, -0.1F});
+    EXPECT_NE(world->step(0.01F).substeps, 0);
+    EXPECT_NE(world->state_hash(), before);
+}
+
+/// From one end of a world's speeds to the other and back.
+TYPED_TEST(LiquidBox, IsStirredAsHardAsCanBe) {
+    WorldDef def = tank();
+    TestWorld<TypeParam> world(def);
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
+    const Box all{{0.0F, 0.0F}, {kSide, kSide}};
+    float fastest = 1.0e6F;
+    while (world->stir(all, {fastest, -fastest}, 1.0F) != Status::ok) {
+        fastest *= 0.99F;
+    }
+    ASSERT_GT(fastest, 1.0F);
+    EXPECT_NEAR(found_in(*world, all).velocity_mps.x, fastest, 1.0e-4F * fastest);
+    expect_ok(world->stir(all, {-fastest, fastest}, 0.5F));
+    EXPECT_NEAR(found_in(*world, all).velocity_mps.x, 0.0F, 1.0e-4F * fastest);
+    expect_ok(world->stir(all, {-fastest, fastest}, 1.0F));
+    EXPECT_NEAR(found_in(*world, all).velocity_mps.y, fastest, 1.0e-4F * fastest);
+    const std::int32_t count = world->particle_positions().size;
+    for (int step = 0; step < 50; ++step) {
+        EXPECT_EQ(world->step(0.01F).particles, count);
+    }
+}
+
+/// Steps until the world sleeps, at most so many.
+template <class Real>
+std::int32_t steps_to_sleep(World<Real>& world, float share, std::int32_t most) {
+    std::int32_t steps = 0;
+    while (world.step(0.01F).substeps > 0 && ++steps < most) {
+        expect_ok(world.stir({{0.0F, 0.0F}, {kSide, kSide}}, {}, share));
+    }
+    return steps;
+}
+
+TYPED_TEST(LiquidBox, IsCalmedAndSleepsTheSooner) {
+    WorldDef def = tank();
+    def.sleep.speed_mps = 0.01F;
+    TestWorld<TypeParam> calmed(def), other(def);
+    for (TestWorld<TypeParam>* world : {&calmed, &other}) {
+        expect_ok((*world)->fill({{0.0F, 0.0F}, {kSide / 2, kSide / 2}}));
+    }
+    EXPECT_LT(steps_to_sleep(*calmed, 0.05F, 900), 300);
+    EXPECT_EQ(steps_to_sleep(*other, 0.0F, 900), 900);
+    const std::uint64_t asleep = calmed->state_hash();
+    expect_ok(calmed->stir({{0.0F, 0.0F}, {kSide, kSide}}, {}, 0.5F));
+    EXPECT_EQ(calmed->state_hash(), asleep) << "calm wakes nobody";
+    EXPECT_EQ(calmed->step(0.01F).substeps, 0);
+    expect_ok(calmed->stir({{0.0F, 0.0F}, {0.1F, 0.1F}}, {0.5F, 0.0F}, 0.5F));
+    EXPECT_GT(calmed->step(0.01F).substeps, 0) << "a push does";
+}
+
+TYPED_TEST(LiquidBox, OnlyWhoIsPushedWakes) {
+    WorldDef def = tank();
+    def.capacity.cells_x = 64;
+    def.capacity.sleeping_regions = true;
+    def.sleep.speed_mps = 0.05F;
+    TestWorld<TypeParam> world(def);
+    const float width = 64 * kCell_m;
+    BodyId id;
+    const Ring wall = rectangle(8 * kCell_m, kSide);
+    expect_ok(world->add_static_body(body_of(wall, {width / 2, kSide / 2}), &id));
+    expect_ok(world->let_regions_sleep());
+    expect_ok(world->fill({{0.0F, 0.0F}, {28 * kCell_m, 0.08F}}));
+    expect_ok(world->fill({{36 * kCell_m, 0.0F}, {width, 0.08F}}));
+    const Box left{{0.0F, 0.0F}, {width / 2, kSide}};
+    const Box right{{width / 2, 0.0F}, {width, kSide}};
+    const std::int32_t there = found_in(*world, right).particles;
+    std::int32_t asleep = 0;
+    for (int step = 0; step < 600 && asleep < there; ++step) {
+        expect_ok(world->stir(left, {0.3F, 0.0F}, 0.2F));  // is kept awake
+        asleep = world->step(0.01F).particles_asleep;
+    }
+    EXPECT_EQ(asleep, there);
+    const std::uint64_t before = world->state_hash();
+    expect_ok(world->stir(right, {}, 1.0F));
+    EXPECT_EQ(world->state_hash(), before);
+    expect_ok(world->stir(right, {0.2F, 0.1F}, 0.5F));
+    EXPECT_EQ(world->step(0.01F).particles_asleep, 0);
+}
+
 TYPED_TEST(LiquidBox, RefusesAndChangesNothing) {
     TestWorld<TypeParam> world(tank());
     expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
@@ -137,12 +249,17 @@ TYPED_TEST(LiquidBox, RefusesAndChangesNothing) {
     LiquidIn found;
     EXPECT_EQ(world->liquid_in(box, nullptr), Status::output_missing);
     EXPECT_EQ(world->drain({{0.1F, 0.1F}, {0.1F, 0.2F}}), Status::box_is_empty);
-    EXPECT_EQ(world->drain({{0.1F, 0.1F}, {2 * kSide, 0.2F}}), Status::box_outside_domain);
-    EXPECT_EQ(world->liquid_in({{-0.1F, 0.1F}, {0.1F, 0.2F}}, &found), Status::box_outside_domain);
+    EXPECT_EQ(world->fill({{0.1F, 0.1F}, {2 * kSide, 0.2F}}), Status::box_outside_domain);
+    EXPECT_EQ(world->stir(box, {0.1F, std::nanf("")}, 0.5F), Status::velocity_out_of_range);
+    EXPECT_EQ(world->stir(box, {-1.0e9F, 0.0F}, 0.5F), Status::velocity_out_of_range);
+    EXPECT_EQ(world->stir(box, {0.1F, 0.0F}, 1.001F), Status::share_out_of_range);
+    EXPECT_EQ(world->stir(box, {0.1F, 0.0F}, std::nanf("")), Status::share_out_of_range);
+    EXPECT_EQ(world->stir({{0.0F, 0.0F}, {INFINITY, 1.0F}}, {}, 0.5F), Status::box_not_finite);
     StepReport report;
     expect_ok(world->begin_step(0.01F, &report));
     EXPECT_EQ(world->drain(box), Status::step_in_progress);
     EXPECT_EQ(world->liquid_in(box, &found), Status::step_in_progress);
+    EXPECT_EQ(world->stir(box, {}, 0.5F), Status::step_in_progress);
     World<TypeParam> none;
     EXPECT_EQ(none.drain(box), Status::not_initialised);
     EXPECT_EQ(found.particles, 0);

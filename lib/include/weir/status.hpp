@@ -88,6 +88,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     box_not_finite,
     box_is_empty,
     box_outside_domain,
+    share_out_of_range,
     // snapshots
     snapshot_missing,
     snapshot_room_too_small,

@@ -105,11 +105,17 @@ public:
     /// after `let_regions_sleep` a sleeper's is taken by another sleeper, and that one's by it.
     Status remove_particle(std::int32_t index);
     /// Removes what is in a box: an outlet, a cup that is drunk from. Looks at each particle once.
+    /// Of this box and those below what reaches beyond the tank is cut off.
     /// @param removed number of particles, may be null.
     Status drain(const Box& box_m, std::int32_t* removed = nullptr);
     /// How much liquid is in a box, where, and how fast: a scale under a cup, a flow meter in a
     /// pipe, the current that carries a leaf. Looks at each particle once.
     Status liquid_in(const Box& box_m, LiquidIn* found) const;
+    /// Brings what is in a box nearer to a velocity, by a share 0 … 1 of the difference: a kick
+    /// (1), a fan or a finger (0.1 before each step). Velocity zero over the whole tank calms it,
+    /// by a rate r with share r · dt, wakes nobody and keeps nobody awake. Looks at each particle
+    /// once.
+    Status stir(const Box& box_m, Vec2f velocity_mps, float share);
 
     Status set_gravity(Vec2f gravity_mps2);
 

@@ -1,0 +1,176 @@
+// The liquid in a box: taken out, measured, stirred.
+#include <type_traits>
+
+#include "weir/world.hpp"
+#include "world/world_liquid.hpp"
+
+namespace weir {
+
+namespace {
+
+/// A sum over many numbers of one kind, exact in fixed point, in double else.
+template <class Number>
+class Mean {
+public:
+    void add(Number number) {
+        if constexpr (std::is_floating_point<Number>::value) {
+            sum_ += static_cast<double>(number);
+        } else {
+            sum_ += number.raw;
+        }
+    }
+    float over(std::int32_t count) const {
+        const float mean = static_cast<float>(sum_) / static_cast<float>(count);
+        if constexpr (std::is_floating_point<Number>::value) {
+            return mean;
+        } else {
+            return mean * static_cast<float>(Number::of_raw(1));
+        }
+    }
+
+private:
+    std::conditional_t<std::is_floating_point<Number>::value, double, std::int64_t> sum_{};
+};
+
+/// Velocities that come nearer to another one. In fixed point what is left of the difference is
+/// rounded towards zero: with any share that counts the last digits get there, too.
+template <class Real>
+class Approach {
+public:
+    Approach(Vec2<Real> to, float share)
+        : to_{VelocityOf<Real>(to.x), VelocityOf<Real>(to.y)},
+          left_(static_cast<Left>(kWhole * (1.0F - share))) {}
+
+    Vec2<VelocityOf<Real>> from(Vec2<VelocityOf<Real>> v) const {
+        return {nearer(v.x, to_.x), nearer(v.y, to_.y)};
+    }
+
+private:
+    static constexpr bool kFloats = std::is_floating_point<Real>::value;
+    static constexpr float kWhole = kFloats ? 1.0F : 32768.0F;
+    using Left = std::conditional_t<kFloats, Real, std::int32_t>;
+    using Product = std::conditional_t<Stored<Real>::coarse, std::int32_t, std::int64_t>;
+
+    VelocityOf<Real> nearer(VelocityOf<Real> v, VelocityOf<Real> to) const {
+        if constexpr (kFloats) {
+            return to + (v - to) * left_;
+        } else {
+            const Product way = Product{v.raw} - to.raw;
+            v.raw = static_cast<decltype(v.raw)>(to.raw + way * left_ / Product{1 << 15});
+            return v;
+        }
+    }
+
+    Vec2<VelocityOf<Real>> to_;
+    Left left_;
+};
+
+}  // namespace
+
+template <class Real>
+Status World<Real>::drain(const Box& box_m, std::int32_t* removed) {
+    const Status valid = check_box_in(state_, box_m);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    const BoxInCells<Real> box(*state_, box_m);
+    const std::int32_t before = simulation.particles.count;
+    for (std::int32_t k = before - 1; k >= 0; --k) {  // who takes a place was looked at
+        if (box.holds(simulation.particles.position[k])) {
+            take_out(simulation, k);
+        }
+    }
+    const std::int32_t gone = before - simulation.particles.count;
+    if (gone > 0) {
+        note_changed(*state_);
+    }
+    if (removed != nullptr) {
+        *removed = gone;
+    }
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::liquid_in(const Box& box_m, LiquidIn* found) const {
+    const Status valid = check_box_in(state_, box_m);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    if (found == nullptr) {
+        return Status::output_missing;
+    }
+    const Particles<Real>& particles = state_->simulation.particles;
+    const BoxInCells<Real> box(*state_, box_m);
+    Mean<PositionOf<Real>> x, y;
+    Mean<VelocityOf<Real>> u, v;
+    *found = {};
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        if (box.holds(particles.position[k])) {
+            ++found->particles;
+            x.add(particles.position[k].x);
+            y.add(particles.position[k].y);
+            u.add(particles.velocity[k].x);
+            v.add(particles.velocity[k].y);
+        }
+    }
+    if (found->particles > 0) {
+        const std::int32_t n = found->particles;
+        const float cell_m = state_->def.cell_m;
+        const float mps = velocity_scale();
+        found->area_m2 = static_cast<float>(n) * cell_m * cell_m /
+                         static_cast<float>(state_->def.particles_per_cell);
+        found->centroid_m = {x.over(n) * cell_m, y.over(n) * cell_m};
+        found->velocity_mps = {u.over(n) * mps, v.over(n) * mps};
+    }
+    return Status::ok;
+}
+
+template <class Real>
+Status World<Real>::stir(const Box& box_m, Vec2f velocity_mps, float share) {
+    const Status valid = check_box_in(state_, box_m);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    if (!in_range(*state_, velocity_mps)) {
+        return Status::velocity_out_of_range;
+    }
+    if (!within(share, 0.0F, 1.0F)) {
+        return Status::share_out_of_range;
+    }
+    const bool calms = velocity_mps.x == 0.0F && velocity_mps.y == 0.0F;
+    if (calms && is_asleep(*state_)) {
+        return Status::ok;
+    }
+    Simulation<Real>& simulation = state_->simulation;
+    const Particles<Real>& particles = simulation.particles;
+    Regions<Real>* const regions = simulation.regions;
+    const BoxInCells<Real> box(*state_, box_m);
+    const Vec2<Real> velocity = inner_velocity(*state_, velocity_mps);
+    const Approach<Real> approach(velocity, share);
+    bool any = false;
+    for (std::int32_t k = calms && regions != nullptr ? regions->asleep : 0; k < particles.count;
+         ++k) {
+        if (box.holds(particles.position[k])) {
+            particles.velocity[k] = approach.from(particles.velocity[k]);
+            any = true;
+            if (!calms && regions != nullptr) {
+                regions->stages->touch_at(*regions, particles.position[k]);
+            }
+        }
+    }
+    if (any && !calms) {
+        note_speed(simulation, velocity);
+        wake(*state_);
+    }
+    return Status::ok;
+}
+
+#define WEIR_INSTANTIATE(Real)                                           \
+    template Status World<Real>::drain(const Box&, std::int32_t*);       \
+    template Status World<Real>::liquid_in(const Box&, LiquidIn*) const; \
+    template Status World<Real>::stir(const Box&, Vec2f, float);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir
