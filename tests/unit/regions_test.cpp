@@ -486,6 +486,9 @@ TYPED_TEST(RegionsOf, HoweverItIsRunTheBitsAreTheSame) {
         mixed += whole.mixed;
         EXPECT_EQ(history<TypeParam>(kind, Way::slices).hashes, whole.hashes) << "slices";
         EXPECT_EQ(history<TypeParam>(kind, Way::snapshots).hashes, whole.hashes) << "snapshots";
+        if (kSanitized) {
+            continue;
+        }
         EXPECT_EQ(history<TypeParam>(kind, Way::looking).hashes, whole.hashes) << "looking";
         EXPECT_EQ(history<TypeParam>(kind, Way::whole, backwards).hashes, whole.hashes)
             << "threads";

@@ -23,13 +23,13 @@ TYPED_TEST_SUITE(WindowBodies, Scalars, );
 
 TYPED_TEST(WindowBodies, HaveTheBitsOfTheWholeTank) {
     const char* more = std::getenv("WEIR_WINDOWS");
-    const auto seeds = static_cast<std::uint64_t>(more != nullptr ? std::atoi(more) : 2);
+    const auto seeds = static_cast<std::uint64_t>(more != nullptr ? std::atoi(more) : kLives);
     for (std::int32_t kind = kKinds; kind < kAllKinds; ++kind) {
         std::int32_t moves = 0;
         for (std::uint64_t seed = 1; seed <= seeds && !testing::Test::HasFailure(); ++seed) {
-            moves += expect_same_life<TypeParam>(kind, seed, 100);
+            moves += expect_same_life<TypeParam>(kind, seed);
         }
-        EXPECT_GT(moves, 5) << "kind " << kind;
+        EXPECT_GT(moves, kLeastMoves) << "kind " << kind;
     }
 }
 
