@@ -13,12 +13,23 @@ struct Particles {
     std::int32_t count = 0;
     std::int32_t capacity = 0;
     Liquid* kind = nullptr;  ///< null: there is one liquid
+    std::uint8_t* tag = nullptr;  ///< the caller's; null: there are none
 
     bool full() const { return count == capacity; }
     /// A part of the pool, to be changed in place.
     Particles part(std::int32_t first, std::int32_t size) const {
-        return {position + first, velocity + first, size, size,
-                kind != nullptr ? kind + first : nullptr};
+        Particles some = *this;
+        some.begin_later(first);
+        some.count = some.capacity = size;
+        return some;
+    }
+    /// The pool as it is without its first ones.
+    void begin_later(std::int32_t by) {
+        position += by;
+        velocity += by;
+        kind = kind != nullptr ? kind + by : nullptr;
+        tag = tag != nullptr ? tag + by : nullptr;
+        count -= by;
     }
     const Liquid* kind_at(std::int32_t k) const { return kind != nullptr ? kind + k : nullptr; }
     void add(Vec2<Real> at, Vec2<Real> moving, Liquid of) {
@@ -26,6 +37,9 @@ struct Particles {
         velocity[count] = moving;
         if (kind != nullptr) {
             kind[count] = of;
+        }
+        if (tag != nullptr) {
+            tag[count] = 0;
         }
         ++count;
     }
@@ -37,12 +51,18 @@ struct Particles {
         if (kind != nullptr) {
             kind[index] = kind[count];
         }
+        if (tag != nullptr) {
+            tag[index] = tag[count];
+        }
     }
     void swap(std::int32_t a, std::int32_t b) {
         swap_in(position, a, b);
         swap_in(velocity, a, b);
         if (kind != nullptr) {
             swap_in(kind, a, b);
+        }
+        if (tag != nullptr) {
+            swap_in(tag, a, b);
         }
     }
     /// Marks a particle as one to be removed: no tank has such a place. Not for packed places.

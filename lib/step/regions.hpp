@@ -110,12 +110,7 @@ std::int32_t hidden_of(const Simulation<Real>& simulation) {
 /// Lets the pool begin so many sleepers later than with the first one.
 template <class Real>
 void hide_sleepers(std::int32_t count, Simulation<Real>& simulation) {
-    Particles<Real>& particles = simulation.particles;
-    const std::int32_t later = count - simulation.regions->hidden;
-    particles.position += later;
-    particles.velocity += later;
-    particles.kind = particles.kind != nullptr ? particles.kind + later : nullptr;
-    particles.count -= later;
+    simulation.particles.begin_later(count - simulation.regions->hidden);
     simulation.regions->hidden = count;
 }
 

@@ -175,11 +175,7 @@ std::int32_t part_pool(const Groups& columns, const Groups& rows, Particles<Real
 /// Lets the pool begin so many particles later.
 template <class Real>
 void begin_pool(std::int32_t later, Simulation<Real>& simulation) {
-    Particles<Real>& particles = simulation.particles;
-    particles.position += later;
-    particles.velocity += later;
-    particles.kind = particles.kind != nullptr ? particles.kind + later : nullptr;
-    particles.count -= later;
+    simulation.particles.begin_later(later);
     simulation.window.beyond += later;
 }
 

@@ -169,8 +169,7 @@ bool draw_row(const Scene<Real>& scene, const Display& display, std::int32_t y,
 
 template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display) {
-    const bool can_be = display.pixels != nullptr && display.width % 2 == 0 &&
-                        within(display.width, 2, kMostPixels) &&
+    const bool can_be = display.pixels != nullptr && within(display.width, 1, kMostPixels) &&
                         within(display.height, 1, kMostPixels);
     const Scene<Real> scene{world.density(), world.signed_distance(), world.cells_x(),
                             world.cells_y()};
@@ -178,9 +177,10 @@ ChangedRows draw(const World<Real>& world, const Display& display) {
         return {};
     }
     ChangedRows changed{display.height, -1};
+    const std::int32_t row_bytes = (display.width + 1) / 2;
     Places y(display.height, scene.rows);
     for (std::int32_t row = display.height - 1; row >= 0; --row, y.next()) {
-        if (draw_row(scene, display, y.at(), display.pixels + row * display.width / 2)) {
+        if (draw_row(scene, display, y.at(), display.pixels + row * row_bytes)) {
             changed = {row, maximum(changed.last, row)};
         }
     }

@@ -134,6 +134,8 @@ const char* content_text(Status status) {
         case Status::no_free_particle:
             return "no room for that many particles: raise capacity.particles";
         case Status::no_such_particle: return "index: choose 0 … number of particles − 1";
+        case Status::no_particle_tags:
+            return "this world keeps no tags: set capacity.particle_tags";
         case Status::no_second_liquid:
             return "this world holds one liquid: set capacity.second_liquid";
         case Status::particle_not_finite:

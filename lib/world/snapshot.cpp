@@ -122,6 +122,7 @@ bool harmless(Block block, const Simulation<Real>& world, const std::byte* from,
         case Block::particle_position: return all_in_tank<Real>(world.layers.shape, from, elements);
         case Block::particle_velocity: return all_finite<VelocityOf<Real>>(from, 2 * elements);
         case Block::particle_kind: return all_kinds(from, elements);
+        case Block::particle_tag: return true;
         case Block::vertex_local: return all_vertices<Real>(from, elements);
         case Block::piece_index: return all_indices(from, world.bodies.per_vertex(), of);
         case Block::pressure:

@@ -71,7 +71,7 @@ inline constexpr std::size_t kHeadBytes = 2 * kWordBytes + sizeof(Head);
 
 inline std::uint64_t capacity_code(const Capacity& of) {
     const auto& [particles, cells_x, cells_y, bodies, moving, vertices, wall_edges, contacts,
-                 two_way, second_liquid, sleeping_regions, window_cells] = of;
+                 two_way, second_liquid, particle_tags, sleeping_regions, window_cells] = of;
     Hash hash;
     const std::int32_t numbers[] = {particles, cells_x, cells_y,
                                     bodies,    vertices, wall_edges, contacts};
@@ -86,6 +86,9 @@ inline std::uint64_t capacity_code(const Capacity& of) {
     }
     if (sleeping_regions) {
         hash.add(std::uint32_t{1});
+    }
+    if (particle_tags) {
+        hash.add(std::uint32_t{2});
     }
     return hash.value();
 }

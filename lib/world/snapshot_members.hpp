@@ -82,7 +82,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             on_surface, leaps, drift_turn, quiet_turn, crowded, settling, last_dt,
                             change, sound_speed, cell_weight, solve, elasticity,
                             second_liquid] = pressure_fields;
-    auto& [position, velocity, count, capacity, kind] = particles;
+    auto& [position, velocity, count, capacity, kind, tag_of] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
                             scratch_list, load, vertex_capacity, vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, thin, nodes, scratch] = layers;

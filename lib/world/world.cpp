@@ -124,6 +124,9 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
     carver.take(Block::particle_position, simulation.particles.position);
     carver.take(Block::particle_velocity, simulation.particles.velocity);
     simulation.particles.capacity = capacity.particles;
+    if (capacity.particle_tags) {
+        carver.take(Block::particle_tag, simulation.particles.tag);
+    }
     if (capacity.second_liquid) {
         carver.take(Block::particle_kind, simulation.particles.kind);
         carver.take(Block::inverse_density_u, simulation.grid.inverse_density_u);

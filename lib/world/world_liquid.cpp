@@ -52,6 +52,17 @@ Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f vel
     return state.simulation.particles.full() ? Status::no_free_particle : Status::ok;
 }
 
+/// A field of all particles, those asleep as well, of a world that is one and has it.
+template <class Real, class Field>
+View<Field> view_of(const WorldState<Real>* state, Field* Particles<Real>::*field) {
+    if (state == nullptr || state->simulation.particles.*field == nullptr) {
+        return {};
+    }
+    const Particles<Real>& particles = state->simulation.particles;
+    const std::int32_t hidden = hidden_of(state->simulation);
+    return {particles.*field - hidden, particles.count + hidden};
+}
+
 }  // namespace
 
 template <class Real>
@@ -141,33 +152,40 @@ Status World<Real>::remove_particle(std::int32_t index) {
 }
 
 template <class Real>
-View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const {
-    if (state_ == nullptr) {
-        return {};
+Status World<Real>::tag_particle(std::int32_t index, std::uint8_t tag) {
+    const Status free = ready(state_);
+    if (free != Status::ok) {
+        return free;
     }
     const Particles<Real>& particles = state_->simulation.particles;
-    const std::int32_t hidden = hidden_of(state_->simulation);
-    return {particles.position - hidden, particles.count + hidden};
+    if (particles.tag == nullptr) {
+        return Status::no_particle_tags;
+    }
+    if (index < 0 || index >= particles.count) {
+        return Status::no_such_particle;
+    }
+    particles.tag[index] = tag;
+    return Status::ok;
+}
+
+template <class Real>
+View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const {
+    return view_of(state_, &Particles<Real>::position);
 }
 
 template <class Real>
 View<Vec2<VelocityOf<Real>>> World<Real>::particle_velocities() const {
-    if (state_ == nullptr) {
-        return {};
-    }
-    const Particles<Real>& particles = state_->simulation.particles;
-    const std::int32_t hidden = hidden_of(state_->simulation);
-    return {particles.velocity - hidden, particles.count + hidden};
+    return view_of(state_, &Particles<Real>::velocity);
 }
 
 template <class Real>
 View<Liquid> World<Real>::particle_kinds() const {
-    if (state_ == nullptr || state_->simulation.particles.kind == nullptr) {
-        return {};
-    }
-    const Particles<Real>& particles = state_->simulation.particles;
-    const std::int32_t hidden = hidden_of(state_->simulation);
-    return {particles.kind - hidden, particles.count + hidden};
+    return view_of(state_, &Particles<Real>::kind);
+}
+
+template <class Real>
+View<std::uint8_t> World<Real>::particle_tags() const {
+    return view_of(state_, &Particles<Real>::tag);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                      \
@@ -176,7 +194,9 @@ View<Liquid> World<Real>::particle_kinds() const {
     template Status World<Real>::remove_particle(std::int32_t);                     \
     template View<Vec2<PositionOf<Real>>> World<Real>::particle_positions() const;  \
     template View<Vec2<VelocityOf<Real>>> World<Real>::particle_velocities() const; \
-    template View<Liquid> World<Real>::particle_kinds() const;
+    template View<Liquid> World<Real>::particle_kinds() const;                      \
+    template View<std::uint8_t> World<Real>::particle_tags() const;                 \
+    template Status World<Real>::tag_particle(std::int32_t, std::uint8_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

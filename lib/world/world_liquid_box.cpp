@@ -166,7 +166,27 @@ Status World<Real>::stir(const Box& box_m, Vec2f velocity_mps, float share) {
     return Status::ok;
 }
 
+template <class Real>
+Status World<Real>::tag(const Box& box_m, std::uint8_t tag) {
+    const Status valid = check_box_in(state_, box_m);
+    if (valid != Status::ok) {
+        return valid;
+    }
+    const Particles<Real>& particles = state_->simulation.particles;
+    if (particles.tag == nullptr) {
+        return Status::no_particle_tags;
+    }
+    const BoxInCells<Real> box(*state_, box_m);
+    for (std::int32_t k = 0; k < particles.count; ++k) {
+        if (box.holds(particles.position[k])) {
+            particles.tag[k] = tag;
+        }
+    }
+    return Status::ok;
+}
+
 #define WEIR_INSTANTIATE(Real)                                           \
+    template Status World<Real>::tag(const Box&, std::uint8_t);          \
     template Status World<Real>::drain(const Box&, std::int32_t*);       \
     template Status World<Real>::liquid_in(const Box&, LiquidIn*) const; \
     template Status World<Real>::stir(const Box&, Vec2f, float);

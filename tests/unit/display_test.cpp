@@ -23,7 +23,7 @@ TEST(Display, WhatCannotBeIsLeftAsItIs) {
         return rows.first <= rows.last;
     };
     EXPECT_FALSE(changed(16, 16, nullptr));
-    for (const std::int32_t width : {15, 1, 0, -1, -16, 1026}) {
+    for (const std::int32_t width : {0, -1, -16, 1025, 1026}) {
         EXPECT_FALSE(changed(width, 8, pixels.data())) << width;
     }
     EXPECT_FALSE(changed(16, 0, pixels.data()));
@@ -32,6 +32,36 @@ TEST(Display, WhatCannotBeIsLeftAsItIs) {
     EXPECT_EQ(pixels, before);
     EXPECT_TRUE(changed(16, 16, pixels.data()));
     EXPECT_NE(pixels, before);
+}
+
+/// The half byte at the end of a row is nobody's.
+TEST(Display, MayBeOfAnOddWidth) {
+    WorldDef def = small_def();
+    def.capacity.particles = 1000;
+    TestWorld<float> world(def);
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.32F, 0.17F}}));
+    world->step(0.01F);
+    constexpr std::int32_t kHeight = 16;
+    Display display;
+    display.width = 15;
+    display.height = kHeight;
+    std::vector<std::uint8_t> odd(8 * kHeight, 0x07), even(8 * kHeight, 0);
+    display.pixels = odd.data();
+    EXPECT_EQ(draw(*world, display).last, kHeight - 1);
+    display.width = 16;
+    display.pixels = even.data();
+    draw(*world, display);
+    for (std::size_t byte = 0; byte < odd.size(); ++byte) {  // the liquid is level
+        const int lower = byte % 8 == 7 ? 0x07 : even[byte] & 0x0F;
+        EXPECT_EQ(odd[byte], (even[byte] & 0xF0) | lower) << byte;
+    }
+    EXPECT_EQ(even.front(), 0x00);
+    EXPECT_EQ(even.back(), 0xBB);
+    display.width = 1;
+    std::vector<std::uint8_t> narrow(kHeight, 0);
+    display.pixels = narrow.data();
+    draw(*world, display);
+    EXPECT_EQ(narrow.back(), 0xB0);
 }
 
 /// The right edge of the widest display of the widest tank.

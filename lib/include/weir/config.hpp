@@ -53,6 +53,7 @@ struct Capacity {
     /// (in SmallFixed forces alone: there are no free bodies).
     bool two_way = false;
     bool second_liquid = false;     ///< room for two liquids: a byte a particle, 2 numbers a cell
+    bool particle_tags = false;     ///< a byte of the caller's with each particle: dye, an owner
     /// Room for `World::let_regions_sleep`: 8 bytes a cell (double: 16, SmallFixed: 5). Not with
     /// `two_way`, `window_cells` or periodic borders.
     bool sleeping_regions = false;

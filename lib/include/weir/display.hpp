@@ -10,11 +10,11 @@
 namespace weir {
 
 /// A picture of 16 shades, two pixels a byte, the left one in the upper half; rows from the top.
-/// The caller owns the bytes; start with zeros.
+/// A row begins with a byte. The caller owns the bytes; start with zeros.
 struct Display {
-    std::int32_t width = 0;         ///< pixels, even, at most 1024
+    std::int32_t width = 0;         ///< pixels, at most 1024
     std::int32_t height = 0;        ///< pixels, at most 1024
-    std::uint8_t* pixels = nullptr;  ///< width · height / 2 bytes
+    std::uint8_t* pixels = nullptr;  ///< (width + 1) / 2 · height bytes
     std::uint8_t liquid = 11;       ///< shade of full liquid, 1 … 15
     std::uint8_t solid = 4;         ///< shade of solids
     std::uint8_t hysteresis = 96;   ///< a shade changes if it is off by ½ and this / 256 of one
@@ -28,7 +28,7 @@ struct ChangedRows {
 
 /// Draws the world over the whole display: the density of cells, bilinear between their centres,
 /// as `World::density` knows it; solids where the contour is. Integers only. A display that cannot
-/// be, without pixels or of an odd width, is left as it is.
+/// be, without pixels, is left as it is.
 /// Cost: 140 instructions a pixel on a Cortex-M4, 190 where there are bodies, 240 and more on an
 /// M0: whoever sleeps draws once when `StepReport::asleep` first says so, and then no more.
 template <class Real>

@@ -19,7 +19,7 @@ namespace weir {
 /// Who uses a block, for the table of memory by owner.
 enum class Owner : std::uint8_t {
     world,      ///< the world's own state and the step's report
-    particles,  ///< positions, velocities and kinds
+    particles,  ///< positions, velocities, kinds and tags
     bodies,     ///< body table, contact events, forces
     vertices,   ///< polygons, their pose in the tank, their convex pieces
     contour,    ///< signed distance at nodes (static and merged), contour matrix
@@ -40,6 +40,7 @@ enum class Block : std::uint8_t {
     particle_position,
     particle_velocity,
     particle_kind,
+    particle_tag,
     body_table,
     contact,
     vertex_local,
@@ -103,9 +104,9 @@ inline constexpr std::size_t world_alignment = 16;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 912 : 896) : 1264) +
+        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 928 : 912) : 1264) +
               (std::is_same_v<Real, Fixed> ? 16 : 0)
-        : 1488;
+        : 1504;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
@@ -341,8 +342,9 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
         particles);
     add(Block::particle_velocity, Owner::particles, Kept::particles, 2 * speed, particles);
-    add(Block::particle_kind, Owner::particles, Kept::particles, 1,
-        capacity.second_liquid ? particles : 0);
+    const auto each_if = [particles](bool any) { return any ? particles : 0; };
+    add(Block::particle_kind, Owner::particles, Kept::particles, 1, each_if(capacity.second_liquid));
+    add(Block::particle_tag, Owner::particles, Kept::particles, 1, each_if(capacity.particle_tags));
     add(Block::body_table, Owner::bodies, Kept::members, kBodyBytes<Real>, bodies);
     add(Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts));
     add(Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices);

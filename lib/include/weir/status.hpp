@@ -81,6 +81,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
     no_free_particle,
     no_such_particle,
     no_second_liquid,
+    no_particle_tags,
     particle_not_finite,
     particle_outside_domain,
     particle_inside_solid,

@@ -116,6 +116,12 @@ public:
     /// by a rate r with share r · dt, wakes nobody and keeps nobody awake. Looks at each particle
     /// once.
     Status stir(const Box& box_m, Vec2f velocity_mps, float share);
+    /// Gives what is in a box a number of the caller's, which stays with each particle wherever it
+    /// goes in the tank and in the views: dye, whose it is, what the game says of it. 0 at first.
+    /// It changes nothing else. Wants `capacity.particle_tags`. Looks at each particle once.
+    Status tag(const Box& box_m, std::uint8_t tag);
+    /// The same for the particle at that place in the views; the newest is the last one.
+    Status tag_particle(std::int32_t index, std::uint8_t tag);
 
     Status set_gravity(Vec2f gravity_mps2);
 
@@ -160,6 +166,8 @@ public:
     float velocity_scale() const;
     /// Which liquid they belong to. Empty if the world has no room for a second one.
     View<Liquid> particle_kinds() const;
+    /// Their tags. Empty without `capacity.particle_tags`.
+    View<std::uint8_t> particle_tags() const;
     /// What particles did to the bodies in the last step, one entry for each body that was hit, in
     /// the order of the first blows. Empty without `capacity.contacts`. A body that was removed
     /// since is still named.
