@@ -342,9 +342,9 @@ constexpr Layout layout(const Capacity& capacity) {
     add(Block::particle_position, Owner::particles, Kept::particles, 2 * sizeof(PositionOf<Real>),
         particles);
     add(Block::particle_velocity, Owner::particles, Kept::particles, 2 * speed, particles);
-    const auto each_if = [particles](bool any) { return any ? particles : 0; };
-    add(Block::particle_kind, Owner::particles, Kept::particles, 1, each_if(capacity.second_liquid));
-    add(Block::particle_tag, Owner::particles, Kept::particles, 1, each_if(capacity.particle_tags));
+    const auto if_any = [particles](bool any) { return any ? particles : 0; };
+    add(Block::particle_kind, Owner::particles, Kept::particles, 1, if_any(capacity.second_liquid));
+    add(Block::particle_tag, Owner::particles, Kept::particles, 1, if_any(capacity.particle_tags));
     add(Block::body_table, Owner::bodies, Kept::members, kBodyBytes<Real>, bodies);
     add(Block::contact, Owner::bodies, Kept::nothing, sizeof(Contact), count(capacity.contacts));
     add(Block::vertex_local, Owner::vertices, Kept::vertices, point, vertices);
