@@ -120,9 +120,7 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         return known;
     }
     Simulation<Real>& simulation = state_->simulation;
-    const Vec2<Real> at =
-        convert<Real>(state_->cells_per_m * convert<Face<Real>>(position_m));
-    const Vec2<Real> inside = within_tank(simulation.grid.shape, at);
+    const Vec2<Real> inside = within_tank(simulation.grid.shape, in_cells(*state_, position_m));
     const Walls<Real>& walls = simulation.layers.walls;
     simulation.stages->draw_moved(simulation.layers, simulation.bodies);
     if (walls.active &&

@@ -53,6 +53,11 @@ Status check_box_in(const detail::WorldState<Real>* state, const Box& box_m) {
     return free != Status::ok ? free : check_box(box_m);
 }
 
+template <class Real>
+Vec2<Real> in_cells(const detail::WorldState<Real>& state, Vec2f place_m) {
+    return convert<Real>(state.cells_per_m * convert<Face<Real>>(place_m));
+}
+
 /// A box in cells. What is on its lower sides belongs to it, so that boxes side by side share
 /// nothing; on the tank's upper sides there is nobody.
 template <class Real>
@@ -61,7 +66,7 @@ struct BoxInCells {
     Vec2<Real> high;
 
     BoxInCells(const detail::WorldState<Real>& state, const Box& box_m)
-        : low(in_cells(state, box_m.min_m)), high(in_cells(state, box_m.max_m)) {}
+        : low(cut(state, box_m.min_m)), high(cut(state, box_m.max_m)) {}
 
     bool holds(Vec2<PositionOf<Real>> place) const {
         const Vec2<Real> x{Real(place.x), Real(place.y)};
@@ -69,10 +74,9 @@ struct BoxInCells {
     }
 
 private:
-    static Vec2<Real> in_cells(const detail::WorldState<Real>& state, Vec2f metres) {
+    static Vec2<Real> cut(const detail::WorldState<Real>& state, Vec2f corner_m) {
         const Vec2f far = far_corner(state);
-        const Vec2f within{clamp(metres.x, 0.0F, far.x), clamp(metres.y, 0.0F, far.y)};
-        return convert<Real>(state.cells_per_m * convert<Face<Real>>(within));
+        return in_cells(state, {clamp(corner_m.x, 0.0F, far.x), clamp(corner_m.y, 0.0F, far.y)});
     }
 };
 

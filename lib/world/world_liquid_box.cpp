@@ -1,4 +1,4 @@
-// The liquid in a box: taken out, measured, stirred.
+// The liquid in a box: taken out, measured, stirred, tagged.
 #include <type_traits>
 
 #include "weir/world.hpp"
@@ -7,6 +7,17 @@
 namespace weir {
 
 namespace {
+
+/// Of the particles from that one on, visit(index) for each that is in the box.
+template <class Real, class Visit>
+void for_each_in(const BoxInCells<Real>& box, const Particles<Real>& particles, std::int32_t first,
+                 Visit visit) {
+    for (std::int32_t k = first; k < particles.count; ++k) {
+        if (box.holds(particles.position[k])) {
+            visit(k);
+        }
+    }
+}
 
 /// A sum over many numbers of one kind, exact in fixed point, in double else.
 template <class Number>
@@ -105,15 +116,13 @@ Status World<Real>::liquid_in(const Box& box_m, LiquidIn* found) const {
     Mean<PositionOf<Real>> x, y;
     Mean<VelocityOf<Real>> u, v;
     *found = {};
-    for (std::int32_t k = 0; k < particles.count; ++k) {
-        if (box.holds(particles.position[k])) {
-            ++found->particles;
-            x.add(particles.position[k].x);
-            y.add(particles.position[k].y);
-            u.add(particles.velocity[k].x);
-            v.add(particles.velocity[k].y);
-        }
-    }
+    for_each_in(box, particles, 0, [&](std::int32_t k) {
+        ++found->particles;
+        x.add(particles.position[k].x);
+        y.add(particles.position[k].y);
+        u.add(particles.velocity[k].x);
+        v.add(particles.velocity[k].y);
+    });
     if (found->particles > 0) {
         const std::int32_t n = found->particles;
         const float cell_m = state_->def.cell_m;
@@ -148,17 +157,15 @@ Status World<Real>::stir(const Box& box_m, Vec2f velocity_mps, float share) {
     const BoxInCells<Real> box(*state_, box_m);
     const Vec2<Real> velocity = inner_velocity(*state_, velocity_mps);
     const Approach<Real> approach(velocity, share);
+    const std::int32_t first = calms && regions != nullptr ? regions->asleep : 0;
     bool any = false;
-    for (std::int32_t k = calms && regions != nullptr ? regions->asleep : 0; k < particles.count;
-         ++k) {
-        if (box.holds(particles.position[k])) {
-            particles.velocity[k] = approach.from(particles.velocity[k]);
-            any = true;
-            if (!calms && regions != nullptr) {
-                regions->stages->touch_at(*regions, particles.position[k]);
-            }
+    for_each_in(box, particles, first, [&](std::int32_t k) {
+        particles.velocity[k] = approach.from(particles.velocity[k]);
+        any = true;
+        if (!calms && regions != nullptr) {
+            regions->stages->touch_at(*regions, particles.position[k]);
         }
-    }
+    });
     if (any && !calms) {
         note_speed(simulation, velocity);
         wake(*state_);
@@ -177,11 +184,7 @@ Status World<Real>::tag(const Box& box_m, std::uint8_t tag) {
         return Status::no_particle_tags;
     }
     const BoxInCells<Real> box(*state_, box_m);
-    for (std::int32_t k = 0; k < particles.count; ++k) {
-        if (box.holds(particles.position[k])) {
-            particles.tag[k] = tag;
-        }
-    }
+    for_each_in(box, particles, 0, [&](std::int32_t k) { particles.tag[k] = tag; });
     return Status::ok;
 }
 

@@ -95,34 +95,45 @@ TYPED_TEST(LiquidBox, AnOutletEmptiesAPool) {
     EXPECT_GT(gone, before * 3 / 4);
 }
 
-TYPED_TEST(LiquidBox, SleepersAreTakenOutAndWakeTheirNeighbours) {
+constexpr float kWide = 64 * kCell_m;
+constexpr Box kLeft{{0.0F, 0.0F}, {kWide / 2, kSide}};
+constexpr Box kRight{{kWide / 2, 0.0F}, {kWide, kSide}};
+
+WorldDef wide_tank() {
     WorldDef def = tank();
     def.capacity.cells_x = 64;
     def.capacity.sleeping_regions = true;
     def.sleep.speed_mps = 0.05F;
-    TestWorld<TypeParam> world(def);
-    const float width = 64 * kCell_m;
+    return def;
+}
+
+/// A pool on each side of a wall, which sleep each by itself.
+template <class Real>
+void fill_both_sides(World<Real>& world) {
     const Ring wall = rectangle(8 * kCell_m, kSide);
     BodyId id;
-    expect_ok(world->add_static_body(body_of(wall, {width / 2, kSide / 2}), &id));
-    expect_ok(world->let_regions_sleep());
-    expect_ok(world->fill({{0.0F, 0.0F}, {28 * kCell_m, 0.08F}}));
-    expect_ok(world->fill({{36 * kCell_m, 0.0F}, {width, 0.08F}}));
-    const Box right{{width / 2, 0.0F}, {width, kSide}};
-    const Box left{{0.0F, 0.0F}, {width / 2, kSide}};
-    const Box beside_wall{{width / 2, 0.0F}, {40 * kCell_m, kSide}};
+    expect_ok(world.add_static_body(body_of(wall, {kWide / 2, kSide / 2}), &id));
+    expect_ok(world.let_regions_sleep());
+    expect_ok(world.fill({{0.0F, 0.0F}, {28 * kCell_m, 0.08F}}));
+    expect_ok(world.fill({{36 * kCell_m, 0.0F}, {kWide, 0.08F}}));
+}
+
+TYPED_TEST(LiquidBox, SleepersAreTakenOutAndWakeTheirNeighbours) {
+    TestWorld<TypeParam> world(wide_tank());
+    fill_both_sides(*world);
+    const Box beside_wall{{kWide / 2, 0.0F}, {40 * kCell_m, kSide}};
     StepReport report;
     for (int step = 0; step < 300; ++step) {
         report = world->step(0.01F);
     }
     EXPECT_GT(report.particles_asleep, 0);
-    const std::int32_t kept = found_in(*world, left).particles;
-    const std::int32_t there = found_in(*world, right).particles;
+    const std::int32_t kept = found_in(*world, kLeft).particles;
+    const std::int32_t there = found_in(*world, kRight).particles;
     std::int32_t removed = 0;
     expect_ok(world->drain(beside_wall, &removed));
     EXPECT_GT(removed, 40);
-    EXPECT_EQ(found_in(*world, left).particles, kept);
-    EXPECT_EQ(found_in(*world, right).particles, there - removed);
+    EXPECT_EQ(found_in(*world, kLeft).particles, kept);
+    EXPECT_EQ(found_in(*world, kRight).particles, there - removed);
     for (int step = 0; step < 100; ++step) {
         world->step(0.01F);
     }
@@ -213,31 +224,19 @@ TYPED_TEST(LiquidBox, IsCalmedAndSleepsTheSooner) {
 }
 
 TYPED_TEST(LiquidBox, OnlyWhoIsPushedWakes) {
-    WorldDef def = tank();
-    def.capacity.cells_x = 64;
-    def.capacity.sleeping_regions = true;
-    def.sleep.speed_mps = 0.05F;
-    TestWorld<TypeParam> world(def);
-    const float width = 64 * kCell_m;
-    BodyId id;
-    const Ring wall = rectangle(8 * kCell_m, kSide);
-    expect_ok(world->add_static_body(body_of(wall, {width / 2, kSide / 2}), &id));
-    expect_ok(world->let_regions_sleep());
-    expect_ok(world->fill({{0.0F, 0.0F}, {28 * kCell_m, 0.08F}}));
-    expect_ok(world->fill({{36 * kCell_m, 0.0F}, {width, 0.08F}}));
-    const Box left{{0.0F, 0.0F}, {width / 2, kSide}};
-    const Box right{{width / 2, 0.0F}, {width, kSide}};
-    const std::int32_t there = found_in(*world, right).particles;
+    TestWorld<TypeParam> world(wide_tank());
+    fill_both_sides(*world);
+    const std::int32_t there = found_in(*world, kRight).particles;
     std::int32_t asleep = 0;
     for (int step = 0; step < 600 && asleep < there; ++step) {
-        expect_ok(world->stir(left, {0.3F, 0.0F}, 0.2F));  // is kept awake
+        expect_ok(world->stir(kLeft, {0.3F, 0.0F}, 0.2F));  // is kept awake
         asleep = world->step(0.01F).particles_asleep;
     }
     EXPECT_EQ(asleep, there);
     const std::uint64_t before = world->state_hash();
-    expect_ok(world->stir(right, {}, 1.0F));
+    expect_ok(world->stir(kRight, {}, 1.0F));
     EXPECT_EQ(world->state_hash(), before);
-    expect_ok(world->stir(right, {0.2F, 0.1F}, 0.5F));
+    expect_ok(world->stir(kRight, {0.2F, 0.1F}, 0.5F));
     EXPECT_EQ(world->step(0.01F).particles_asleep, 0);
 }
 
