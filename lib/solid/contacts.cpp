@@ -4,12 +4,17 @@ namespace weir {
 
 namespace {
 
-/// Entry of a body, a new one if need be; −1 if there is no room.
+bool same_body(BodyId one, BodyId other) {
+    return one.slot == other.slot && one.generation == other.generation;
+}
+
+/// Entry of a body with what it met, a new one if need be; −1 if there is no room.
 template <class Real>
-std::int32_t entry_of(Contacts<Real>& contacts, BodyId id) {
+std::int32_t entry_of(Contacts<Real>& contacts, const Contact& met) {
     const auto holds = [&](std::int32_t at) {
-        return contacts.entry[at].body.slot == id.slot &&
-               contacts.entry[at].body.generation == id.generation;
+        const Contact& entry = contacts.entry[at];
+        return same_body(entry.body, met.body) && entry.with == met.with &&
+               same_body(entry.other, met.other);
     };
     if (contacts.last < contacts.used && holds(contacts.last)) {
         return contacts.last;
@@ -22,12 +27,29 @@ std::int32_t entry_of(Contacts<Real>& contacts, BodyId id) {
     if (contacts.used == contacts.capacity) {
         return -1;
     }
-    contacts.entry[contacts.used] = Contact{};
-    contacts.entry[contacts.used].body = id;
+    Contact& entry = contacts.entry[contacts.used];
+    entry = Contact{};
+    entry.body = met.body;
+    entry.other = met.other;
+    entry.with = met.with;
     return contacts.used++;
 }
 
 }  // namespace
+
+template <class Real>
+void record(Contacts<Real>& contacts, const Contact& met) {
+    const std::int32_t at = entry_of(contacts, met);
+    if (at < 0) {
+        ++contacts.missed;
+        return;
+    }
+    contacts.last = static_cast<std::uint16_t>(at);
+    Contact& entry = contacts.entry[at];
+    ++entry.blows;
+    entry.impulse_m3ps = entry.impulse_m3ps + met.impulse_m3ps;
+    entry.place_m = entry.place_m + met.place_m;
+}
 
 template <class Real>
 void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
@@ -35,30 +57,25 @@ void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t
     if (contacts.capacity == 0) {
         return;
     }
-    const std::int32_t at = entry_of(contacts, {slot, body.generation, contacts.world});
-    if (at < 0) {
-        ++contacts.missed;
-        return;
-    }
-    contacts.last = static_cast<std::uint16_t>(at);
-    Contact& entry = contacts.entry[at];
     const float mass = kind == Liquid::second ? contacts.second_density * contacts.particle_m2
                                               : contacts.particle_m2;
-    ++entry.particles;
-    entry.impulse_m3ps =
-        entry.impulse_m3ps + (mass * contacts.cell_m) * convert<float>(lost);
-    entry.place_m = entry.place_m + contacts.cell_m * convert<float>(place);
+    Contact met;
+    met.body = {slot, body.generation, contacts.world};
+    met.impulse_m3ps = (mass * contacts.cell_m) * convert<float>(lost);
+    met.place_m = contacts.cell_m * convert<float>(place);
+    record(contacts, met);
 }
 
 template <class Real>
 void finish(Contacts<Real>& contacts) {
     for (std::int32_t at = 0; at < contacts.used; ++at) {
         Contact& entry = contacts.entry[at];
-        entry.place_m = (1.0F / static_cast<float>(entry.particles)) * entry.place_m;
+        entry.place_m = (1.0F / static_cast<float>(entry.blows)) * entry.place_m;
     }
 }
 
 #define WEIR_INSTANTIATE(Real)                                                           \
+    template void record(Contacts<Real>&, const Contact&);                               \
     template void record_blow(Contacts<Real>&, const Body<Real>&, std::uint16_t, Liquid, \
                               Vec2<Real>, Vec2<Real>);                                   \
     template void finish(Contacts<Real>&);

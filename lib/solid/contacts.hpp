@@ -1,4 +1,5 @@
-// Contact events: what the liquid's particles did to each body within a step, in a fixed buffer.
+// Contact events: what particles, and others that it met, did to each body within a step, in a
+// fixed buffer.
 #pragma once
 
 #include "solid/walls.hpp"
@@ -14,7 +15,7 @@ struct Contacts {
     std::uint16_t used = 0;
     std::uint16_t last = 0;        ///< where the last blow was entered
     std::uint16_t world = 0;       ///< tag in the bodies' names
-    std::int32_t missed = 0;       ///< blows on bodies for which there was no entry left
+    std::int32_t missed = 0;       ///< blows for which there was no entry left
     float cell_m = 1.0F;
     float particle_m2 = 0.0F;      ///< area that a particle stands for, over the unit of time, s
     float second_density = 1.0F;
@@ -28,9 +29,14 @@ void clear(Contacts<Real>& contacts) {
     contacts.last = 0;
 }
 
-/// Enters a blow: the velocity that a particle of a liquid lost at a place, in cells and units of
-/// time.
+/// Enters a blow: what `met.body` received from what it met. `met.impulse_m3ps` and `met.place_m`
+/// are those of this one.
 /// Cost: a search among the step's entries, from the last one that was hit.
+template <class Real>
+void record(Contacts<Real>& contacts, const Contact& met);
+
+/// A blow of a particle: the velocity that one of a liquid lost at a place, in cells and units of
+/// time.
 template <class Real>
 void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
                  Liquid kind, Vec2<Real> place, Vec2<Real> lost);

@@ -181,7 +181,7 @@ Face<Real> drag_on_spin(const Obstacles<Real>& obstacles, const BodyLoad<Real>& 
 
 template <class Real>
 std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
-                    BodyTable<Real>& table) {
+                    BodyTable<Real>& table, Contacts<Real>& contacts) {
     const Face<Real> fastest = Face<Real>(kLongestWay) / obstacles.dt;
     for_each_free(table, [&](const Body<Real>& body, BodyLoad<Real>& load) {
         const Impulse<Real> film =
@@ -192,7 +192,7 @@ std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& 
     });
     std::int32_t slowed = 0;
     stop(obstacles, kRoundsAfter);
-    remember(obstacles);
+    remember(obstacles, contacts);
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         Twist<Real> twist = whole_twist(load);
         twist.spin -= drag_on_spin(obstacles, load) * twist.spin;

@@ -53,7 +53,8 @@ struct FreeBodyStages {
     void (*end)(const CoupledSolve<Real>&);
     /// After the pressure: the velocity that came of it and of what stops them. Returns how many
     /// were too fast for a substep and were slowed.
-    std::int32_t (*finish)(const Obstacles<Real>&, const PressedCells<Real>&, BodyTable<Real>&);
+    std::int32_t (*finish)(const Obstacles<Real>&, const PressedCells<Real>&, BodyTable<Real>&,
+                           Contacts<Real>&);
     /// Moves them with it, and apart if they are in something; none of them leaves the tank.
     void (*move)(const Obstacles<Real>&, BodyTable<Real>&, Seconds<Real> dt_s);
 };

@@ -286,6 +286,23 @@ void begin_with(const Obstacles<Real>& obstacles, const Push<Real>& kept,
     along.push(meeting.rub);
 }
 
+/// What the free body received there.
+template <class Real>
+void tell(const BodyTable<Real>& table, const Meeting<Real>& meeting, Contacts<Real>& contacts) {
+    const auto name = [&](std::uint16_t slot) {
+        return BodyId{slot, table.body[slot].generation, contacts.world};
+    };
+    const float m = contacts.cell_m;
+    Contact met;
+    met.body = name(meeting.slot);
+    met.with = meeting.other == kNoBody ? ContactWith::tank : ContactWith::body;
+    met.other = meeting.other == kNoBody ? BodyId{} : name(meeting.other);
+    met.impulse_m3ps = (m * m * m) * convert<float>(meeting.push * meeting.normal +
+                                                    meeting.rub * meeting.side());
+    met.place_m = m * convert<float>(meeting.at);
+    record(contacts, met);
+}
+
 }  // namespace
 
 template <class Real>
@@ -328,7 +345,7 @@ std::int32_t recall(const Obstacles<Real>& obstacles) {
 }
 
 template <class Real>
-void remember(const Obstacles<Real>& obstacles) {
+void remember(const Obstacles<Real>& obstacles, Contacts<Real>& contacts) {
     const Meetings<Real> meetings(obstacles.bodies);
     Push<Real>* push = meetings.before;
     for (const Meeting<Real>& meeting : meetings) {
@@ -336,6 +353,9 @@ void remember(const Obstacles<Real>& obstacles) {
             *push++ = {meeting.at - obstacles.bodies.load[meeting.slot].at,
                        meeting.push / obstacles.dt, meeting.rub / obstacles.dt,
                        named<Face<Real>>(meeting.slot), named<Face<Real>>(meeting.other)};
+            if (contacts.capacity > 0) {
+                tell(obstacles.bodies, meeting, contacts);
+            }
         }
     }
     push->slot = Face<Real>(0);
@@ -364,7 +384,7 @@ void part(const Obstacles<Real>& obstacles) {
 #define WEIR_INSTANTIATE(Real)                                   \
     template void stop(const Obstacles<Real>&, std::int32_t);    \
     template std::int32_t recall(const Obstacles<Real>&);        \
-    template void remember(const Obstacles<Real>&);              \
+    template void remember(const Obstacles<Real>&, Contacts<Real>&); \
     template void part(const Obstacles<Real>&);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

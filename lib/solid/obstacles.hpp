@@ -10,6 +10,7 @@
 #include "grid/borders.hpp"
 #include "solid/body_load.hpp"
 #include "solid/body_force.hpp"
+#include "solid/contacts.hpp"
 
 namespace weir {
 
@@ -203,9 +204,9 @@ void stop(const Obstacles<Real>& obstacles, std::int32_t rounds);
 /// mostly one a point.
 template <class Real>
 std::int32_t recall(const Obstacles<Real>& obstacles);
-/// Keeps what they got in this one.
+/// Keeps what they got in this one, and tells of it as contacts.
 template <class Real>
-void remember(const Obstacles<Real>& obstacles);
+void remember(const Obstacles<Real>& obstacles, Contacts<Real>& contacts);
 
 /// After all velocities are known: `load.change` becomes what moves bodies apart that would be in
 /// each other at the end of the substep, cells and radians. No velocity comes of it.

@@ -112,8 +112,8 @@ void press_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, W
     press_tank(simulation, dt_s);
     press_on_bodies(simulation.grid.shape, simulation.layers.walls, simulation.bodies, cells);
     if (simulation.free_bodies != nullptr) {
-        report.bodies_slowed += simulation.free_bodies->finish(obstacles_of(simulation, dt_s),
-                                                               cells, simulation.bodies);
+        report.bodies_slowed += simulation.free_bodies->finish(
+            obstacles_of(simulation, dt_s), cells, simulation.bodies, simulation.contacts);
     }
 }
 

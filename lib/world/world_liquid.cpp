@@ -94,14 +94,14 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
     };
     std::int32_t seeds = 0;
     each_seed([&](Vec2<Real>) { ++seeds; });
+    if (added != nullptr) {
+        *added = seeds;
+    }
     if (seeds > particles.capacity - particles.count) {
         return Status::no_free_particle;
     }
     each_seed([&](Vec2<Real> at) { add(simulation, at, {}, kind); });
     note_changed(*state_);
-    if (added != nullptr) {
-        *added = seeds;
-    }
     return Status::ok;
 }
 

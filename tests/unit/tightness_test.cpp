@@ -172,7 +172,9 @@ TEST(Tightness, ContactsNameTheBodyItsImpulseAndThePlace) {
     EXPECT_EQ(contact.body.slot, id.slot);
     EXPECT_EQ(contact.body.generation, id.generation);
     EXPECT_EQ(contact.body.world, id.world);
-    EXPECT_EQ(contact.particles, 1);
+    EXPECT_EQ(contact.with, ContactWith::liquid);
+    EXPECT_EQ(contact.other, BodyId{});
+    EXPECT_EQ(contact.blows, 1);
     // A quarter of a cell of liquid, stopped.
     EXPECT_NEAR(contact.impulse_m3ps.x / (0.25F * kCell * kCell * kCell * before), 1.0F, 1.0e-3F);
     EXPECT_NEAR(contact.place_m.x, 14 * kCell, 0.3F * kCell);

@@ -40,7 +40,7 @@ void expect_same_solids(const World<Real>& part, const World<Real>& whole) {
     ASSERT_EQ(a.size, b.size);
     for (std::int32_t k = 0; k < a.size; ++k) {
         EXPECT_EQ(a[k].body.slot, b[k].body.slot);
-        EXPECT_EQ(a[k].particles, b[k].particles);
+        EXPECT_EQ(a[k].blows, b[k].blows);
         EXPECT_EQ(a[k].impulse_m3ps.x, b[k].impulse_m3ps.x);
         EXPECT_EQ(a[k].place_m.y, b[k].place_m.y);
     }

@@ -48,7 +48,9 @@ struct Capacity {
     /// of their length and 6 for each edge. 0: none, and polygons that thin are not tight. Near
     /// such walls particles and rows go one by one: 1.2 to 1.6 times the time on a desktop.
     std::int32_t wall_edges = 0;
-    std::int32_t contacts = 0;      ///< 0 … kMaxBodies: bodies whose contacts a step can report
+    /// 0 … kMaxBodies: contacts that a step can report, of a body with the liquid, of a free one
+    /// with another or with the tank.
+    std::int32_t contacts = 0;
     /// Room and time for what liquid does to bodies and tank: `World::force`, `add_free_body`
     /// (in SmallFixed forces alone: there are no free bodies).
     bool two_way = false;

@@ -1,4 +1,4 @@
-// Contact events: which bodies particles hit within a step, how hard and where.
+// Contact events: what met which bodies within a step, how hard and where.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,24 @@
 
 namespace weir {
 
-/// All blows of particles on one body within a step. Pressure is no blow: liquid at rest on a body
-/// presses on it, and its particles touch it now and then with next to no impulse.
+enum class ContactWith : std::uint8_t {
+    liquid,  ///< its particles; any kind of body
+    body,    ///< a free body with another one, of any kind
+    tank,    ///< a free body with the tank's walls
+};
+
+/// All blows on one body within a step, of one that it met. Pressure is no blow: liquid at rest on
+/// a body presses on it, and its particles touch it now and then with next to no impulse. What lies
+/// on something meets it in each step, with the impulse that carries it: of a mass m (`BodyMass`)
+/// about m·g·dt, a fall of height h √(2 g h) m.
 struct Contact {
     BodyId body;
-    std::int32_t particles = 0;  ///< blows; a particle can hit once in each substep
+    BodyId other;                ///< the body that it met, or none (`BodyId{}`)
+    ContactWith with = ContactWith::liquid;
+    /// A particle can hit once in each substep; bodies meet at some points, which count each.
+    std::int32_t blows = 0;
     /// That the body received, over the first liquid's density and the depth of the tank: times
-    /// kg/m³ and m it is N·s.
+    /// kg/m³ and m it is N·s. A free `other` received the opposite.
     Vec2f impulse_m3ps;
     Vec2f place_m;               ///< mean of the blows' places, in the tank
 };

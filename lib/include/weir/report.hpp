@@ -80,7 +80,7 @@ struct StepReport {
     std::int32_t particles_removed_stuck = 0;
     /// Too far from the others for `Capacity::window_cells`, in the last substep: they fell alone.
     std::int32_t particles_beyond = 0;
-    std::int32_t contacts_missed = 0;  ///< blows on bodies for which the contacts had no room
+    std::int32_t contacts_missed = 0;  ///< blows for which the contacts had no room
     /// Cells of groups of 4 × 4 that hold over 15 % too much at the end: a body leaves the liquid
     /// no room, as a piston in a full tank does. 0 with surface tension, and without
     /// `volume_gain`.

@@ -95,7 +95,8 @@ public:
 
     /// Fills a box with particles on a lattice, leaving out what is inside solids.
     /// All or nothing: refuses if not every particle has room.
-    /// @param added number of particles, may be null.
+    /// @param added number of particles, may be null; with `Status::no_free_particle` how many it
+    /// would have been.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
     /// Particles in the same place with the same velocity stay together for ever: an inlet spreads
     /// them, or gives them a speed. Beneath the surface they press what is there together, which
@@ -168,9 +169,10 @@ public:
     View<Liquid> particle_kinds() const;
     /// Their tags. Empty without `capacity.particle_tags`.
     View<std::uint8_t> particle_tags() const;
-    /// What particles did to the bodies in the last step, one entry for each body that was hit, in
-    /// the order of the first blows. Empty without `capacity.contacts`. A body that was removed
-    /// since is still named.
+    /// What bodies met in the last step, one entry for each body and what it met: splashes, thuds.
+    /// In the order of the first blows. Of two free bodies the one that was added to the lower slot
+    /// has the entry. Empty without `capacity.contacts`. A body that was removed since is still
+    /// named.
     View<Contact> contacts() const;
     /// Pressure at cell centres from the last substep, in the solver's own unit: multiply by
     /// `pressure_scale()` for p / ρ in m²/s², ρ the first liquid's. Columns and rows are cells.
