@@ -94,13 +94,19 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& bo
         std::int32_t c = s.index(columns.first, j);
         const std::int32_t end = s.index(columns.end, j);
         Part slivers;
-        if (any_marked(thin, s, j, j, kTouching)) {
-            densities_beside_thin(grid, *thin, per_face, cut, c, end, slivers, fields);
-        } else {
+        const std::int32_t row = s.index(0, j);
+        while (c < end) {
+            const std::int32_t wall =
+                row + next_marked(thin, s, j, j, c - row, columns.end, kTouching);
             if constexpr (kHasLanes<Real>) {
-                c = density_row(grid, cut, per_face, c, end, slivers, fields);
+                c = c < wall ? density_row(grid, cut, per_face, c, wall, slivers, fields) : c;
             }
-            densities_of_row(grid, per_face, cut, c, end, slivers, fields);
+            densities_of_row(grid, per_face, cut, c, wall, slivers, fields);
+            c = wall;
+            if (c < end) {
+                densities_beside_thin(grid, *thin, per_face, cut, c, c + 1, slivers, fields);
+                ++c;
+            }
         }
         if (!slivers.empty() && empty_slivers != nullptr) {
             empty_slivers(grid, borders, cut, j, slivers, fields.level);

@@ -20,6 +20,11 @@ struct Crossing {
 };
 
 template <class Real>
+inline bool is_left_of(Vec2<Real> p, Vec2<Real> a, Vec2<Real> b) {
+    return cross(b - a, p - a) >= Product<Real>{};
+}
+
+template <class Real>
 inline Crossing<Real> cross_edge(Vec2<Real> p, Vec2<Real> q, Vec2<Real> a, Vec2<Real> b) {
     const Vec2<Real> edge = b - a;
     const Product<Real> zero{};

@@ -84,28 +84,34 @@ inline std::uint32_t mark_at(const ThinWalls<Real>& thin, const GridShape& s, Ve
     return thin.mark[s.index(static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y))];
 }
 
-/// Whether a cell of some rows has that mark: what those rows go through is done in lanes if none
-/// has. Null: there are no thin walls.
+/// The first column from i on, before `end`, in which a cell of some rows has that mark; `end` if
+/// none has. What lies before it is done in lanes. Null: there are no thin walls.
 template <class Real>
-inline bool any_marked(const ThinWalls<Real>* thin, const GridShape& s, std::int32_t first_j,
-                       std::int32_t last_j, ThinMark mark) {
+inline std::int32_t next_marked(const ThinWalls<Real>* thin, const GridShape& s,
+                                std::int32_t first_j, std::int32_t last_j, std::int32_t i,
+                                std::int32_t end, ThinMark mark) {
     if (thin == nullptr) {
-        return false;
+        return end;
     }
-    std::uint64_t marks = 0;
-    for (std::int32_t j = maximum(first_j, 0); j <= minimum(last_j, s.ny - 1); ++j) {
-        const std::uint8_t* row = thin->mark + s.index(0, j);
-        std::int32_t i = 0;
-        for (; i + 8 <= s.nx; i += 8) {
-            std::uint64_t eight;
-            __builtin_memcpy(&eight, row + i, sizeof eight);
-            marks |= eight;
+    const std::int32_t low = maximum(first_j, 0);
+    const std::int32_t rows = minimum(last_j, s.ny - 1) - low;
+    const std::uint8_t* const marks = thin->mark + s.index(0, low);
+    const auto marks_of = [&](auto columns, std::int32_t first) {
+        const std::uint8_t* at = marks + first;
+        auto all = columns;
+        for (std::int32_t j = 0; j <= rows; ++j, at += s.stride) {
+            __builtin_memcpy(&columns, at, sizeof columns);
+            all = static_cast<decltype(all)>(all | columns);
         }
-        for (; i < s.nx; ++i) {
-            marks |= row[i];
-        }
+        return all;
+    };
+    while (i + 8 <= end && (marks_of(std::uint64_t{0}, i) & (0x0101010101010101U * mark)) == 0) {
+        i += 8;
     }
-    return (marks & (0x0101010101010101U * mark)) != 0;
+    while (i < end && (marks_of(std::uint8_t{0}, i) & mark) == 0) {
+        ++i;
+    }
+    return i;
 }
 
 /// Which of its faces a cell's centre sees.

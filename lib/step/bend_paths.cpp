@@ -186,9 +186,13 @@ struct Bending {
 
     void row_in_lanes(std::int32_t first_i, std::int32_t j) const {
         const Part columns = s.columns(j);
-        const bool beside = any_marked<Real>(walls.thin, s, j - 1, j, kTouching);
+        std::int32_t wall = -2;  // a cell beside one; faces before and behind it go one by one
         for (std::int32_t i = maximum(first_i, columns.first); i < columns.end;) {
-            i = beside ? i : in_lanes(i, columns.end, j);
+            if (wall < i - 1) {
+                wall = next_marked<Real>(walls.thin, s, j - 1, j, maximum(i - 1, 0), columns.end,
+                                         kTouching);
+            }
+            i = wall > i ? in_lanes(i, wall, j) : i;
             const std::int32_t end = minimum(on_u() && i == 0 ? 1 : i + 4, columns.end);
             for (; i < end; ++i) {
                 run(i, j, 1);

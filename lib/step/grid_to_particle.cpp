@@ -98,8 +98,7 @@ struct Sharpening {
     /// is copied on the way.
     void rows_in_lanes(std::int32_t first_i, std::int32_t first_j, const Part& rows) const {
         for (std::int32_t j = rows.first - 1; j < rows.end - 1; ++j) {
-            if (j < first_j || j >= s.ny || (back != 1 && j == 0) ||
-                any_marked(thin, s, j - 1, j, kTouching)) {
+            if (j < first_j || j >= s.ny || (back != 1 && j == 0)) {
                 copy_rows(s, {j + 1, j + 2}, field, out);
                 for (std::int32_t i = first_i; j >= first_j && j < s.ny && i < s.nx; ++i) {
                     one(i, j);
@@ -126,12 +125,21 @@ private:
         for (; back == 1 && i < 1; ++i) {
             one(i, j);
         }
-        i = sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, row + i,
-                          row + columns.end, out) - row;
-        copy(row + i, row + entries.end);
-        for (; i < columns.end; ++i) {
-            one(i, j);
+        while (i < columns.end) {
+            const std::int32_t wall =
+                next_marked(thin, s, j - 1, j, maximum(i - 1, 0), columns.end, kTouching);
+            if (wall > i) {
+                i = sharpen_lanes(level, back, s.stride, kSmoothing<Real>, field, row + i,
+                                  row + wall, out) - row;
+            }
+            // A cell beside a wall has the face before it and the one behind.
+            const std::int32_t end = minimum(wall + 2, columns.end);
+            copy(row + i, row + end);
+            for (; i < end; ++i) {
+                one(i, j);
+            }
         }
+        copy(row + columns.end, row + entries.end);
     }
 };
 

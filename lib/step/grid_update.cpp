@@ -204,7 +204,7 @@ void extrapolate_component(const Component<Real>& component, const PressureField
             // Lanes load and store what they leave as it is: not where others are at work.
             const bool amid = (j > rows.first || j == 0) && (j + 1 < rows.end || j + 1 == s.ny);
             if (amid && component.light == nullptr &&
-                !any_marked(component.thin, s, j - 1, j + 1, kNear) &&
+                next_marked(component.thin, s, j - 1, j + 1, 0, s.nx, kNear) == s.nx &&
                 extrapolate_lanes({level, fields.pressure, component.open, component.velocity,
                                    back, s.stride, lever_of(fields),
                                    reach, fields.cell_weight, velocity_itself,
