@@ -8,6 +8,7 @@
 #include "pressure/surface_tension.hpp"
 #include "pressure/volume_correction.hpp"
 #include "step/bend_paths.hpp"
+#include "step/blend_change.hpp"
 #include "step/boundary_condition.hpp"
 #include "step/fly_beyond.hpp"
 #include "step/gather.hpp"

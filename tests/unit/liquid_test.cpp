@@ -10,6 +10,7 @@
 #include "pressure/projection.hpp"
 #include "pressure/surface_level.hpp"
 #include "step/boundary_condition.hpp"
+#include "step/blend_change.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/grid_update.hpp"
 #include "step/particle_to_grid.hpp"

@@ -8,6 +8,7 @@
 #include "port/print.hpp"
 #include "pressure/projection.hpp"
 #include "solid/walls.hpp"
+#include "step/blend_change.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/particle_to_grid.hpp"
 

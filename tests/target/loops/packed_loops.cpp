@@ -6,6 +6,7 @@
 #include "fluid/particles.hpp"
 #include "port/port.hpp"
 #include "port/print.hpp"
+#include "step/blend_change.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/grid_update.hpp"
 #include "step/transfer_packed.hpp"
