@@ -12,6 +12,9 @@ struct PressedCells {
     const Real* pressure = nullptr;  ///< dt p / ρ
     const LevelOf<Real>* level = nullptr;  ///< > 0: liquid
     Vec2<Real> gravity_dt;           ///< gravity × dt: the pressure's gradient at rest
+    const DensityOf<Real>* density = nullptr;  ///< 1: full
+    const VelocityOf<Real>* u = nullptr;       ///< on the faces
+    const VelocityOf<Real>* v = nullptr;
 };
 
 /// Cells of a box around the nodes that a body wrote.

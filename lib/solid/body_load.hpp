@@ -35,11 +35,15 @@ struct BodyLoad {
     Vec2<Face<Real>> centre;                      ///< of mass, in the body's frame, cells
     Vec2<Face<Real>> at;                          ///< the same in the tank, as last located
     Vec2<Face<Real>> arm;                         ///< from the body's origin to it, likewise
+    Face<Real> area = Face<Real>(0);              ///< cells²
     Face<Real> mass = Face<Real>(0);              ///< over the liquid's density, cells²
     Face<Real> inertia = Face<Real>(0);           ///< about the centre, cells⁴
     /// 0: it moves as told. < 0: it is free, but led through this step (`World::move_body`).
     Face<Real> inverse_mass = Face<Real>(0);
     Face<Real> inverse_inertia = Face<Real>(0);  ///< on a hinge about that; 0: held
+    /// Its mass over that and what it takes along of the liquid where the grid does not show it
+    /// (solid/immersion.hpp), as of the last substep.
+    Face<Real> ease = Face<Real>(1);
     /// 1 along axes along which it moves, 0 where it is held: along both by a hinge.
     Vec2<Face<Real>> slides{Face<Real>(1), Face<Real>(1)};
     Impulse<Real> received;    ///< in this step, about the centre of mass
@@ -77,6 +81,14 @@ inline Vec2<Face<Real>> arm_of_centre(const Body<Real>& body, const BodyLoad<Rea
     return wide.apply(load.centre);
 }
 
+/// What a body receives where the grid does not show that it displaces liquid: the tank gives it.
+template <class Real>
+inline void receive_from_tank(const BodyTable<Real>& table, Vec2<Face<Real>> push,
+                              BodyLoad<Real>& load) {
+    load.received.linear = load.received.linear + push;
+    tank_received(table).linear = tank_received(table).linear - push;
+}
+
 /// What is left of a way where a body is held, but for hinges.
 template <class Real, class Number>
 inline Vec2<Number> along_slides(const BodyLoad<Real>& load, Vec2<Number> way) {
@@ -89,11 +101,11 @@ template <class Real>
 inline Twist<Real> answer(const BodyLoad<Real>& load, const Impulse<Real>& impulse) {
     if (load.is_hinged()) {
         const Face<Real> torque = impulse.angular + cross(load.arm, impulse.linear);
-        const Face<Real> spin = load.inverse_inertia * torque;
+        const Face<Real> spin = load.ease * (load.inverse_inertia * torque);
         return {spin_velocity(spin, load.arm), spin};
     }
-    return {along_slides(load, load.inverse_mass * impulse.linear),
-            load.inverse_inertia * impulse.angular};
+    return {along_slides(load, load.ease * (load.inverse_mass * impulse.linear)),
+            load.ease * (load.inverse_inertia * impulse.angular)};
 }
 
 /// What an impulse changes, besides what stops the body.

@@ -4,6 +4,7 @@
 
 #include "math/rotation.hpp"
 #include "solid/body_coupling.hpp"
+#include "solid/immersion.hpp"
 
 namespace weir {
 
@@ -32,10 +33,13 @@ void set_twist(const BodyLoad<Real>& load, const Twist<Real>& twist, Body<Real>&
 /// What gravity adds to a body's velocity in a substep.
 template <class Real>
 Twist<Real> falling(const Obstacles<Real>& obstacles, const BodyLoad<Real>& load) {
+    // Less what lifts it, with what it takes along.
+    const Face<Real> share = (load.ease + load.ease) - Face<Real>(1);
     if (load.is_hinged()) {
-        return answer(load, Impulse<Real>{load.mass * obstacles.fall});
+        const Face<Real> weight = share * (load.mass / load.ease);
+        return answer(load, Impulse<Real>{weight * obstacles.fall});
     }
-    return {along_slides(load, obstacles.fall)};
+    return {along_slides(load, share * obstacles.fall)};
 }
 
 /// Before the pressure, and what has changed.
@@ -117,6 +121,8 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         load.blows = Impulse<Real>{};
         load.blow_mass = Face<Real>(0);
         const Twist<Real> fall = falling(obstacles, load);
+        const Face<Real> carried = (load.mass / load.ease) * (Face<Real>(1) - load.ease);
+        receive_from_tank(obstacles.bodies, (-carried) * obstacles.fall, load);
         twist.velocity = (twist.velocity + fall.velocity) + share * blown.velocity;
         twist.spin = (twist.spin + fall.spin) + share * blown.spin;
         load.unpressed = twist;
@@ -196,6 +202,7 @@ std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& 
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         Twist<Real> twist = whole_twist(load);
         twist.spin -= drag_on_spin(obstacles, load) * twist.spin;
+        immerse(obstacles, cells, static_cast<std::uint16_t>(&body - table.body), twist);
         slowed += limit<Real>(fastest, static_cast<Face<Real>>(body.radius), twist) ? 1 : 0;
         load.unpressed = twist;
         load.change = Twist<Real>{};

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "contour/raster.hpp"
+#include "solid/body_load.hpp"
 #include "solid/cut_cells.hpp"
 #include "solid/touching.hpp"
 
@@ -257,7 +258,9 @@ template <class Real>
 bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
     Body<Real>& body = table.body[slot];
     body.hollow = body.open;
-    if (!kHasThinWalls<Real> || layers.thin.capacity == 0) {
+    const bool free =
+        table.load != nullptr && table.load[slot].inverse_mass != Face<Real>(0);
+    if (!kHasThinWalls<Real> || layers.thin.capacity == 0 || free) {
         return !body.open;
     }
     if (!add_thin_edges(layers.thin, layers.shape, table, slot)) {

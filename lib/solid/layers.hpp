@@ -25,7 +25,8 @@ struct Layers {
 template <class Real>
 void clear_layers(Layers<Real>& layers);
 
-/// Finds what of a new body is thinner than a cell. False: there is no room for it.
+/// Finds what of a new body is thinner than a cell. False: there is no room for it. Of a free body
+/// nothing is kept: the liquid would not push such walls back.
 template <class Real>
 bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
 

@@ -45,8 +45,12 @@ void press_on_tank(const Simulation<Real>& simulation, const PressedCells<Real>&
 
 template <class Real>
 PressedCells<Real> pressed_cells(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
-    return {simulation.pressure.pressure, simulation.pressure.level,
-            dt_s * simulation.settings.gravity};
+    return {simulation.pressure.pressure,
+            simulation.pressure.level,
+            dt_s * simulation.settings.gravity,
+            simulation.pressure.density,
+            simulation.grid.u,
+            simulation.grid.v};
 }
 
 template <class Real>

@@ -74,7 +74,7 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
         }
         if (table.load != nullptr && table.load[slot].inverse_mass != Face<Real>(0)) {
             const BodyLoad<Real>& load = table.load[slot];
-            const Face<Real> weights[] = {load.inverse_mass, load.inverse_inertia,
+            const Face<Real> weights[] = {load.inverse_mass, load.inverse_inertia, load.ease,
                                           load.blows.linear.x, load.blows.linear.y,
                                           load.blows.angular, load.blow_mass};
             for (const Face<Real> weight : weights) {

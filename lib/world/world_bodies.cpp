@@ -88,6 +88,7 @@ void weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& b
     const Moments<Real> moments = moments_of(outline);
     const auto density = static_cast<Face<Real>>(def.density_ratio);
     load.centre = moments.centroid;
+    load.area = moments.area;
     load.mass = density * moments.area;
     load.inertia = density * moments.inertia;
 }
@@ -102,7 +103,7 @@ bool weighs_something(const BodyLoad<Real>& load) {
 /// Not in one frame with the check, which goes deeper than anything else that is done with a body.
 template <class Real>
 [[gnu::noinline]] Status enter(WorldState<Real>& state, const BodyDef& def, BodyKind kind,
-                               BodyId* id) {
+                               SetFree<Real> set_free, BodyId* id) {
     BodyTable<Real>& table = state.simulation.bodies;
     Layers<Real>& layers = state.simulation.layers;
     const std::int32_t slot = find_free_slot(table);
@@ -132,6 +133,10 @@ template <class Real>
             table.vertices_used -= body.room;
             return Status::polygon_zero_area;
         }
+        if (set_free != nullptr) {
+            set_free(def.hold, load);
+        }
+        table.load[slot] = load;
     }
     body.radius = radius_of(table, body);
     body.met_position = body.position;
@@ -141,15 +146,15 @@ template <class Real>
         table.vertices_used -= body.room;
         table.body[slot] = Body<Real>{};
         table.body[slot].generation = body.generation;
+        if (table.load != nullptr) {
+            table.load[slot] = BodyLoad<Real>{};
+        }
         return Status::no_free_wall_edge;
     }
     ++table.used;
     note_movable(table);
     layers.walls.active = true;
     layers.walls.any_sticking = any_without_slip(table);
-    if (table.load != nullptr) {
-        table.load[slot] = load;
-    }
     if (kind == BodyKind::fixed) {
         draw_static(layers, table, slot);
     } else {
@@ -166,9 +171,10 @@ template <class Real>
 }  // namespace
 
 template <class Real>
-Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id) {
+Status add_body(WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id,
+                SetFree<Real> set_free) {
     const Status room = check_room(state, def, kind, id);
-    return room == Status::ok ? enter(state, def, kind, id) : room;
+    return room == Status::ok ? enter(state, def, kind, set_free, id) : room;
 }
 
 template <class Real>
@@ -372,7 +378,8 @@ Status World<Real>::remove_body(BodyId id) {
 }
 
 #define WEIR_INSTANTIATE(Real)                                                      \
-    template Status add_body(WorldState<Real>&, const BodyDef&, BodyKind, BodyId*); \
+    template Status add_body(WorldState<Real>&, const BodyDef&, BodyKind, BodyId*,  \
+                             SetFree<Real>);                                        \
     template Status check_id(const WorldState<Real>&, BodyId);                      \
     template Status World<Real>::add_static_body(const BodyDef&, BodyId*);          \
     template Status World<Real>::add_moving_body(const BodyDef&, BodyId*);          \

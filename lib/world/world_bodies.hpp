@@ -5,8 +5,13 @@
 
 namespace weir {
 
+/// Makes a body free, by what holds it.
 template <class Real>
-Status add_body(detail::WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id);
+using SetFree = void (*)(Hold, BodyLoad<Real>&);
+
+template <class Real>
+Status add_body(detail::WorldState<Real>& state, const BodyDef& def, BodyKind kind, BodyId* id,
+                SetFree<Real> set_free = nullptr);
 
 /// stale_body, or ok.
 template <class Real>

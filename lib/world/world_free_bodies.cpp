@@ -36,10 +36,8 @@ Status World<Real>::add_free_body(const BodyDef& def, BodyId* id) {
         if (def.open) {
             return Status::polygon_zero_area;  // it weighs nothing
         }
-        const Status added = add_body(*state_, def, BodyKind::moving, id);
+        const Status added = add_body(*state_, def, BodyKind::moving, id, hold<Real>);
         if (added == Status::ok) {
-            BodyLoad<Real>& load = simulation.bodies.load[id->slot];
-            hold(def.hold, load);
             simulation.free_bodies = &free_body_stages<Real>();
         }
         return added;

@@ -113,7 +113,7 @@ inline constexpr std::size_t kWallEdgeBytes = 16;
 template <class Real>
 inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
-inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 112 : 224;
+inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 120 : 240;
 /// Records for so many bodies, for the tank, and in fixed point for the ledger in whole numbers.
 template <class Real>
 inline constexpr std::int32_t kLedgerRecords = std::is_floating_point_v<Real> ? 0 : 1;

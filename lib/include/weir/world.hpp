@@ -53,7 +53,10 @@ public:
     /// and the larger friction count, at the tank's walls too; conveyors take it along.
     /// Bodies that are in each other are moved apart, by at most 1/16 cell in a substep. A body has
     /// room for 6 points at which it meets something, which all share; of more the nearest count.
-    /// What is smaller than 2.4 cells is braked in its turning by the liquid that it is in.
+    /// What is smaller than 2.4 cells is braked in its turning by the liquid that it is in. Of what
+    /// the grid does not show, below two cells or much thinner than one, the liquid lifts what it
+    /// should, but flows through it: thin hulls hold nothing, and `Capacity::wall_edges` is not for
+    /// free bodies.
     /// `def.hold` puts it on a hinge or a rail, which are part of the solve: a water wheel of any
     /// density is stable. Other joints, and whatever else moves bodies, are for a physics engine
     /// (`examples/box2d`).

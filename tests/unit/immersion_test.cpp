@@ -1,0 +1,128 @@
+// Free bodies that the grid shows in part, or not at all, float and sink as their density has it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "test_world.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kDt = 1.0F / 60.0F;
+constexpr float kCell = 0.005F;
+constexpr float kLevel = 20 * kCell;
+
+WorldDef pool_def(std::int32_t wall_edges) {
+    WorldDef def;
+    def.capacity.particles = 4096;
+    def.capacity.cells_x = 48;
+    def.capacity.cells_y = 40;
+    def.capacity.bodies = 2;
+    def.capacity.vertices = 16;
+    def.capacity.two_way = true;
+    def.capacity.wall_edges = wall_edges;
+    def.cell_m = kCell;
+    return def;
+}
+
+struct Way {
+    float last = 0.0F;    ///< height at the end, mean of a second, cells over the level
+    float highest = 0.0F;
+    float angle = 0.0F;   ///< at the end
+};
+
+/// A box in the middle of a pool, released, for so many steps.
+template <class Real>
+Way release(Vec2f cells, float density, float offset, std::int32_t wall_edges, int steps) {
+    TestWorld<Real> world{pool_def(wall_edges)};
+    const Ring box = rectangle(cells.x * kCell, cells.y * kCell);
+    BodyDef body = body_of(box, {(24 + offset) * kCell, 10 * kCell});
+    body.density_ratio = density;
+    BodyId id;
+    expect_ok(world->add_free_body(body, &id));
+    expect_ok(world->fill({{0, 0}, {48 * kCell, kLevel}}));
+    Way way;
+    way.highest = -100;
+    for (int step = 0; step < steps; ++step) {
+        world->step(kDt);
+        Motion motion;
+        expect_ok(world->motion(id, &motion));
+        const float over = (motion.position_m.y - kLevel) / kCell;
+        way.highest = std::max(way.highest, over);
+        way.last += step >= steps - 60 ? over / 60 : 0;
+        way.angle = motion.angle_rad;
+    }
+    return way;
+}
+
+template <class Real>
+class Immersion : public testing::Test {};
+using Scalars = testing::Types<float, double, Fixed>;
+TYPED_TEST_SUITE(Immersion, Scalars, );
+
+/// However it lies to the grid's lines: they sank, or hung in the water, below two cells.
+TYPED_TEST(Immersion, SmallSquaresOfHalfTheDensityFloat) {
+    for (const float size : {0.5F, 1.0F, 1.6F}) {
+        for (const float offset : {0.0F, 0.3F}) {
+            const Way way = release<TypeParam>({size, size}, 0.5F, offset, 0, 180);
+            EXPECT_NEAR(way.last, 0.0F, 0.6F) << size << " cells, " << offset;
+            EXPECT_LT(way.highest, 2.0F) << size << " cells, " << offset;
+        }
+    }
+}
+
+/// Planks, with room for thin walls and without, lie flat in the surface.
+TYPED_TEST(Immersion, PlanksFloat) {
+    for (const float thick : {0.2F, 0.5F, 1.0F, 1.4F}) {
+        for (const std::int32_t wall_edges : {0, 300}) {
+            const Way way = release<TypeParam>({8.0F, thick}, 0.5F, 0.3F, wall_edges, 180);
+            EXPECT_NEAR(way.last, 0.0F, 0.8F) << thick << ", " << wall_edges;
+            EXPECT_NEAR(way.angle, 0.0F, 0.2F) << thick << ", " << wall_edges;
+        }
+    }
+}
+
+/// As heavy as a stone they sink to the floor, as light as cork they stay in the surface.
+TYPED_TEST(Immersion, StonesSinkAndCorksStay) {
+    for (const float size : {0.5F, 1.0F}) {
+        const Way stone = release<TypeParam>({size, size}, 3.0F, 0.3F, 0, 180);
+        EXPECT_NEAR(stone.last, 0.5F * size - 20, 0.3F) << size;
+        const Way cork = release<TypeParam>({size, size}, 0.05F, 0.3F, 0, 240);
+        EXPECT_NEAR(cork.last, 0.5F * size + 0.3F, 0.9F) << size;
+        EXPECT_LT(cork.highest, 3.0F) << size;
+    }
+}
+
+/// What is shown in full is moved by the pressure alone. Half of it has left the pool, whose level
+/// fell by half a cell.
+TYPED_TEST(Immersion, LeavesLargeBodiesAlone) {
+    const Way way = release<TypeParam>({8.0F, 6.0F}, 0.5F, 0.3F, 0, 240);
+    EXPECT_NEAR(way.last, -0.5F, 0.15F);
+}
+
+/// It goes on from a snapshot to the bit.
+TYPED_TEST(Immersion, GoesOnFromASnapshot) {
+    const WorldDef def = pool_def(0);
+    TestWorld<TypeParam> world{def};
+    const Ring box = rectangle(8 * kCell, 0.5F * kCell);
+    BodyId id;
+    expect_ok(world->add_free_body(body_of(box, {24 * kCell, 18 * kCell}), &id));
+    expect_ok(world->fill({{0, 0}, {20 * kCell, kLevel}}));
+    for (int step = 0; step < 20; ++step) {
+        world->step(kDt);
+    }
+    std::vector<std::byte> kept(snapshot_bytes<TypeParam>(def.capacity));
+    expect_ok(world->save(kept.data(), kept.size()));
+    TestWorld<TypeParam> twin{def};
+    expect_ok(twin->restore(kept.data(), kept.size()));
+    for (int step = 0; step < 20; ++step) {
+        world->step(kDt);
+        twin->step(kDt);
+        ASSERT_EQ(world->state_hash(), twin->state_hash()) << step;
+    }
+}
+
+}  // namespace
+}  // namespace weir
