@@ -101,7 +101,9 @@ template <class Real>
     look(walls.open_v[c + s.stride], c + s.stride);
     const Real e = excess<Real>(f, held, c, lowest);
     const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
-    return known * minimum<Real>(Real(1), walls.full_density[c]);
+    // What is more than a full cell too much counts by what it is, however little room there is.
+    const Real dense = maximum<Real>(Real(1), Real(f.density[c]) - Real(1));
+    return known * minimum<Real>(Real(1), dense * walls.full_density[c]);
 }
 
 template <class Real>

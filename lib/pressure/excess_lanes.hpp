@@ -77,7 +77,8 @@ inline void excess_beside_walls_lanes(const Walls<float>& walls, const PressureF
     look(walls.open_v + c + stride, c + stride);
     const auto e = excess_of_cells<L>(f, limits, c, lowest);
     const auto slack = L::all(limits.subsurface_slack);
-    const auto room = L::minimum(L::all(1.0F), L::load(walls.full_density + c));
+    const auto dense = L::maximum(L::all(1.0F), L::load(f.density + c) - L::all(1.0F));
+    const auto room = L::minimum(L::all(1.0F), dense * L::load(walls.full_density + c));
     const auto counts = (e - L::clamp(e, -slack, slack)) * room;
     L::store(f.divergence + c, wet ? counts : L::load(f.divergence + c));
 }

@@ -174,7 +174,10 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
         weigh_start(weights, work, fields);
     }
     if constexpr (Stored<Real>::shares_momentum) {
-        sweep(weights, fields.solve.cycles * (sweeps + kSweepsForCoarse), coupled, work, fields);
+        const Solve<Real>& from = fields.solve;
+        const std::int32_t all = from.cycles * (sweeps + kSweepsForCoarse);
+        const std::int32_t depth = from.last_row - from.first_row + 1;
+        sweep(weights, sweeps_of_depth(depth, all, from.cycles > 1), coupled, work, fields);
     } else {
         set_up_coarse(weights, fields, work);
         for (std::int32_t cycle = 0; cycle < fields.solve.cycles; ++cycle) {

@@ -249,6 +249,16 @@ void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, 
 /// A small world has no coarse grid: so many sweeps take its place.
 inline constexpr std::int32_t kSweepsForCoarse = 2;
 
+/// What is deeper than 24 rows wants more sweeps than asked for, a part of the depth's square, and
+/// most of all from nothing: what they left of its weight made it collapse, from 40 rows on at
+/// rest, from 32 when it was kicked.
+constexpr std::int32_t sweeps_of_depth(std::int32_t rows, std::int32_t sweeps, bool from_nothing) {
+    if (rows <= 24) {
+        return sweeps;
+    }
+    return sweeps + (from_nothing ? rows * rows / 5 : rows * rows / 192 - 3);
+}
+
 /// Best for liquid n rows deep, closed below and with its surface on top: 2 / (1 + sin(π / 2n))
 /// (Young 1954), and sin x ≈ x. Beyond 32 rows the best factor is too much for a few sweeps, and
 /// for fewer than 12 for less. What a step leaves stays in the pressure that the next one starts

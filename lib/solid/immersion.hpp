@@ -1,9 +1,9 @@
 // What of a free body the grid does not show, and how the liquid lifts that.
 //
 // The contour cuts corners, and shows nothing of what is much thinner than a cell: a square of one
-// cell displaces a quarter of what it should, and sank at half the liquid's density. What is missing
-// is lifted as Archimedes has it, and takes its own mass of liquid along (added mass), so that no
-// density is too low.
+// cell displaces a quarter of what it should, and sank at half the liquid's density. What is
+// missing is lifted as Archimedes has it, and takes its own mass of liquid along (added mass), so
+// that no density is too low.
 #pragma once
 
 #include "solid/body_force.hpp"

@@ -171,8 +171,9 @@ void gather_among_solids(Simulation<Real>& simulation, Transfer<Real>& transfer,
         const std::int32_t end = simulation.gathered - at * kBlock<Real>;
         return Part{maximum(0, end - blocks * kBlock<Real>), end};
     };
-    // So many blocks at once.
-    const std::int32_t most = Stored<Real>::coarse ? transfer.room / kBlock<Real> : 1;
+    // So many blocks at once; but the tank sums what hits it block by block, however a step is cut.
+    const bool together = Stored<Real>::coarse && transfer.tank == nullptr;
+    const std::int32_t most = together ? transfer.room / kBlock<Real> : 1;
     // Blows are summed in their order.
     const bool alone = simulation.contacts.capacity > 0 || simulation.bodies.load != nullptr ||
                        Stored<Real>::coarse;

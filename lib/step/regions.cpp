@@ -25,14 +25,14 @@ std::int32_t part_with(Simulation<Real>& simulation, std::int32_t index) {
     return regions.asleep;
 }
 
-/// What moves wakes who sleeps around it.
+/// What moves wakes who sleeps around it. Where it came from was marked when it came there, or was
+/// told to move.
 template <class Real>
 void touch_moving_bodies(Simulation<Real>& simulation) {
     const BodyTable<Real>& bodies = simulation.bodies;
     for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
         const Body<Real>& body = bodies.body[slot];
         if (body.kind == BodyKind::moving && body.has_speed()) {
-            touch_box(*simulation.regions, body.left);
             touch_box(*simulation.regions, body.drawn);
         }
     }
@@ -84,6 +84,7 @@ std::int32_t wake_regions(Simulation<Real>& simulation) {
         regions.woken.bits[k] = 0U;
     }
     regions.all_woken = regions.any_woken = false;
+    simulation.occupied = simulation.layers.shape;  // who slept there may be gone: it is emptied
     return cost_of_waking(simulation);
 }
 
@@ -124,8 +125,8 @@ void begin(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wor
         hide_sleepers(regions.asleep, simulation);
     }
     if (work.foreseeing()) {
-        work.expect(1, cost_of_waking(simulation));
-        work.expect(1, cost_of_settling(simulation));
+        work.expect(1, cost_with(simulation.bodies.capacity + 1, cost_of_waking(simulation)));
+        work.expect(1, cost_with(1, cost_of_settling(simulation)));
     }
 }
 

@@ -245,6 +245,7 @@ void change_velocity(WorldState<Real>& state, const Motion& motion, Body<Real>& 
     const Real spin = body.spin;
     set_velocity(state, motion, body);
     if (velocity.x != body.velocity.x || velocity.y != body.velocity.y || spin != body.spin) {
+        touch_regions(state.simulation.regions, body.drawn);
         wake(state);
     }
 }

@@ -233,6 +233,9 @@ TEST(SnapshotFuzz, NothingGetsPast) {
         restored += attack<float>(kind, times / kKinds / 2, 1);
         restored += attack<double>(kind, times / kKinds / 4, 2);
         restored += attack<Fixed>(kind, times / kKinds / 4, 3);
+        if (kind != kWindowKind && (kind >= kBusyKinds || busy_kind_is_borne<SmallFixed>(kind))) {
+            restored += attack<SmallFixed>(kind, times / kKinds / 4, 4);
+        }
     }
     std::printf("%lld forged snapshots, %lld restored\n", static_cast<long long>(times),
                 static_cast<long long>(restored));

@@ -90,7 +90,8 @@ public:
     Status force(BodyId id, BodyForce* force) const;
     /// And to the tank: pressure on its walls, particles that hit them, drag of those without slip.
     /// The sum over tank and bodies is what gravity gave to the liquid less what its momentum
-    /// changed by, to rounding: 1e-6 of the liquid's weight, unless nobody was touched. `Fixed` and
+    /// changed by, to rounding: 1e-6 of the liquid's weight, but for substeps in which nobody was
+    /// touched. `Fixed` and
     /// `SmallFixed` keep it in whole numbers, of which none is lost, and tell them rounded; what
     /// would be nobody's there is the tank's.
     Status tank_force(BodyForce* force) const;
