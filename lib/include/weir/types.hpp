@@ -45,11 +45,44 @@ struct BodyId {
     friend constexpr bool operator!=(const BodyId& a, const BodyId& b) { return !(a == b); }
 };
 
+namespace detail {
+/// Where arrays, and what has data() and size(), begin and how much they hold; no header of theirs.
+template <class T, std::size_t Size>
+constexpr T* first_of(T (&array)[Size]) {
+    return array;
+}
+template <class Range>
+constexpr auto first_of(Range& range) -> decltype(range.data()) {
+    return range.data();
+}
+template <class T, std::size_t Size>
+constexpr std::size_t size_of(T (&)[Size]) {
+    return Size;
+}
+template <class Range>
+constexpr auto size_of(Range& range) -> decltype(static_cast<std::size_t>(range.size())) {
+    return static_cast<std::size_t>(range.size());
+}
+/// Never defined: something with a name, for `decltype`.
+template <class Range>
+Range& named();
+template <class Range>
+using ElementOf = std::remove_cv_t<std::remove_pointer_t<decltype(first_of(named<Range>()))>>;
+}  // namespace detail
+
 /// A read-only window into memory that somebody else owns.
 template <class T>
 struct View {
     const T* data = nullptr;
     std::int32_t size = 0;
+
+    constexpr View() = default;
+    constexpr View(const T* data_, std::int32_t size_) : data(data_), size(size_) {}
+    /// All of an array, a std::array, a std::vector: of one that has a name, and so outlives this.
+    template <class Range,
+              std::enable_if_t<std::is_same<detail::ElementOf<Range>, T>::value, int> = 0>
+    constexpr View(Range& range)  // NOLINT
+        : data(detail::first_of(range)), size(static_cast<std::int32_t>(detail::size_of(range))) {}
 
     constexpr const T* begin() const { return data; }
     constexpr const T* end() const { return data + size; }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "weir/config.hpp"
 #include "weir/contact.hpp"
@@ -39,9 +40,10 @@ public:
         return init_with(detail::features_of<Real>(def), def, memory, bytes);
     }
 
-    template <std::size_t Bytes>
-    [[gnu::always_inline]] Status init(const WorldDef& def, std::byte (&memory)[Bytes]) {
-        return init(def, memory, Bytes);
+    /// The same for an array of bytes, or what has data() and size(): a std::array of them.
+    template <class Room, std::enable_if_t<sizeof(detail::ElementOf<Room>) == 1, int> = 0>
+    [[gnu::always_inline]] Status init(const WorldDef& def, Room& memory) {
+        return init(def, detail::first_of(memory), detail::size_of(memory));
     }
 
     /// A solid that never moves; it is rasterized once. Liquid found inside it is pushed out.
