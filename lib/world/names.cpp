@@ -7,24 +7,43 @@ namespace weir {
 
 namespace {
 
-/// Answers of `init`, and what any call answers before it. Null for another.
+/// Answers of `init` about the capacity. Null for another.
+const char* capacity_text(Status status) {
+    switch (status) {
+        case Status::cells_out_of_range:
+            return "cells_x, cells_y: choose 4 … 8192, in Fixed 256, in SmallFixed 255";
+        case Status::particle_capacity_out_of_range:
+            return "capacity.particles: choose 1 … 16777216";
+        case Status::body_capacity_out_of_range:
+            return "capacity.bodies: choose 0 … 4096, in SmallFixed 255";
+        case Status::vertex_capacity_out_of_range:
+            return "capacity.vertices: choose 0 … 1048576";
+        case Status::contact_capacity_out_of_range: return "capacity.contacts: choose 0 … 4096";
+        case Status::wall_edge_capacity_out_of_range:
+            return "capacity.wall_edges: choose 0 … 65000";
+        case Status::window_out_of_range:
+            return "capacity.window_cells: choose 0 … the cells of the largest tank";
+        case Status::window_too_small:
+            return "capacity.window_cells: at least 66 × 18, with bodies × 26, on a seam all";
+        case Status::window_without_thin_walls:
+            return "with capacity.window_cells no thin walls are kept: leave wall_edges at 0";
+        case Status::window_without_forces:
+            return "with capacity.window_cells no forces are counted: leave two_way off";
+        case Status::regions_out_of_place:
+            return "capacity.sleeping_regions: not with two_way, window_cells or periodic borders";
+        default: return nullptr;
+    }
+}
+
+/// Other answers of `init`, and what any call answers before it. Null for another.
 const char* init_text(Status status) {
     switch (status) {
         case Status::ok: return "ok";
-        case Status::cells_out_of_range: return "cells_x, cells_y: choose kMinCells … kMaxCells";
-        case Status::particle_capacity_out_of_range:
-            return "capacity.particles: choose 1 … kMaxParticles";
-        case Status::body_capacity_out_of_range: return "capacity.bodies: choose 0 … kMaxBodies";
-        case Status::vertex_capacity_out_of_range:
-            return "capacity.vertices: choose 0 … kMaxVertices";
-        case Status::contact_capacity_out_of_range:
-            return "capacity.contacts: choose 0 … kMaxBodies";
-        case Status::wall_edge_capacity_out_of_range:
-            return "capacity.wall_edges: choose 0 … kMaxWallEdges";
         case Status::cell_size_out_of_range: return "cell_m: choose 1e-6 … 1e3 m";
         case Status::gravity_not_finite: return "gravity is NaN or infinite: give a finite vector";
         case Status::gravity_out_of_range:
-            return "gravity: choose at most kMaxGravity along each axis, less with a top_speed_mps";
+            return "gravity: at most 1000 m/s² along each axis, in fixed point 30000 cells/s², "
+                   "less with a low top_speed_mps";
         case Status::top_speed_out_of_range: return "top_speed_mps: choose 0 … 2040 cells a second";
         case Status::particles_per_cell_out_of_range:
             return "particles_per_cell: choose 1, 4, 9 or 16";
@@ -34,7 +53,7 @@ const char* init_text(Status status) {
         case Status::flip_ratio_out_of_range: return "flip_ratio: choose 0 … 1";
         case Status::volume_gain_out_of_range: return "volume_gain: choose 0 … 1";
         case Status::sound_speed_out_of_range:
-            return "sound_speed_mps: choose 0 (automatic) or at most kMaxSpeed cells a second";
+            return "sound_speed_mps: choose 0 (automatic) or at most 1e6 cells a second";
         case Status::restitution_out_of_range: return "restitution: choose 0 (slide) … 1 (mirror)";
         case Status::body_density_out_of_range: return "density_ratio: choose 1e-3 … 1e3";
         case Status::friction_out_of_range: return "friction: choose 0 (none) … 1000";
@@ -49,10 +68,11 @@ const char* init_text(Status status) {
         case Status::second_liquid_needs_projection:
             return "two liquids: choose Pressure::projection";
         case Status::conveyor_out_of_range:
-            return "conveyor_mps: choose at most kMaxSpeed cells a second";
+            return "conveyor_mps: at most 1e6 cells a second, in Fixed 16000, in SmallFixed 255 or "
+                   "what top_speed_mps asks for";
         case Status::sleep_out_of_range:
-            return "sleep: choose speed_mps 0 … kMaxSpeed cells a second, after_s 0.1 … 1000, "
-                   "gravity_mps2 0 … kMaxGravity";
+            return "sleep: choose speed_mps 0 … 1e6 cells a second, after_s 0.1 … 1000, "
+                   "gravity_mps2 0 … 1000";
         case Status::periodic_with_bodies:
             return "periodic worlds hold no bodies: set capacity.bodies = 0";
         case Status::periodic_needs_even_cells:
@@ -67,16 +87,6 @@ const char* init_text(Status status) {
             return "surface tension: choose World<Fixed>, or float";
         case Status::small_fixed_has_no_window:
             return "SmallFixed: its tanks are small, leave capacity.window_cells at 0";
-        case Status::window_out_of_range:
-            return "capacity.window_cells: choose 0 … the cells of the largest tank";
-        case Status::window_too_small:
-            return "capacity.window_cells: at least 66 × 18, with bodies × 26, on a seam all";
-        case Status::window_without_thin_walls:
-            return "with capacity.window_cells no thin walls are kept: leave wall_edges at 0";
-        case Status::window_without_forces:
-            return "with capacity.window_cells no forces are counted: leave two_way off";
-        case Status::regions_out_of_place:
-            return "capacity.sleeping_regions: not with two_way, window_cells or periodic borders";
         case Status::memory_missing:
             return "memory is null: hand over world_bytes<Real>(capacity) bytes";
         case Status::memory_misaligned: return "memory: declare it alignas(weir::world_alignment)";
@@ -104,7 +114,7 @@ const char* content_text(Status status) {
         case Status::polygon_missing: return "polygon is null: point it at the vertices";
         case Status::polygon_too_few_vertices: return "polygon: at least 3 vertices";
         case Status::polygon_too_many_vertices:
-            return "polygon: at most kMaxBodyVertices, check_polygon counts them; simplify it";
+            return "polygon: at most 16384 vertices, check_polygon counts them; simplify it";
         case Status::polygon_not_finite: return "polygon has a NaN or infinite vertex";
         case Status::polygon_zero_area: return "polygon, or a hole in it, has no area";
         case Status::polygon_crosses_itself:
@@ -122,8 +132,8 @@ const char* content_text(Status status) {
             return "position: at most 1e5 cells from the tank's origin";
         case Status::motion_not_finite: return "motion has a NaN or infinite number";
         case Status::motion_out_of_range:
-            return "motion: at most kMaxSpeed cells/s (in fixed point kMaxSpeedFixed, "
-                   "kMaxSpeedSmallFixed), 1e4 rad and rad/s";
+            return "motion: at most 1e6 cells/s (in Fixed 16000, in SmallFixed 255 or what "
+                   "top_speed_mps asks for), 1e4 rad and rad/s";
         case Status::two_way_missing:
             return "the world was made without room for forces: set capacity.two_way";
         case Status::free_body_in_small_world:
@@ -142,7 +152,9 @@ const char* content_text(Status status) {
             return "particle has a NaN or infinite position or velocity";
         case Status::particle_outside_domain: return "particle: place it within the tank";
         case Status::particle_inside_solid: return "particle: place it outside the solids";
-        case Status::velocity_out_of_range: return "velocity: at most kMaxSpeed cells a second";
+        case Status::velocity_out_of_range:
+            return "velocity: at most 1e6 cells a second, in Fixed 16000, in SmallFixed 255 or "
+                   "what top_speed_mps asks for";
         case Status::box_not_finite: return "box has a NaN or infinite corner";
         case Status::box_is_empty: return "box: min must be below max along both axes";
         case Status::box_outside_domain: return "box: keep it within the tank";
@@ -175,7 +187,8 @@ const char* snapshot_text(Status status) {
 }  // namespace
 
 const char* status_text(Status status) {
-    const char* text = init_text(status);
+    const char* text = capacity_text(status);
+    text = text != nullptr ? text : init_text(status);
     text = text != nullptr ? text : content_text(status);
     text = text != nullptr ? text : snapshot_text(status);
     return text != nullptr ? text : "not a status";

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "test_world.hpp"
@@ -137,6 +139,85 @@ TEST(Memory, OwnersAndStagesAndStatusesHaveNames) {
     EXPECT_NE(status_text(static_cast<Status>(255)), nullptr);
     EXPECT_NE(owner_name(Owner::count), nullptr);
     EXPECT_NE(stage_name(weir::Stage::count), nullptr);
+}
+
+/// Limits as numbers: who reads a log has no header at hand.
+TEST(Memory, TextsOfLimitsGiveThem) {
+    const auto tells = [](Status status, auto... numbers) {
+        const std::string text = status_text(status);
+        for (const std::int32_t number : {static_cast<std::int32_t>(numbers)...}) {
+            EXPECT_NE(text.find(std::to_string(number)), std::string::npos) << text << number;
+        }
+        EXPECT_EQ(text.find("kM"), std::string::npos) << text;
+    };
+    tells(Status::cells_out_of_range, kMinCells, kMaxCells, kMaxCellsFixed, kMaxCellsSmallFixed);
+    tells(Status::particle_capacity_out_of_range, kMaxParticles);
+    tells(Status::body_capacity_out_of_range, kMaxBodies, kMaxBodiesSmallFixed);
+    tells(Status::vertex_capacity_out_of_range, kMaxVertices);
+    tells(Status::contact_capacity_out_of_range, kMaxBodies);
+    tells(Status::wall_edge_capacity_out_of_range, kMaxWallEdges);
+    tells(Status::polygon_too_many_vertices, kMaxBodyVertices);
+    tells(Status::gravity_out_of_range, kMaxGravity, kMaxGravityFixed);
+    tells(Status::top_speed_out_of_range, kMaxTopSpeedSmallFixed);
+    for (const Status status :
+         {Status::conveyor_out_of_range, Status::motion_out_of_range,
+          Status::velocity_out_of_range}) {
+        tells(status, kMaxSpeedFixed, kMaxSpeedSmallFixed);
+    }
+    static_assert(kMaxSpeed == 1e6F && kMaxAngle == 1e4F, "as in the texts");
+}
+
+constexpr Vec2f kCorners[] = {{0, 0}, {0.1F, 0}, {0, 0.1F}};
+constexpr View<Vec2f> kWhole = kCorners;
+static_assert(kWhole.data == kCorners && kWhole.size == 3, "known at compile time");
+static_assert(View<Vec2f>().data == nullptr && View<Vec2f>{kCorners, 2}.size == 2, "as ever");
+static_assert(std::is_trivially_copyable<View<Vec2f>>::value, "passed in registers");
+static_assert(!std::is_constructible<View<Vec2f>, std::vector<Vec2f>>::value, "gone at once");
+static_assert(!std::is_constructible<View<Vec2f>, Vec2<double> (&)[3]>::value, "of others");
+
+TEST(Memory, ViewsAreOfArraysAndOfWhatHasDataAndSize) {
+    const std::vector<Vec2f> vector(5);
+    std::array<Vec2f, 4> array{};
+    Vec2f plain[7];
+    BodyDef def;
+    const auto is_now = [&def](const Vec2f* data, std::int32_t size) {
+        EXPECT_EQ(def.polygon.data, data);
+        EXPECT_EQ(def.polygon.size, size);
+    };
+    def.polygon = vector;
+    is_now(vector.data(), 5);
+    def.polygon = array;
+    is_now(array.data(), 4);
+    def.polygon = plain;
+    is_now(plain, 7);
+    def.polygon = {plain, 3};
+    is_now(plain, 3);
+    View<Vec2f> copy(def.polygon);
+    def.polygon = {};
+    is_now(nullptr, 0);
+    def.polygon = copy;
+    is_now(plain, 3);
+    const View<Vec2f> rings[] = {array, kCorners};
+    def.holes = rings;
+    EXPECT_EQ(def.holes.size, 2);
+    EXPECT_EQ(def.holes[1].size, 3);
+    EXPECT_FLOAT_EQ(polygon_area(kCorners), 0.005F);
+}
+
+TEST(Memory, AnyArrayOfBytesIsAWorlds) {
+    constexpr Capacity kLeast = capacity(8, kMinCells, kMinCells, 0, 0);
+    constexpr std::size_t kBytes = world_bytes<SmallFixed>(kLeast);
+    WorldDef def;
+    def.capacity = kLeast;
+    alignas(world_alignment) std::byte bytes[kBytes];
+    alignas(world_alignment) unsigned char chars[kBytes];
+    alignas(world_alignment) std::array<std::byte, kBytes> array;
+    alignas(world_alignment) std::array<unsigned char, kBytes - 1> short_by_one;
+    World<SmallFixed> world;
+    EXPECT_EQ(world.init(def, bytes), Status::ok);
+    EXPECT_EQ(world.init(def, chars), Status::ok);
+    EXPECT_EQ(world.init(def, array), Status::ok);
+    EXPECT_EQ(world.init(def, short_by_one), Status::memory_too_small);
 }
 
 /// Steps a busy world whose memory is followed and preceded by a pattern, which must survive.

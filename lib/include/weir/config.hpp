@@ -17,7 +17,8 @@ inline constexpr std::int32_t kMaxVertices = 1024 * 1024;
 inline constexpr std::int32_t kMaxWallEdges = 65000;
 inline constexpr std::int32_t kMaxBodyVertices = 16 * 1024;
 
-/// Stronger gravity than this is limited, m/s²: no sensor on a device feels more than 100 g.
+/// Strongest gravity along an axis, m/s²: no sensor on a device feels more than 100 g. Of more
+/// `World::init` refuses the definition; `World::set_gravity` limits it, and a report says so.
 inline constexpr float kMaxGravity = 1000.0F;
 /// Faster liquid or bodies than this are refused, cells/s.
 inline constexpr float kMaxSpeed = 1.0e6F;
@@ -25,7 +26,7 @@ inline constexpr float kMaxSpeed = 1.0e6F;
 inline constexpr float kMaxAngle = 1.0e4F;
 
 /// What fixed point bears: cells along an axis, speeds in cells/s, gravity in cells/s², places of
-/// bodies in cells from the tank's origin. Beyond it set-up calls refuse, and gravity is limited.
+/// bodies in cells from the tank's origin. Beyond it set-up calls refuse, and `set_gravity` limits.
 inline constexpr std::int32_t kMaxCellsFixed = 256;
 inline constexpr std::int32_t kMaxCellsSmallFixed = 255;
 inline constexpr std::int32_t kMaxBodiesSmallFixed = 255;
@@ -135,14 +136,17 @@ struct WorldDef {
     Capacity capacity;
 
     float cell_m = 0.02F;               ///< edge of a cell, m; 1e-6 … 1e3
-    Vec2f gravity_mps2{0.0F, -9.81F};   ///< each part at most kMaxGravity
+    /// Each part at most kMaxGravity: more is refused here, and limited in `World::set_gravity`.
+    Vec2f gravity_mps2{0.0F, -9.81F};
 
     /// What nothing is meant to be faster than along an axis, m/s; 0: 255 cells/s, or as many as
     /// kMaxTopSpeedSmallFixed. SmallFixed keeps velocities in 16 bits, up to 255, 127.5, 63.75 …
     /// cells/s, whichever is enough, down to 1: the slower, the finer. What liquid moves at is to
     /// be some hundreds of 32,768ths of it. Liquid that gets faster is limited, and the report says
     /// so; bodies are refused. Gravity may be as strong as 0.46 top² / cell_m at least: less than a
-    /// fall of a cell needs no top speed. Other arithmetic has no need of it.
+    /// fall of a cell needs no top speed. SmallFixed wants it on cells of 5 mm and below, where 255
+    /// of them are 1.3 m/s, and wherever steps report `Clamped::speed`: about 2 √(2gh), h the
+    /// tank's height. Other arithmetic has no need of it.
     float top_speed_mps = 0.0F;
 
     std::int32_t particles_per_cell = 4;  ///< at rest: 1, 4, 9 or 16. 4 is a 2×2 lattice

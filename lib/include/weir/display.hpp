@@ -27,8 +27,9 @@ struct ChangedRows {
 };
 
 /// Draws the world over the whole display: the density of cells, bilinear between their centres,
-/// as `World::density` knows it; solids where the contour is. Integers only. A display that cannot
-/// be, without pixels, is left as it is.
+/// as `World::density` knows it; solids where the contour is. Integers only. Of a tank with
+/// `Capacity::window_cells` what is beyond the window is drawn empty, its solids left out, too. A
+/// display that cannot be, without pixels, is left as it is.
 /// Cost: 140 instructions a pixel on a Cortex-M4, 190 where there are bodies, 240 and more on an
 /// M0: whoever sleeps draws once when `StepReport::asleep` first says so, and then no more.
 template <class Real>

@@ -1,4 +1,5 @@
-// Weir: real-time 2D liquid that meets solid bodies. This header is all that a program includes.
+// Weir: real-time 2D liquid that meets solid bodies. This header is all that a program includes,
+// but for weir/display.hpp, for those who draw with it.
 #pragma once
 
 #include "weir/config.hpp"

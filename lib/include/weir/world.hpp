@@ -27,7 +27,8 @@ struct WorldState;
 ///
 /// A zero-initialised World is not a world yet: until `init` succeeds every call answers
 /// `Status::not_initialised` and a step does nothing. A World never allocates and owns no
-/// resource: it may be thrown away at any time.
+/// resource: it may be thrown away at any time. A copy is another name for the same world in the
+/// same memory; `save` keeps a state.
 ///
 /// Set-up calls check everything first and change nothing when they refuse.
 template <class Real>
@@ -100,13 +101,18 @@ public:
     Status mass(BodyId id, BodyMass* mass) const;
 
     /// Fills a box with particles on a lattice, leaving out what is inside solids.
-    /// All or nothing: refuses if not every particle has room.
+    /// All or nothing: refuses if not every particle has room. A box takes about its area over
+    /// cell_m² times `particles_per_cell`; one that holds no point of the lattice adds 0, and is
+    /// ok. It does not look at particles: where there is liquid already there is twice as much
+    /// then.
     /// @param added number of particles, may be null; with `Status::no_free_particle` how many it
     /// would have been.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
     /// Particles in the same place with the same velocity stay together for ever: an inlet spreads
     /// them, or gives them a speed. Beneath the surface they press what is there together, which
     /// takes tens of seconds to make room (with `volume_gain` 1 it does at once).
+    /// Rates, of an inlet or an outlet, go by `StepReport::dt_s`: a step may simulate less than it
+    /// was asked for.
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
     /// Removes the particle at that place in the views; the last particle takes its place, but
     /// after `let_regions_sleep` a sleeper's is taken by another sleeper, and that one's by it.
@@ -130,6 +136,9 @@ public:
     /// The same for the particle at that place in the views; the newest is the last one.
     Status tag_particle(std::int32_t index, std::uint8_t tag);
 
+    /// As a sensor tells it: what `init` would refuse as too strong is limited along each axis and
+    /// answered with ok, and the next step's report says so (`Clamped::gravity`). What is not
+    /// finite is refused, gravity stays as it was, and that report says so, too.
     Status set_gravity(Vec2f gravity_mps2);
 
     /// From now on liquid that lies apart from all other falls asleep by itself while the rest goes
