@@ -21,8 +21,8 @@ int main() {
     require(g_world.init(kWater, g_memory));
     weir::BodyDef ramp, bar;
     weir::BodyId ramp_id, bar_id;
-    ramp.polygon = {kRamp, 3};
-    bar.polygon = {kBar, 4};
+    ramp.polygon = kRamp;
+    bar.polygon = kBar;
     bar.motion.position_m = {0.70F, 0.25F};
     bar.motion.spin_radps = 4.0F;  // set once, it keeps turning
     require(g_world.add_static_body(ramp, &ramp_id));

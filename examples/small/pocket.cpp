@@ -53,12 +53,12 @@ constexpr weir::WorldDef kDefinition = [] {
     weir::BodyId id;
     weir::BodyDef def;
     if (POCKET_BODIES > 0) {
-        def.polygon = {kHump, 3};
+        def.polygon = kHump;
         def.motion.position_m = {kMiddle, 0.0F};
         require(g_world.add_static_body(def, &id));
     }
     if (POCKET_BODIES > 1) {
-        def.polygon = {kBar, 4};
+        def.polygon = kBar;
         def.motion.position_m = {kMiddle, 0.25F};
         def.motion.spin_radps = 3.0F;
         require(g_world.add_moving_body(def, &id));

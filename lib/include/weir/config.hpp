@@ -157,7 +157,7 @@ struct WorldDef {
     /// Red-black relaxation sweeps per substep, after one correction on cells four times as large;
     /// 1 … 1000, of which 4 are always made: after fewer, energy might rise. What is left of the
     /// divergence falls to a fiftieth with 6, a sixteenth with 4. `SmallFixed` makes two more in
-    /// place of that correction, 4 at least.
+    /// place of that correction, 4 at least. Only the ladder's rungs (`kRungs`) make fewer.
     std::int32_t pressure_sweeps = 6;
 
     /// Longest way of a particle within one substep, cells; 0.1 … 2. The step is cut accordingly,
@@ -233,8 +233,9 @@ enum class Hold : std::uint8_t {
 
 /// A solid: a simple polygon, with holes or without, given in the body's own frame.
 struct BodyDef {
-    /// Outer ring, m; 3 … kMaxBodyVertices vertices, holes included and 3 more for each; either
-    /// way round. Copied, without repeated vertices and straight corners.
+    /// Outer ring, m: an array, or pointer and number; 3 … kMaxBodyVertices vertices, holes
+    /// included and 3 more for each; either way round. Copied, without repeated vertices and
+    /// straight corners.
     View<Vec2f> polygon;
     /// `polygon` is an open polyline, 2 … kMaxBodyVertices vertices, without holes: a wall of no
     /// thickness with liquid on both sides. It may cross itself. Wants `capacity.wall_edges`.

@@ -41,9 +41,9 @@ enum class Clamped : std::uint32_t {
 /// they are drawn: `walls_held`. 4: and half of the substeps. 5: all substeps but one. With fewer
 /// substeps less time passes: `dt_s` says how much. Numbers are rounded up.
 /// The sweeps are those of the definition, at least 4 (SmallFixed: 2, and 2 more on any rung). Of
-/// the default 6 rungs 1 to 3 make 3 and 2, which saves next to nothing: 6 to 10 % of a step. Who
-/// wants these rungs asks for more (with 24 they save 20 and 30 %). Rungs 4 and 5 save most, and
-/// are slow motion.
+/// the default 6 rungs 1 to 3 make 3 and 2, which saves next to nothing: 7 to 9 % of a step. Who
+/// wants these rungs asks for more (with 24 they save 20 and 28 %). Rungs 4 and 5 save most, but
+/// where a step is one substep already, and are slow motion.
 inline constexpr std::int32_t kRungs = 6;
 
 /// What a step costs at most, whatever the state of the world: every cell full, every particle
