@@ -20,6 +20,12 @@ inline constexpr Real kBand = Real(1.5);
 template <class Real>
 inline constexpr Real kDeepestMirror = Real(-1.5);
 
+/// A film on a wall has air where it is mirrored from. Where faces that particles reach have less
+/// than this of the weight there, they count alone: the others, at rest, braked it to a third.
+/// Were it so everywhere, what leans on a wall would be stirred.
+inline constexpr float kFilmWeight = 0.75F;
+inline constexpr float kLeastFilmWeight = 1.0F / 64.0F;
+
 /// Where the liquid sticks, faces nearer to the wall than this are interpolated between the wall
 /// and the liquid a cell out: the pressure came after viscosity had bound them to the wall.
 template <class Real>

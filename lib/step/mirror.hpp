@@ -103,10 +103,37 @@ bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> poin
     return false;
 }
 
+/// As `interpolate`, but for films. Fixed point cannot tell who is reached from who is at rest.
+template <class Real>
+Real of_reached(const VelocityOf<Real>* field, const VelocityOf<Real>* was, std::int32_t stride,
+                const Stencil<Real>& at) {
+    const std::int32_t face[4] = {at.base, at.base + 1, at.base + stride, at.base + stride + 1};
+    const Real share[4] = {(Real(1) - at.fx) * (Real(1) - at.fy), at.fx * (Real(1) - at.fy),
+                           (Real(1) - at.fx) * at.fy, at.fx * at.fy};
+    Real reached[4];
+    for (std::int32_t k = 0; k < 4; ++k) {
+        reached[k] = is_no_velocity(Real(was[face[k]])) ? Real(0) : share[k];
+    }
+    const Real weight = ((reached[0] + reached[1]) + reached[2]) + reached[3];
+    if (!(weight < Real(kFilmWeight) && weight > Real(kLeastFilmWeight))) {
+        return interpolate(field, stride, at);
+    }
+    const Real sum = ((reached[0] * Real(field[face[0]]) + reached[1] * Real(field[face[1]])) +
+                      reached[2] * Real(field[face[2]])) +
+                     reached[3] * Real(field[face[3]]);
+    return sum / weight;
+}
+
 template <class Real>
 Vec2<Real> at_mirror(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
-    return {interpolate(grid.u, grid.shape.stride, mirror.at_u),
-            interpolate(grid.v, grid.shape.stride, mirror.at_v)};
+    const std::int32_t stride = grid.shape.stride;
+    if constexpr (std::is_floating_point<Real>::value) {
+        if (!grid.all_count) {
+            return {of_reached<Real>(grid.u, grid.was_u, stride, mirror.at_u),
+                    of_reached<Real>(grid.v, grid.was_v, stride, mirror.at_v)};
+        }
+    }
+    return {interpolate(grid.u, stride, mirror.at_u), interpolate(grid.v, stride, mirror.at_v)};
 }
 
 /// Mean of four faces side by side, but for those that no particle reaches.

@@ -103,15 +103,51 @@ struct LaneVectors {
     typename L::Floats dot(const LaneVectors& b) const { return x * b.x + y * b.y; }
 };
 
-/// As `interpolate`.
+/// A component around mirrors' points: where, and how much of it particles reach.
 template <class L>
-inline typename L::Floats interpolate_group(const float* field, std::int32_t stride,
-                                            const std::int32_t* base, typename L::Floats fx,
-                                            typename L::Floats fy) {
-    const auto p = L::squares_at(field, field + stride, base);
-    const auto low = p.low_left + fx * (p.low_right - p.low_left);
-    const auto high = p.high_left + fx * (p.high_right - p.high_left);
-    return low + fy * (high - low);
+struct GroupStencil {
+    using Floats = typename L::Floats;
+    const std::int32_t* base;
+    Floats fx;
+    Floats fy;
+    Floats share[4] = {};  ///< of the faces that are reached, others 0
+    Floats weight = {};    ///< their sum
+    typename L::Ints film = {};  ///< which are `of_reached`
+    bool any_film = false;
+
+    /// @param was the velocity before the step there.
+    template <class Squares>
+    void find_films(const Squares& was) {
+        using Ints = typename L::Ints;
+        const Floats one = L::all(1.0F);
+        const Floats zero = L::all(0.0F);
+        const Floats none = L::all(kNoVelocity<float>);
+        const auto reached = [&](Floats velocity, Floats of) {
+            return reinterpret_cast<Ints>(velocity) != reinterpret_cast<Ints>(none) ? of : zero;
+        };
+        share[0] = reached(was.low_left, (one - fx) * (one - fy));
+        share[1] = reached(was.low_right, fx * (one - fy));
+        share[2] = reached(was.high_left, (one - fx) * fy);
+        share[3] = reached(was.high_right, fx * fy);
+        weight = ((share[0] + share[1]) + share[2]) + share[3];
+        film = (weight < L::all(kFilmWeight)) & (weight > L::all(kLeastFilmWeight));
+        any_film = L::bits_of(film) != 0;
+    }
+};
+
+/// As `of_reached`.
+template <class L, class Squares>
+inline typename L::Floats interpolate_group(const Squares& p, const GroupStencil<L>& at) {
+    const auto low = p.low_left + at.fx * (p.low_right - p.low_left);
+    const auto high = p.high_left + at.fx * (p.high_right - p.high_left);
+    const auto all = low + at.fy * (high - low);
+    if (!at.any_film) {
+        return all;
+    }
+    const auto sum = ((at.share[0] * p.low_left + at.share[1] * p.low_right) +
+                      at.share[2] * p.high_left) +
+                     at.share[3] * p.high_right;
+    return at.film ? sum / (at.film ? at.weight : L::all(1.0F)) : all;
 }
 
 /// As the one for a single face, of the velocity before the step.
@@ -224,17 +260,24 @@ inline void mirror_faces(const MirrorTask& task, const std::int32_t* face, const
     const std::int32_t t = task.s.stride;
     const LaneVectors<L> normal{L::load(m.normal_x), L::load(m.normal_y)};
     const LaneVectors<L> wall{L::load(m.wall_x), L::load(m.wall_y)};
-    const auto at_mirror = [&](const float* u, const float* v) {
-        return LaneVectors<L>{
-            interpolate_group<L>(u, t, m.at_u, L::load(m.fx_u), L::load(m.fy_u)),
-            interpolate_group<L>(v, t, m.at_v, L::load(m.fx_v), L::load(m.fy_v))};
-    };
+    GroupStencil<L> at_u{m.at_u, L::load(m.fx_u), L::load(m.fy_u)};
+    GroupStencil<L> at_v{m.at_v, L::load(m.fx_v), L::load(m.fy_v)};
+    const auto was_u = L::squares_at(task.was_u, task.was_u + t, m.at_u);
+    const auto was_v = L::squares_at(task.was_v, task.was_v + t, m.at_v);
+    if (!task.all_count) {
+        at_u.find_films(was_u);
+        at_v.find_films(was_v);
+    }
     // As `mirrored`.
-    const LaneVectors<L> liquid = at_mirror(task.now_u, task.now_v);
+    const LaneVectors<L> liquid{
+        interpolate_group<L>(L::squares_at(task.now_u, task.now_u + t, m.at_u), at_u),
+        interpolate_group<L>(L::squares_at(task.now_v, task.now_v + t, m.at_v), at_v)};
     const Floats across = (liquid - wall).dot(normal) * (L::all(1.0F) + L::load(m.ratio));
     L::store(changes.now, OnU ? liquid.x - across * normal.x : liquid.y - across * normal.y);
     // As `before`.
-    const LaneVectors<L> there = at_mirror(task.was_u, task.was_v) - wall;
+    const LaneVectors<L> there = LaneVectors<L>{interpolate_group<L>(was_u, at_u),
+                                                interpolate_group<L>(was_v, at_v)} -
+                                 wall;
     const Floats own = L::numbers_at(OnU ? task.was_u : task.was_v, L::load_whole(face));
     const float* others = OnU ? task.was_v - 1 : task.was_u - t;
     const Floats other = mean_of_faces<L>(L::squares_at(others, others + t, face), task.all_count);
