@@ -167,6 +167,11 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
     const GridShape& s = grid.shape;
     const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
     build(weights, fields, work);
+    if constexpr (Solids && !Stored<Real>::coarse) {  // packed worlds have no free bodies
+        if (coupled != nullptr) {
+            coupled->make_room(s, work, fields);
+        }
+    }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.pressure);
     }

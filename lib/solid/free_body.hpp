@@ -6,6 +6,7 @@
 // is added: a program that adds none does not link this file.
 #pragma once
 
+#include "base/work.hpp"
 #include "solid/body_force.hpp"
 #include "solid/obstacles.hpp"
 
@@ -13,6 +14,8 @@ namespace weir {
 
 template <class Real>
 struct FreeBodyStages;
+template <class Real>
+struct PressureFields;
 
 /// The pressure solve as the coupling sees it.
 template <class Real>
@@ -28,6 +31,8 @@ struct CoupledSolve {
     VelocityOf<Real>* divergence;        ///< with the bodies' velocities before the pressure
     VelocityOf<Real>* inverse_diagonal;  ///< 0 where a free body presses: those cells are ours
     Real* diagonal;  ///< of those cells, 0 elsewhere; valid in the bodies' rectangles
+    /// Between the equations and their solve (pressure/make_room.hpp).
+    void (*make_room)(const GridShape&, Work, PressureFields<Real>&);
 };
 
 template <class Real>

@@ -1,6 +1,7 @@
 #include "step/two_way.hpp"
 
 #include "geometry/convex_decomposition.hpp"
+#include "pressure/make_room.hpp"
 #include "step/momentum_ledger.hpp"
 
 namespace weir {
@@ -132,6 +133,15 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
 }
 
 template <class Real>
+constexpr auto room_maker() -> decltype(CoupledSolve<Real>::make_room) {
+    if constexpr (Stored<Real>::shares_momentum) {
+        return nullptr;
+    } else {
+        return make_room<Real>;
+    }
+}
+
+template <class Real>
 CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const PressureFields<Real>& fields = simulation.pressure;
     const StaggeredGrid<Real>& grid = simulation.grid;
@@ -145,7 +155,8 @@ CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Rea
             fields.pressure,
             fields.divergence,
             fields.inverse_diagonal,
-            simulation.body_diagonal};
+            simulation.body_diagonal,
+            room_maker<Real>()};
 }
 
 /// Packed worlds have no free bodies, so no pieces.

@@ -1,0 +1,75 @@
+// Liquid that free bodies have pressed together asks the pressure for room.
+#pragma once
+
+#include "pressure/patches.hpp"
+
+namespace weir {
+
+/// Mean excess of a patch up to which it is left to the drift: waves, and cells that bodies cut,
+/// make as much.
+template <class Real>
+inline constexpr Real kLooseEnough = Real(0.02);
+/// Excess beyond that which is answered at most: what is caught between bodies does not fling them.
+template <class Real>
+inline constexpr Real kMostTight = Real(0.1);
+/// Share of it that a patch gives up in a substep, if all around yields: 0.3 % of its volume at
+/// most, which no particle feels as a blow.
+template <class Real>
+inline constexpr Real kRoomGain = Real(0.03);
+/// Nothing more is asked for under a column of so many tanks of liquid: where nothing yields, as in
+/// a tank that is full, the pressure would rise for ever.
+inline constexpr std::int32_t kMostColumns = 4;
+
+/// By how much a patch's liquid cells are too full, in the mean, of what is answered.
+template <class Real>
+inline Real tightness(const GridShape& s, const Patch& patch, const PressureFields<Real>& fields) {
+    constexpr Real kWindow = Real(0.5);  // slivers have any density
+    Real sum = Real(0);
+    std::int32_t count = 0;
+    for (std::int32_t y = 0; y < patch.height; ++y) {
+        const std::int32_t first = s.index(patch.i, patch.j + y);
+        for (std::int32_t c = first; c < first + patch.width; ++c) {
+            if (!is_zero(Real(fields.inverse_diagonal[c]))) {
+                sum += clamp<Real>(Real(fields.density[c]) - Real(1), -kWindow, kWindow);
+                count += 1;
+            }
+        }
+    }
+    const Real mean = count > 0 ? part_of(sum, count) : Real(0);
+    return clamp<Real>(mean - kLooseEnough<Real>, Real(0), kMostTight<Real>);
+}
+
+/// The drift moves particles, not bodies: liquid that a crowd of them covers cannot rise by it, and
+/// is pressed together by their weight until they lie on each other. So each patch of 4 × 4 cells
+/// that is too full asks for an outflow, which lifts the bodies; the less the more pressure it has.
+/// Between the equations and their solve. Without gravity nothing is asked for.
+template <class Real>
+void make_room(const GridShape& s, Work work, PressureFields<Real>& fields) {
+    const std::int32_t most_heads = kMostColumns * maximum(s.nx, s.ny);
+    const Real weight = fields.cell_weight;
+    const auto yields = [&](Real pressure) {
+        const Real heads = part_of(maximum<Real>(pressure, Real(0)), most_heads) / weight;
+        return maximum<Real>(Real(1) - heads, Real(0));
+    };
+    for_each_patch(s, fields.coarse.shape, work, [&](const Patch& patch) {
+        const Real tight = tightness(s, patch, fields);
+        if (!(tight > Real(0) && weight > Real(0))) {
+            return;
+        }
+        const Real outflow = (kRoomGain<Real> * tight) / fields.last_dt;
+        for (std::int32_t y = 0; y < patch.height; ++y) {
+            const std::int32_t first = s.index(patch.i, patch.j + y);
+            for (std::int32_t c = first; c < first + patch.width; ++c) {
+                if (is_zero(Real(fields.inverse_diagonal[c]))) {
+                    continue;
+                }
+                const Real pressure = fields.pressure[c];
+                const Real asked = yields(pressure) * outflow;
+                fields.divergence[c] = Real(fields.divergence[c]) - asked;
+                fields.solve.wanted = fields.solve.wanted + product(pressure, asked);
+            }
+        }
+    });
+}
+
+}  // namespace weir
