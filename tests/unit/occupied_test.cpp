@@ -27,7 +27,7 @@ struct CornerPool {
         def.cell_m = 0.02F;
         memory = measure::memory_for<Real>(def);
         EXPECT_EQ(world.init(def, memory.data(), memory.size()), Status::ok);
-        const Vec2f wall[] = {{0.50F, -0.02F}, {0.60F, -0.02F}, {0.60F, 1.10F}, {0.50F, 1.10F}};
+        const Vec2f wall[] = {{0.50F, -0.02F}, {0.60F, -0.02F}, {0.60F, 2.10F}, {0.50F, 2.10F}};
         BodyDef body;
         body.polygon = {wall, 4};
         BodyId id;
@@ -42,10 +42,10 @@ using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
 TYPED_TEST_SUITE(Occupied, Scalars, );
 
 TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
-    CornerPool<TypeParam> small(40, 60), large(90, 100);
+    CornerPool<TypeParam> small(40, 100), large(90, 120);
     for (int k = 0; k < 120; ++k) {
         // A shake upwards on the way: the part grows and shrinks again.
-        const Vec2f gravity{0.0F, k >= 40 && k < 52 ? 3.0F : -9.81F};
+        const Vec2f gravity{0.0F, k >= 40 && k < 52 ? 6.0F : -9.81F};
         ASSERT_EQ(small.world.set_gravity(gravity), Status::ok);
         ASSERT_EQ(large.world.set_gravity(gravity), Status::ok);
         small.world.step(1.0F / 60.0F);
@@ -89,7 +89,7 @@ TYPED_TEST(Occupied, NorDoesAnEmptyCorner) {
     }
     std::int32_t fell = 0;
     for (int k = 0; k < 80; ++k) {
-        const Vec2f gravity{0.0F, k >= 40 && k < 52 ? 3.0F : -9.81F};
+        const Vec2f gravity{0.0F, k >= 40 && k < 52 ? 6.0F : -9.81F};
         ASSERT_EQ(part->set_gravity(gravity), Status::ok);
         ASSERT_EQ(whole->set_gravity(gravity), Status::ok);
         part->step(1.0F / 60.0F);
