@@ -103,10 +103,11 @@ bool near_liquid(const GridShape& s, const LevelOf<Real>* level, Vec2<Real> poin
     return false;
 }
 
-/// As `interpolate`, but for films. Fixed point cannot tell who is reached from who is at rest.
+/// As `interpolate`, of those faces alone that particles reach, if they are a film's. Not inline:
+/// few are.
 template <class Real>
-Real of_reached(const VelocityOf<Real>* field, const VelocityOf<Real>* was, std::int32_t stride,
-                const Stencil<Real>& at) {
+[[gnu::noinline]] Real of_reached(const VelocityOf<Real>* field, const VelocityOf<Real>* was,
+                                  std::int32_t stride, const Stencil<Real>& at) {
     const std::int32_t face[4] = {at.base, at.base + 1, at.base + stride, at.base + stride + 1};
     const Real share[4] = {(Real(1) - at.fx) * (Real(1) - at.fy), at.fx * (Real(1) - at.fy),
                            (Real(1) - at.fx) * at.fy, at.fx * at.fy};
@@ -124,16 +125,26 @@ Real of_reached(const VelocityOf<Real>* field, const VelocityOf<Real>* was, std:
     return sum / weight;
 }
 
+/// Fixed point cannot tell who is reached from who is at rest.
+template <class Real>
+Real at_mirror(const VelocityOf<Real>* field, const VelocityOf<Real>* was, std::int32_t stride,
+               const Stencil<Real>& at, bool all_count) {
+    if constexpr (std::is_floating_point<Real>::value) {
+        const Real* low = was + at.base;
+        const Real* high = low + stride;
+        if (!all_count && (is_no_velocity(low[0]) || is_no_velocity(low[1]) ||
+                           is_no_velocity(high[0]) || is_no_velocity(high[1]))) {
+            return of_reached<Real>(field, was, stride, at);
+        }
+    }
+    return interpolate(field, stride, at);
+}
+
 template <class Real>
 Vec2<Real> at_mirror(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const std::int32_t stride = grid.shape.stride;
-    if constexpr (std::is_floating_point<Real>::value) {
-        if (!grid.all_count) {
-            return {of_reached<Real>(grid.u, grid.was_u, stride, mirror.at_u),
-                    of_reached<Real>(grid.v, grid.was_v, stride, mirror.at_v)};
-        }
-    }
-    return {interpolate(grid.u, stride, mirror.at_u), interpolate(grid.v, stride, mirror.at_v)};
+    return {at_mirror<Real>(grid.u, grid.was_u, stride, mirror.at_u, grid.all_count),
+            at_mirror<Real>(grid.v, grid.was_v, stride, mirror.at_v, grid.all_count)};
 }
 
 /// Mean of four faces side by side, but for those that no particle reaches.
