@@ -69,7 +69,9 @@ struct Capacity {
     /// the fewest particles are left off: those fall by themselves, meet the tank's walls, the
     /// bodies and no other particle, and change places in the views, until they come back into
     /// reach; `StepReport::particles_beyond` counts them. What a body buries there stays in it, and
-    /// goes along, until then. Not with thin walls or `two_way`, nor in SmallFixed.
+    /// goes along, until then. Beside bodies each of them asks all bodies where they are, which its
+    /// unit of work (`WorkBound`) does not tell: among a thousand bodies 400 times as long as one
+    /// within reach. Not with thin walls or `two_way`, nor in SmallFixed.
     std::int32_t window_cells = 0;
 };
 
@@ -157,7 +159,8 @@ struct WorldDef {
     /// Red-black relaxation sweeps per substep, after one correction on cells four times as large;
     /// 1 … 1000, of which 4 are always made: after fewer, energy might rise. What is left of the
     /// divergence falls to a fiftieth with 6, a sixteenth with 4. `SmallFixed` makes two more in
-    /// place of that correction, 4 at least. Only the ladder's rungs (`kRungs`) make fewer.
+    /// place of that correction, 4 at least, and where liquid is over 24 rows deep more: 5 at 40
+    /// rows, 18 at 64, 82 at 128. Only the ladder's rungs (`kRungs`) make fewer.
     std::int32_t pressure_sweeps = 6;
 
     /// Longest way of a particle within one substep, cells; 0.1 … 2. The step is cut accordingly,
