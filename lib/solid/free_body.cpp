@@ -30,6 +30,9 @@ void set_twist(const BodyLoad<Real>& load, const Twist<Real>& twist, Body<Real>&
     body.spin = static_cast<Real>(twist.spin);
 }
 
+/// No body is so light: the kept number may come from outside.
+constexpr double kLeastEase = 1.0e-4;
+
 /// What gravity adds to a body's velocity in a substep.
 template <class Real>
 Twist<Real> falling(const Obstacles<Real>& obstacles, const BodyLoad<Real>& load) {
@@ -120,6 +123,7 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
                                                             : Face<Real>(1);
         load.blows = Impulse<Real>{};
         load.blow_mass = Face<Real>(0);
+        load.ease = clamp(load.ease, Face<Real>(kLeastEase), Face<Real>(1));
         const Twist<Real> fall = falling(obstacles, load);
         const Face<Real> carried = (load.mass / load.ease) * (Face<Real>(1) - load.ease);
         receive_from_tank(obstacles.bodies, (-carried) * obstacles.fall, load);
