@@ -110,7 +110,8 @@ public:
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
     /// Particles in the same place with the same velocity stay together for ever: an inlet spreads
     /// them, or gives them a speed. Beneath the surface they press what is there together, which
-    /// takes tens of seconds to make room (with `volume_gain` 1 it does at once).
+    /// takes tens of seconds to make room, and does not as long as more come: pour from above (with
+    /// `volume_gain` 1 it makes room at once).
     /// Rates, of an inlet or an outlet, go by `StepReport::dt_s`: a step may simulate less than it
     /// was asked for.
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
