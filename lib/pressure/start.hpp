@@ -6,9 +6,9 @@
 
 namespace weir {
 
-/// The same in sixteenths, or all from 11 on. Few sweeps leave so much of too high a pressure that
-/// packed liquid of 32 rows, kicked, swung between half and one and a half times its weight, and
-/// lost a quarter of its height, as long as all was taken from a half on.
+/// What packed worlds start from: sixteenths, or all from 11 on. Few sweeps leave so much of too
+/// high a pressure that liquid of 32 rows, kicked, swung between half and one and a half times its
+/// weight, and lost a quarter of its height, as long as all was taken from a half on.
 template <class Real>
 Real share_in_sixteenths(Product<Real> eight_times, Product<Real> there) {
     const Product<Real> sixteen_times = eight_times + eight_times;
@@ -19,7 +19,8 @@ Real share_in_sixteenths(Product<Real> eight_times, Product<Real> there) {
     return share < 11 ? static_cast<Real>(share) / Real(16) : Real(1);
 }
 
-/// How much of the old pressure p to start from: eighths, or all. `wanted`: pᵀb, `there`: pᵀAp.
+/// How much of the old pressure p to start from: eighths, or all (packed: as above). `wanted`: pᵀb,
+/// `there`: pᵀAp.
 template <class Real>
 Real share_of_start(Product<Real> wanted, Product<Real> there) {
     const Product<Real> twice = wanted + wanted;

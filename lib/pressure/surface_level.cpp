@@ -71,18 +71,6 @@ template <class Real>
     }
 }
 
-/// The same where there are thin walls.
-template <class Real>
-void densities_beside_thin(const StaggeredGrid<Real>& grid, const ThinWalls<Real>& thin,
-                           Real per_face, const CutDensity<Real>& cut, std::int32_t c,
-                           std::int32_t end, Part& slivers, PressureFields<Real>& fields) {
-    for (; c < end; ++c) {
-        const Real mass = (thin.mark[c] & kTouching) != 0 ? seen_mass(grid, thin, c)
-                                                          : mass_of_cell(grid, c);
-        show_cell(mass, per_face, cut, least_head(fields), c, slivers, fields);
-    }
-}
-
 template <class Real>
 void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
                         const CutDensity<Real>& cut, Real per_face, const ThinWalls<Real>* thin,
@@ -104,7 +92,8 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& bo
             densities_of_row(grid, per_face, cut, c, wall, slivers, fields);
             c = wall;
             if (c < end) {
-                densities_beside_thin(grid, *thin, per_face, cut, c, c + 1, slivers, fields);
+                show_cell(seen_mass(grid, *thin, c), per_face, cut, least_head(fields), c, slivers,
+                          fields);
                 ++c;
             }
         }

@@ -54,6 +54,7 @@ struct BodyLoad {
     Twist<Real> stopped;       ///< that part of the change which is due to what stops it
 
     bool is_free() const { return inverse_mass > Face<Real>(0); }
+    bool is_free_or_led() const { return inverse_mass != Face<Real>(0); }
     bool is_hinged() const { return slides.x == Face<Real>(0) && slides.y == Face<Real>(0); }
 };
 static_assert(sizeof(BodyLoad<float>) <= kBodyLoadBytes<float>, "raise kBodyLoadBytes");

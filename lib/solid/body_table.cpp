@@ -121,8 +121,7 @@ bool any_without_slip(const BodyTable<Real>& table) {
 template <class Real>
 bool any_free(const BodyTable<Real>& table) {
     for (std::int32_t slot = 0; table.load != nullptr && slot < table.capacity; ++slot) {
-        if (table.body[slot].kind != BodyKind::free &&
-            table.load[slot].inverse_mass != Face<Real>(0)) {
+        if (table.body[slot].kind != BodyKind::free && table.load[slot].is_free_or_led()) {
             return true;
         }
     }

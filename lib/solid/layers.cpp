@@ -258,8 +258,7 @@ template <class Real>
 bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
     Body<Real>& body = table.body[slot];
     body.hollow = body.open;
-    const bool free =
-        table.load != nullptr && table.load[slot].inverse_mass != Face<Real>(0);
+    const bool free = table.load != nullptr && table.load[slot].is_free_or_led();
     if (!kHasThinWalls<Real> || layers.thin.capacity == 0 || free) {
         return !body.open;
     }

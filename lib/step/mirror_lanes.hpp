@@ -103,11 +103,10 @@ struct LaneVectors {
     typename L::Floats dot(const LaneVectors& b) const { return x * b.x + y * b.y; }
 };
 
-/// A component around mirrors' points: where, and how much of it particles reach.
+/// A component around mirrors' points: where in their squares, and how much particles reach.
 template <class L>
 struct GroupStencil {
     using Floats = typename L::Floats;
-    const std::int32_t* base;
     Floats fx;
     Floats fy;
     Floats share[4] = {};  ///< of the faces that are reached, others 0
@@ -260,8 +259,8 @@ inline void mirror_faces(const MirrorTask& task, const std::int32_t* face, const
     const std::int32_t t = task.s.stride;
     const LaneVectors<L> normal{L::load(m.normal_x), L::load(m.normal_y)};
     const LaneVectors<L> wall{L::load(m.wall_x), L::load(m.wall_y)};
-    GroupStencil<L> at_u{m.at_u, L::load(m.fx_u), L::load(m.fy_u)};
-    GroupStencil<L> at_v{m.at_v, L::load(m.fx_v), L::load(m.fy_v)};
+    GroupStencil<L> at_u{L::load(m.fx_u), L::load(m.fy_u)};
+    GroupStencil<L> at_v{L::load(m.fx_v), L::load(m.fy_v)};
     const auto was_u = L::squares_at(task.was_u, task.was_u + t, m.at_u);
     const auto was_v = L::squares_at(task.was_v, task.was_v + t, m.at_v);
     if (!task.all_count) {

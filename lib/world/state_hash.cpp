@@ -72,7 +72,7 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
         for (std::int32_t ring = 0; body.rings > 1 && ring < body.rings; ++ring) {
             hash.add(table.outline(body).end_of(ring));
         }
-        if (table.load != nullptr && table.load[slot].inverse_mass != Face<Real>(0)) {
+        if (table.load != nullptr && table.load[slot].is_free_or_led()) {
             const BodyLoad<Real>& load = table.load[slot];
             const Face<Real> weights[] = {load.inverse_mass, load.inverse_inertia, load.ease,
                                           load.blows.linear.x, load.blows.linear.y,

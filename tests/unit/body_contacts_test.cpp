@@ -26,13 +26,6 @@ WorldDef dry_def(std::int32_t contacts) {
 }
 
 template <class Real>
-Motion motion_of(const World<Real>& world, BodyId id) {
-    Motion motion;
-    expect_ok(world.motion(id, &motion));
-    return motion;
-}
-
-template <class Real>
 float mass_of(const World<Real>& world, BodyId id) {
     BodyMass mass;
     expect_ok(world.mass(id, &mass));

@@ -25,13 +25,6 @@ WorldDef dry_def() {
     return def;
 }
 
-template <class Real>
-Motion motion_of(const World<Real>& world, BodyId id) {
-    Motion motion;
-    expect_ok(world.motion(id, &motion));
-    return motion;
-}
-
 std::vector<Vec2f> posed(const Ring& ring, const Motion& at) {
     const float c = std::cos(at.angle_rad);
     const float s = std::sin(at.angle_rad);

@@ -89,6 +89,13 @@ std::vector<std::byte> saved(const World<Real>& world, const Capacity& capacity)
     return bytes;
 }
 
+template <class Real>
+Motion motion_of(const World<Real>& world, BodyId id) {
+    Motion motion;
+    expect_ok(world.motion(id, &motion));
+    return motion;
+}
+
 /// Of what the liquid's mass would fill.
 template <class Real>
 double volume_left(World<Real>& world) {
