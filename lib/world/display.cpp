@@ -31,12 +31,36 @@ std::int32_t limited_distance(Number distance) {
     return distance < Number(0) ? -filled(Number(-distance)) : filled(distance);
 }
 
+/// A length along an axis, in 1/kOne cells.
+struct Span {
+    std::int32_t first;
+    std::int32_t length;  ///< 0: none
+};
+
+/// Between two places of an axis with so many cells, metres; all of it if both are 0.
+Span span_of(float low_m, float high_m, float cell_m, std::int32_t cells) {
+    if (low_m == 0.0F && high_m == 0.0F) {
+        return {0, cells * kOne};
+    }
+    constexpr auto kMost = static_cast<float>(kMaxCells * kOne);
+    const float each = static_cast<float>(kOne) / cell_m;
+    const float low = low_m * each;
+    const float high = high_m * each;
+    if (!(low > -kMost && low < high && high < kMost)) {
+        return {0, 0};
+    }
+    const auto rounded = [](float at) {  // no libc
+        return static_cast<std::int32_t>(at + kMost + 0.5F) - static_cast<std::int32_t>(kMost);
+    };
+    return {rounded(low), rounded(high) - rounded(low)};
+}
+
 /// Pixels' centres along an axis, one after the other, in 1/kOne cells. One division for all.
 class Places {
 public:
-    Places(std::int32_t pixels, std::int32_t cells)
-        : over_(2 * pixels), step_(2 * cells * kOne / over_), rest_(2 * cells * kOne % over_),
-          at_(cells * kOne / over_), left_(cells * kOne % over_) {}
+    Places(std::int32_t pixels, const Span& shown)
+        : over_(2 * pixels), step_(2 * shown.length / over_), rest_(2 * shown.length % over_),
+          at_(shown.first + shown.length / over_), left_(shown.length % over_) {}
 
     std::int32_t at() const { return at_; }
     void next() {
@@ -130,7 +154,14 @@ struct Scene {
     FieldView<DistanceOf<Real>> distance;  ///< empty: no solids
     std::int32_t columns;
     std::int32_t rows;
+    Span across;
+    Span upwards;
 };
+
+/// Whether a place lies within an axis with so many cells.
+bool on_axis(std::int32_t place, std::int32_t cells) {
+    return static_cast<std::uint32_t>(place) < static_cast<std::uint32_t>(cells * kOne);
+}
 
 /// A row of pixels at that height. Whether any changed.
 template <class Real>
@@ -146,14 +177,16 @@ bool draw_row(const Scene<Real>& scene, const Display& display, std::int32_t y,
     const auto near = [](DistanceOf<Real> d) { return limited_distance(d); };
     const auto full = [](DensityOf<Real> d) { return filled(d); };
     bool changed = false;
-    Places x(display.width, columns);
+    const bool tank = on_axis(y, scene.rows);
+    Places x(display.width, scene.across);
     for (std::int32_t column = 0; column < display.width; ++column, x.next()) {
         std::uint8_t& pair = pixels[column / 2];
         const std::uint32_t shift = (column & 1) == 0 ? 4U : 0U;
         const std::uint32_t before = (static_cast<std::uint32_t>(pair) >> shift) & 15U;
         const Between node = between(x.at(), 0, columns + 1);
         std::uint32_t shade = display.solid;
-        if (!solids || nodes.all(node, is_open) || nodes.sample(node, near) > 0) {
+        if (tank && on_axis(x.at(), columns) &&
+            (!solids || nodes.all(node, is_open) || nodes.sample(node, near) > 0)) {
             const Between cell = between(x.at(), kOne / 2, columns);
             shade = shade_of(display, cells.sample(cell, full), before);
         }
@@ -171,14 +204,24 @@ template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display) {
     const bool can_be = display.pixels != nullptr && within(display.width, 1, kMostPixels) &&
                         within(display.height, 1, kMostPixels);
-    const Scene<Real> scene{world.density(), world.signed_distance(), world.cells_x(),
-                            world.cells_y()};
-    if (scene.density.data == nullptr || !can_be) {
+    const Box& shown = display.shown_m;
+    const std::int32_t columns = world.cells_x();
+    const std::int32_t rows = world.cells_y();
+    const Scene<Real> scene{
+        world.density(),
+        world.signed_distance(),
+        columns,
+        rows,
+        span_of(shown.min_m.x, shown.max_m.x, world.cell_m(), columns),
+        span_of(shown.min_m.y, shown.max_m.y, world.cell_m(), rows),
+    };
+    if (scene.density.data == nullptr || !can_be || scene.across.length <= 0 ||
+        scene.upwards.length <= 0) {
         return {};
     }
     ChangedRows changed{display.height, -1};
     const std::int32_t row_bytes = (display.width + 1) / 2;
-    Places y(display.height, scene.rows);
+    Places y(display.height, scene.upwards);
     for (std::int32_t row = display.height - 1; row >= 0; --row, y.next()) {
         if (draw_row(scene, display, y.at(), display.pixels + row * row_bytes)) {
             changed = {row, maximum(changed.last, row)};

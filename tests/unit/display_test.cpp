@@ -2,6 +2,8 @@
 #include "weir/display.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 
 #include "test_world.hpp"
 
@@ -62,6 +64,74 @@ TEST(Display, MayBeOfAnOddWidth) {
     display.pixels = narrow.data();
     draw(*world, display);
     EXPECT_EQ(narrow.back(), 0xB0);
+}
+
+/// A camera at whole pixels shows what the picture of the whole tank has there, and walls around.
+TEST(Display, ShowsAPartOfTheTank) {
+    const WorldDef def = small_def();
+    TestWorld<float> world(def);
+    BodyId id;
+    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.2F, 0.1F}), &id));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.13F, 0.1F}}));
+    world->step(0.01F);
+    const std::int32_t columns = 4 * world->cells_x();
+    const std::int32_t rows = 4 * world->cells_y();
+    const auto picture_of = [&](std::int32_t x, std::int32_t y, std::int32_t width,
+                                std::int32_t height) {
+        const float pixel_m = def.cell_m / 4.0F;
+        std::vector<std::uint8_t> pixels(static_cast<std::size_t>((width + 1) / 2 * height), 0);
+        Display display;
+        display.width = width;
+        display.height = height;
+        display.pixels = pixels.data();
+        const auto place = [&](std::int32_t i, std::int32_t j) {
+            return Vec2f{pixel_m * static_cast<float>(i), pixel_m * static_cast<float>(j)};
+        };
+        display.shown_m = {place(x, y), place(x + width, y + height)};
+        EXPECT_LE(draw(*world, display).last, height - 1);
+        const auto shade = [width, height, pixels](std::int32_t i, std::int32_t j) {
+            const auto at = static_cast<std::size_t>((height - 1 - j) * ((width + 1) / 2) + i / 2);
+            return pixels[at] >> (i % 2 == 0 ? 4 : 0) & 0x0F;
+        };
+        return std::function<int(std::int32_t, std::int32_t)>(shade);
+    };
+    const auto whole = picture_of(0, 0, columns, rows);
+    const Vec2<std::int32_t> corners[] = {{-3, -5}, {7, 3}, {columns - 9, rows - 4}};
+    for (const Vec2<std::int32_t> corner : corners) {
+        const auto part = picture_of(corner.x, corner.y, 41, 37);
+        for (std::int32_t j = 0; j < 37; ++j) {
+            for (std::int32_t i = 0; i < 41; ++i) {
+                const std::int32_t x = corner.x + i;
+                const std::int32_t y = corner.y + j;
+                const bool inside = 0 <= x && x < columns && 0 <= y && y < rows;
+                ASSERT_EQ(part(i, j), inside ? whole(x, y) : Display().solid) << x << ' ' << y;
+            }
+        }
+    }
+}
+
+TEST(Display, OfNoPlaceIsLeftAsItIs) {
+    const WorldDef def = small_def();
+    TestWorld<float> world(def);
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.2F, 0.1F}}));
+    world->step(0.01F);
+    std::vector<std::uint8_t> pixels(8 * 16, 0x33);
+    const std::vector<std::uint8_t> before = pixels;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float far = 2.0F * static_cast<float>(kMaxCells) * def.cell_m;
+    const Box places[] = {{{0.0F, 0.0F}, {nan, 0.1F}}, {{0.2F, 0.0F}, {0.1F, 0.1F}},
+                          {{0.0F, 0.0F}, {0.1F, far}}, {{0.0F, -far}, {0.1F, 0.1F}},
+                          {{0.1F, 0.1F}, {0.1F, 0.1F}}, {{0.1F, 0.1F}, {0.1000001F, 0.2F}}};
+    for (const Box& place : places) {
+        Display display;
+        display.width = 16;
+        display.height = 16;
+        display.pixels = pixels.data();
+        display.shown_m = place;
+        const ChangedRows rows = draw(*world, display);
+        EXPECT_GT(rows.first, rows.last) << place.max_m.x << ' ' << place.max_m.y;
+    }
+    EXPECT_EQ(pixels, before);
 }
 
 /// The right edge of the widest display of the widest tank.
