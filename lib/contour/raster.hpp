@@ -13,6 +13,9 @@ struct NodeBox {
     std::int32_t j1 = -1;
 
     bool empty() const { return i1 < i0 || j1 < j0; }
+    bool operator==(const NodeBox& other) const {
+        return i0 == other.i0 && j0 == other.j0 && i1 == other.i1 && j1 == other.j1;
+    }
 };
 
 /// The nodes of both.
@@ -22,6 +25,11 @@ inline NodeBox common(const NodeBox& a, const NodeBox& b) {
 
 inline bool overlap(const NodeBox& a, const NodeBox& b) {
     return a.i0 <= b.i1 && b.i0 <= a.i1 && a.j0 <= b.j1 && b.j0 <= a.j1;
+}
+
+/// Whether all of another box's nodes are in a box.
+inline bool holds(const NodeBox& box, const NodeBox& other) {
+    return box.i0 <= other.i0 && other.i1 <= box.i1 && box.j0 <= other.j0 && other.j1 <= box.j1;
 }
 
 /// A placed polygon, in cells.

@@ -73,6 +73,21 @@ bool all_stored([[maybe_unused]] const Walls<Real>& walls) {
     }
 }
 
+/// ask(picture) of a cell that is not stored.
+template <class Real, class Ask>
+auto ask_beyond(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std::int32_t j,
+                const Ask& ask) {
+    const auto show = [&](PictureBeyond<Real>& picture) {
+        picture.show(i, j);
+        return ask(picture);
+    };
+    if (walls.stored.picture != nullptr) {
+        return show(*walls.stored.picture);
+    }
+    PictureBeyond<Real> picture(s, walls, *walls.stored.bodies);
+    return show(picture);
+}
+
 /// In a world of which a part is stored. Not inline: others are not to pay for it.
 template <class Real>
 [[gnu::noinline, gnu::cold]] std::uint8_t case_in_window(const GridShape& s,
@@ -80,7 +95,8 @@ template <class Real>
                                                          std::int32_t i, std::int32_t j) {
     if constexpr (kHasWindow<Real>) {
         if (!is_stored(walls, s, i, j)) {
-            return PictureBeyond<Real>(s, walls, i, j, 0).which();
+            return ask_beyond(s, walls, i, j,
+                              [](const PictureBeyond<Real>& drawn) { return drawn.which(); });
         }
     }
     return walls.cell_case[s.index(i, j)];
@@ -253,8 +269,9 @@ template <class Real, class Ask>
         const auto i = static_cast<std::int32_t>(x.x);
         const auto j = static_cast<std::int32_t>(x.y);
         if (!is_stored(walls, shape, i, j)) {
-            const PictureBeyond<Real> drawn(shape, walls, i, j, 1);
-            return ask(drawn.shape(), drawn.walls());
+            return ask_beyond(shape, walls, i, j, [&](const PictureBeyond<Real>& drawn) {
+                return ask(drawn.shape(), drawn.walls());
+            });
         }
     }
     return ask(shape, walls);

@@ -82,7 +82,7 @@ template <class Real>
 void deepen(const Layers<Real>& layers, const BodyTable<Real>& table, const NodeBox& box) {
     if (layers.contour != Contour::mid_edge) {
         deepen_where_bodies_touch(
-            layers.shape, table, stored_of(layers, box),
+            layers.shape, DrawnBodies<Real>(table), stored_of(layers, box),
             field_of(layers, layers.static_distance, layers.static_nearest));
     }
 }

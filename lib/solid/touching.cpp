@@ -19,55 +19,35 @@ constexpr Real kDeepest = Real(1);
 /// Nodes of which the bodies are listed together, along an axis: slots are gone through once for
 /// all of them, so that a map of thousands of tiles is drawn in a moment.
 constexpr std::int32_t kBlock = 4;
-/// Tiles of one cell each around such a block are fewer.
-constexpr std::int32_t kMostListed = 96;
 
 template <class Real>
 struct Union {
-    const BodyTable<Real>& table;
     Bounds<Real> tank;
-    std::int32_t count = 0;  ///< of those listed; negative: too many, all slots are asked
-    std::uint16_t listed[kMostListed];
-
-    Union(const BodyTable<Real>& all, const GridShape& shape)
-        : table(all), tank{{}, {static_cast<Real>(shape.nx), static_cast<Real>(shape.ny)}} {}
-
-    static bool is_drawn(const Body<Real>& body, const NodeBox& nodes) {
-        return body.kind == BodyKind::fixed && !body.hollow && overlap(body.drawn, nodes);
-    }
+    DrawnBodies<Real> bodies;  ///< static ones, of a block
 
     /// Whether there are two static bodies, of which any node of a block may have been drawn by
     /// both.
-    bool list(const NodeBox& block) {
-        count = 0;
-        for (std::int32_t slot = 0; slot < table.capacity && count >= 0; ++slot) {
-            if (is_drawn(table.body[slot], block)) {
-                if (count == kMostListed) {
-                    count = -1;
-                } else {
-                    listed[count++] = static_cast<std::uint16_t>(slot);
-                }
-            }
-        }
-        return count < 0 || count > 1;
+    bool list(const DrawnBodies<Real>& all, const NodeBox& block) {
+        bodies.narrow(all, block, [](const Body<Real>& body) {
+            return body.kind == BodyKind::fixed && !body.hollow;
+        });
+        return !bodies.fewer_than(2);
     }
 
     template <class Visit>
     void for_each_at(std::int32_t i, std::int32_t j, const Visit& visit) const {
-        const std::int32_t end = count < 0 ? table.capacity : count;
-        for (std::int32_t k = 0; k < end; ++k) {
-            const Body<Real>& body = table.body[count < 0 ? k : listed[k]];
-            if (is_drawn(body, {i, j, i, j})) {
+        bodies.for_each_at({i, j, i, j}, [&](std::uint16_t, const Body<Real>& body) {
+            if (body.kind == BodyKind::fixed && !body.hollow) {
                 visit(body);
             }
-        }
+        });
     }
 
     /// Whether a body that has drawn the node (i, j) is at a point.
     bool holds(std::int32_t i, std::int32_t j, Vec2<Real> point) const {
         bool found = false;
         for_each_at(i, j, [&](const Body<Real>& body) {
-            found = found || covers(table.outline(body), point);
+            found = found || covers(bodies.outline(body), point);
         });
         return found;
     }
@@ -77,7 +57,7 @@ struct Union {
         const Vec2<Real> node{static_cast<Real>(i), static_cast<Real>(j)};
         Real least = kDeepest<Real>;
         for_each_at(i, j, [&](const Body<Real>& body) {
-            for_each_edge(table.outline(body), [&](Vec2<Real> from, Vec2<Real> to) {
+            for_each_edge(bodies.outline(body), [&](Vec2<Real> from, Vec2<Real> to) {
                 const bool none = (from.x == to.x && from.y == to.y) || beyond(tank, from, to);
                 const Real away = none ? least : distance_to_segment(node, from, to);
                 if (away < least && !holds(i, j, before_edge(node, from, to))) {
@@ -143,14 +123,14 @@ void deepen_block(const Union<Real>& bodies, const NodeBox& block, const NodeFie
 }  // namespace
 
 template <class Real>
-void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& table,
+void deepen_where_bodies_touch(const GridShape& tank, const DrawnBodies<Real>& all,
                                const NodeBox& box, const NodeField<Real>& field) {
-    Union<Real> bodies(table, tank);
+    Union<Real> bodies{{{}, {static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)}}, all};
     for (std::int32_t j = box.j0; j <= box.j1; j += kBlock) {
         for (std::int32_t i = box.i0; i <= box.i1; i += kBlock) {
             const NodeBox block{i, j, minimum(i + kBlock - 1, box.i1),
                                 minimum(j + kBlock - 1, box.j1)};
-            if (any_shallow(block, field) && bodies.list(block)) {
+            if (any_shallow(block, field) && bodies.list(all, block)) {
                 deepen_block(bodies, block, field);
             }
         }
@@ -158,7 +138,7 @@ void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& tab
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \
-    template void deepen_where_bodies_touch(const GridShape&, const BodyTable<Real>&,         \
+    template void deepen_where_bodies_touch(const GridShape&, const DrawnBodies<Real>&,       \
                                             const NodeBox&, const NodeField<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid/staggered_grid.hpp"
-#include "solid/body_table.hpp"
+#include "solid/drawn_bodies.hpp"
 
 namespace weir {
 
@@ -15,7 +15,7 @@ namespace weir {
 /// more only makes nodes deeper.
 /// Cost: for each such node, a look at each edge of the bodies that drew it.
 template <class Real>
-void deepen_where_bodies_touch(const GridShape& tank, const BodyTable<Real>& table,
+void deepen_where_bodies_touch(const GridShape& tank, const DrawnBodies<Real>& all,
                                const NodeBox& box, const NodeField<Real>& field);
 
 }  // namespace weir

@@ -31,12 +31,16 @@ inline constexpr float kLeastFilmWeight = 1.0F / 64.0F;
 template <class Real>
 inline constexpr Real kBoundLayer = Real(0.5);
 
+template <class Real>
+class PictureBeyond;
+
 /// What is stored of the tank: all of it, or a part (step/window.hpp). Elsewhere the picture of the
 /// solids is drawn for whoever asks (solid/picture_beyond.hpp).
 template <class Real, bool Has = kHasWindow<Real>>
 struct StoredPart {
     SmallShape at;
     const BodyTable<Real>* bodies = nullptr;  ///< null: all of the tank is stored
+    PictureBeyond<Real>* picture = nullptr;   ///< if not null: of the one who asks
 };
 template <class Real>
 struct StoredPart<Real, false> {};

@@ -16,23 +16,22 @@ NodeBox nodes_around(Vec2<Real> from, Vec2<Real> to) {
             cell(maximum(from.x, to.x)) + 2, cell(maximum(from.y, to.y)) + 2};
 }
 
-/// Moves the particles that are left out: they fall, and meet the tank's walls and the solids.
+/// Some of the particles that are left out: they fall, and meet the tank's walls and the solids.
 template <bool Solids, class Real>
-void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
-                StepReport& report) {
+void fly(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, const Part& part,
+         StepReport& report) {
     const Settings<Real>& settings = simulation.settings;
     const GridShape& tank = simulation.layers.shape;
     Particles<Real>& particles = simulation.particles;
-    const Part part = work.take(simulation.window.beyond, 1);
     Transfer<Real> transfer = transfer_of(settings, plan.dt_s);
     transfer.near = Real(1) / plan.dt_s;
     const Vec2<Real> size{static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)};
     TransferResult<Real> moved;
     CollideResult<Real> collisions;
-    NodeBox drawn;
-    if (Solids && !part.empty()) {
-        drawn = all_drawn(simulation.bodies);
-    }
+    PictureBeyond<Real> picture(tank, simulation.layers.walls, simulation.bodies);
+    Walls<Real> walls = simulation.layers.walls;
+    walls.stored.picture = &picture;
+    const NodeBox drawn = all_drawn(simulation.bodies);
     // From the last one on: who takes the place of one that is removed has been moved.
     for (std::int32_t k = -1 - part.first; k > -1 - part.end; --k) {
         const Vec2<PositionOf<Real>> before = particles.position[k];
@@ -45,8 +44,8 @@ void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
         particles.velocity[k] = v;
         if constexpr (Solids) {
             const NodeBox near = nodes_around(Vec2<Real>(before), x);
-            if (overlap(near, drawn) && any_drawn(simulation.bodies, near)) {
-                collide(tank, simulation.layers.walls,
+            if (overlap(near, drawn) && picture.any_at(near)) {
+                collide(tank, walls,
                         {&before, moved.far > 0, simulation.walls_moved_s, false, true}, k, 1,
                         particles, simulation.contacts, collisions);
             }
@@ -54,6 +53,16 @@ void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
     }
     note(moved, simulation, report);
     note(collisions, simulation, report);
+}
+
+/// Moves the particles that are left out.
+template <bool Solids, class Real>
+void fly_beyond(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                StepReport& report) {
+    const Part part = work.take(simulation.window.beyond, 1);
+    if (!part.empty()) {
+        fly<Solids>(simulation, plan, part, report);
+    }
     if (Solids && work.foreseeing()) {
         work.expect(kBlock<Real>, 1);  // the others fill a block less
     }

@@ -55,6 +55,8 @@ TYPED_TEST(WindowBodies, OpenWaysNeedNoPicture) {
         twin->step(0.01F);
         const auto& simulation =
             reinterpret_cast<detail::WorldState<Real>*>(world.memory())->simulation;
+        PictureBeyond<Real> picture(simulation.layers.shape, simulation.layers.walls,
+                                    simulation.bodies);
         const NodeBox drawn = all_drawn(simulation.bodies);
         for (std::int32_t k = 0; k < 2000; ++k) {
             const auto place = [&](float middle_x, float middle_y, float off) {
@@ -66,7 +68,9 @@ TYPED_TEST(WindowBodies, OpenWaysNeedNoPicture) {
             const Vec2<Real> from = place(x, y, 2.0F);
             const Vec2<Real> to = place(x, y, 2.0F);
             const NodeBox near = nodes_around(from, to);
-            if (any_drawn(simulation.bodies, near)) {
+            const bool any = DrawnBodies<Real>(simulation.bodies).any_at(near);
+            ASSERT_EQ(picture.any_at(near), any);
+            if (any) {
                 ++near_bodies;
                 EXPECT_TRUE(overlap(near, drawn));
                 continue;
