@@ -33,15 +33,12 @@ inline Lanes load_lanes(const float* from) {
 inline void store_lanes(float* to, Lanes lanes) {
     __builtin_memcpy(to, &lanes, sizeof lanes);
 }
-/// Two floats at a time, lanes 0 and 1.
+/// Two floats, lanes 0 and 1.
 inline Lanes load_pair(const float* from) {
     using Halves = double __attribute__((vector_size(16)));
     double both;
     __builtin_memcpy(&both, from, sizeof both);
     return reinterpret_cast<Lanes>(Halves{both, 0.0});
-}
-inline void store_pair(float* to, Lanes lanes) {
-    __builtin_memcpy(to, &lanes, 2 * sizeof *to);
 }
 inline Lanes all_lanes(float value) {
     return Lanes{value, value, value, value};
@@ -112,13 +109,6 @@ inline std::uint32_t bits_of(LaneMask mask) {
     return (static_cast<std::uint32_t>(mask[0]) & 1U) | (static_cast<std::uint32_t>(mask[1]) & 2U) |
            (static_cast<std::uint32_t>(mask[2]) & 4U) | (static_cast<std::uint32_t>(mask[3]) & 8U);
 #endif
-}
-/// Calls visit(k) for each lane k that is true, in order.
-template <class Visit>
-inline void for_each_true(LaneMask mask, const Visit& visit) {
-    for (std::uint32_t bits = bits_of(mask); bits != 0; bits &= bits - 1) {
-        visit(__builtin_ctz(bits));
-    }
 }
 /// Whether any lane has its sign set; a negative zero may count as one.
 inline bool any_negative(Lanes a) {
