@@ -215,7 +215,7 @@ inline bool untouched(const Walls<Real>& walls, std::int32_t cell, std::int32_t 
 template <class Real>
 Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i, std::int32_t j);
 
-/// Whether a contour is in a cell that does not stand still: its body moves, or is free to.
+/// Whether a contour is in a cell that does not stand still: its body moves.
 template <class Real>
 [[gnu::noinline]] inline bool is_shifting(const Walls<Real>& walls, std::int32_t cell,
                                           std::int32_t up) {
@@ -224,8 +224,7 @@ template <class Real>
     }
     const auto shifts = [&](std::int32_t node) {
         const std::uint16_t slot = nearest_at(walls, node);
-        return slot != kNoBody && (walls.body[slot].kind == BodyKind::free ||
-                                   walls.body[slot].has_speed());
+        return slot != kNoBody && walls.body[slot].has_speed();
     };
     return shifts(cell) || shifts(cell + 1) || shifts(up) || shifts(up + 1);
 }
