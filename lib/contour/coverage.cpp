@@ -1,7 +1,6 @@
 // Exact area that a polygon covers of every cell: what an edge crosses in a row is added to the
 // cell where it is crossed, and summed from the left (Levien 2016, "font-rs").
-#include "math/vec2.hpp"
-#include "weir/geometry.hpp"
+#include "geometry/polygon.hpp"
 
 namespace weir {
 
@@ -95,18 +94,9 @@ Vec2<double> vertex(View<Vec2f> ring, std::int32_t k) {
     return convert<double>(ring[k < ring.size ? k : 0]);
 }
 
-double twice_area(View<Vec2f> ring) {
-    const Vec2<double> origin = vertex(ring, 0);
-    double twice = 0.0;
-    for (std::int32_t k = 0; k < ring.size; ++k) {
-        twice += cross(vertex(ring, k) - origin, vertex(ring, k + 1) - origin);
-    }
-    return twice;
-}
-
 /// Counter-clockwise, the inside lies to the right of an edge that falls.
 void add_ring(View<Vec2f> ring, double sign, std::int32_t columns, std::int32_t j, float* row) {
-    const double turned = twice_area(ring) < 0.0 ? -sign : sign;
+    const double turned = twice_area_in_double(ring) < 0.0 ? -sign : sign;
     for (std::int32_t k = 0; k < ring.size; ++k) {
         add_edge(vertex(ring, k), vertex(ring, k + 1), turned, columns, j, row);
     }
