@@ -112,10 +112,6 @@ Sight look_right(const Joint<Real>& joint, Vec2<double> m) {
     return sight;
 }
 
-bool in_triangle(Vec2<double> a, Vec2<double> b, Vec2<double> c, Vec2<double> p) {
-    return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
-}
-
 bool same_place(Vec2<double> a, Vec2<double> b) { return a.x == b.x && a.y == b.y; }
 
 /// The corner of the met edge is visible unless a hollow corner is in between; then the one at the

@@ -95,10 +95,6 @@ Range range_of(double p, double q, double r, double low, double per_length, std:
     return {cell_along(least - low, per_length, cells), cell_along(most - low, per_length, cells)};
 }
 
-bool in_triangle(Vec2<double> a, Vec2<double> b, Vec2<double> c, Vec2<double> p) {
-    return turn(c, a, p) >= 0.0 && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0;
-}
-
 /// Whether two corners are the same vertex, where a bridge ends.
 template <class Real>
 bool same_vertex(const CornerRing<Real>& ring, std::int32_t a, std::int32_t b) {

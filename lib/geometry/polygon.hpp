@@ -26,6 +26,11 @@ constexpr bool is_left_turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
     return turn(a, b, c) >= Product<Real>(0);
 }
 
+/// Whether a point is in a triangle that turns left, or on its rim.
+inline bool in_triangle(Vec2<double> a, Vec2<double> b, Vec2<double> c, Vec2<double> p) {
+    return turn(c, a, p) >= 0.0 && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0;
+}
+
 /// Twice the enclosed area, in squares of the ring's unit; positive if counter-clockwise.
 template <class Real>
 Real twice_signed_area(const Vec2<Real>* ring, std::int32_t count);
