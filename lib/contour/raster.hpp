@@ -18,6 +18,14 @@ struct NodeBox {
     }
 };
 
+/// The smallest box that holds both.
+inline NodeBox unite(const NodeBox& a, const NodeBox& b) {
+    if (a.empty() || b.empty()) {
+        return a.empty() ? b : a;
+    }
+    return {minimum(a.i0, b.i0), minimum(a.j0, b.j0), maximum(a.i1, b.i1), maximum(a.j1, b.j1)};
+}
+
 /// The nodes of both.
 inline NodeBox common(const NodeBox& a, const NodeBox& b) {
     return {maximum(a.i0, b.i0), maximum(a.j0, b.j0), minimum(a.i1, b.i1), minimum(a.j1, b.j1)};

@@ -71,11 +71,8 @@ NodeBox all_drawn(const BodyTable<Real>& bodies) {
     NodeBox all;
     for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
         const Body<Real>& body = bodies.body[slot];
-        if (body.kind != BodyKind::free && !body.drawn.empty()) {
-            const NodeBox& one = body.drawn;
-            all = all.empty() ? one
-                              : NodeBox{minimum(all.i0, one.i0), minimum(all.j0, one.j0),
-                                        maximum(all.i1, one.i1), maximum(all.j1, one.j1)};
+        if (body.kind != BodyKind::free) {
+            all = unite(all, body.drawn);
         }
     }
     return all;

@@ -11,16 +11,6 @@ namespace weir {
 
 namespace {
 
-NodeBox unite(const NodeBox& a, const NodeBox& b) {
-    if (a.empty()) {
-        return b;
-    }
-    if (b.empty()) {
-        return a;
-    }
-    return {minimum(a.i0, b.i0), minimum(a.j0, b.j0), maximum(a.i1, b.i1), maximum(a.j1, b.j1)};
-}
-
 std::int32_t nodes_in(const NodeBox& box) {
     return box.empty() ? 0 : (box.i1 - box.i0 + 1) * (box.j1 - box.j0 + 1);
 }

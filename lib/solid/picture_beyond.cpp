@@ -5,19 +5,6 @@
 
 namespace weir {
 
-namespace {
-
-/// Where an array would begin whose entry of that number is `first`. By integers: that may lie
-/// outside of any array.
-template <class T>
-T* numbered_from(T* first, std::int32_t number) {
-    const auto bytes = static_cast<std::intptr_t>(number) * static_cast<std::intptr_t>(sizeof(T));
-    return reinterpret_cast<T*>(reinterpret_cast<std::uintptr_t>(first) -
-                                static_cast<std::uintptr_t>(bytes));
-}
-
-}  // namespace
-
 template <class Real>
 PictureBeyond<Real>::PictureBeyond(const GridShape& tank, const Walls<Real>& walls,
                                    const BodyTable<Real>& bodies)

@@ -8,13 +8,9 @@ namespace weir {
 
 namespace {
 
-/// By integers: the address itself may lie in front of all arrays.
 template <class T>
 void move_back(T*& pointer, std::int32_t entries) {
-    const auto bytes = static_cast<std::intptr_t>(entries) *
-                       static_cast<std::intptr_t>(sizeof(T));
-    pointer = reinterpret_cast<T*>(reinterpret_cast<std::uintptr_t>(pointer) -
-                                   static_cast<std::uintptr_t>(bytes));
+    pointer = numbered_from(pointer, entries);
 }
 
 /// Of the tank's numbering, the first entry of the arrays: a ghost cell's.
