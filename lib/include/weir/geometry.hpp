@@ -45,7 +45,8 @@ std::int32_t flatten_quadratic(Vec2f p0, Vec2f p1, Vec2f p2, float tolerance_m, 
 std::int32_t flatten_cubic(Vec2f p0, Vec2f p1, Vec2f p2, Vec2f p3, float tolerance_m, Vec2f* out,
                            std::int32_t capacity);
 /// The same for an arc of a circle from `start_rad` over `sweep_rad`, −2π … 2π, counter-clockwise
-/// if positive. Vertices lie on the arc; its first point is not written.
+/// if positive. Vertices lie on the arc; its first point is not written. 0, too, if the radius is
+/// negative, the sweep longer, or `start_rad` beyond ±1e4.
 std::int32_t flatten_arc(Vec2f centre_m, float radius_m, float start_rad, float sweep_rad,
                          float tolerance_m, Vec2f* out, std::int32_t capacity);
 

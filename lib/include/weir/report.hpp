@@ -24,8 +24,8 @@ const char* stage_name(Stage stage);
 /// What was clamped. Bits, so that several can hold at once.
 enum class Clamped : std::uint32_t {
     nothing = 0,
-    time_step = 1U << 0U,      ///< dt was not finite, negative, below 1e-9 s or too long for
-                               ///< max_substeps; 0 is none of these: a pause
+    time_step = 1U << 0U,      ///< dt was not finite, negative, below 1e-9 s, over 1 s or too long
+                               ///< for max_substeps; 0 is none of these: a pause
     gravity = 1U << 1U,        ///< gravity was not finite (kept the last) or too strong (limited)
     speed = 1U << 2U,          ///< particles were limited to 2 cells a substep, or SmallFixed's
     sound_speed = 1U << 3U,    ///< the equation of state was softened to fit max_substeps

@@ -151,8 +151,9 @@ public:
     /// place in the views then. Not linked unless called. Wants `capacity.sleeping_regions`.
     Status let_regions_sleep();
 
-    /// Simulates dt seconds. Never fails: see StepReport for what was clamped. A step that was
-    /// begun is finished first.
+    /// Simulates dt_s seconds, at most 1 (SmallFixed with a `top_speed_mps`: what 255 cells take at
+    /// that speed, rounded down to a power of two). Never fails: see StepReport for what was
+    /// clamped. A step that was begun is finished first.
     /// @param rung of the ladder, 0 … kRungs − 1: what to leave off so as to be done in time.
     StepReport step(float dt_s, std::int32_t rung = 0);
 
@@ -204,7 +205,9 @@ public:
     FieldView<DistanceOf<Real>> signed_distance() const;
 
     /// Mass, momentum, energies, volume and what is left of the divergence. Costs about as much
-    /// as a scatter; changes no state, but the views of the grid are stale afterwards.
+    /// as a scatter; changes no state, but the views of the grid are stale afterwards. What only
+    /// the grid can tell, from the volume on, is 0 where `Capacity::window_cells` do not hold all
+    /// particles.
     Status diagnose(Diagnostics* diagnostics);
 
     /// Copies all that decides the future into the caller's memory, which may stand anywhere.
