@@ -128,10 +128,11 @@ inline SeenFaces faces_seen(const ThinWalls<Real>& thin, const GridShape& s, std
             (thin.mark[c + s.stride] & kLowerUnseenBefore) == 0};
 }
 
-/// Records that a body of `vertices` edges and that length (cells) needs at any pose.
+/// Records that a body of so many edges and that length (cells) needs at any pose; of one that is
+/// longer than any world has room for, more than there is.
 template <class Real>
 inline std::int32_t records_needed(Real length, std::int32_t edges) {
-    return 3 * (floor_to_int(length) + 1) + 6 * edges;
+    return 3 * (floor_to_int(minimum(length, Real(kMaxWallEdges))) + 1) + 6 * edges;
 }
 
 /// No wall anywhere.

@@ -344,6 +344,18 @@ TEST(ThinWalls, RoomForEdgesIsKeptAndGivenBack) {
     world->step(kFrame);
 }
 
+TEST(ThinWalls, LinesLongerThanAnyRoomAreRefused) {
+    WorldDef def = tank(100);
+    def.capacity.vertices = 4000;
+    TestWorld<float> world(def);
+    Ring zigzag;
+    for (std::int32_t k = 0; k < 4000; ++k) {
+        zigzag.push_back({k % 2 == 0 ? -99000.0F : 99000.0F, 0.05F * static_cast<float>(k % 600)});
+    }
+    BodyId id;
+    EXPECT_EQ(world->add_moving_body(line_of(zigzag), &id), Status::no_free_wall_edge);
+}
+
 TEST(ThinWalls, WithoutRoomForEdgesNothingIsCarvedOrDone) {
     const Layout with = layout<float>(tank(100).capacity);
     const Layout without = layout<float>(tank(0).capacity);
