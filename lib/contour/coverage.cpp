@@ -113,8 +113,8 @@ Status cover_cells(View<Vec2f> polygon, View<View<Vec2f>> holes, std::int32_t co
     if (share == nullptr) {
         return Status::output_missing;
     }
-    for (std::int32_t j = 0; j < rows; ++j) {
-        float* row = share + j * columns;
+    for (std::int32_t j = 0; columns > 0 && j < rows; ++j) {
+        float* row = share + static_cast<std::ptrdiff_t>(j) * columns;
         for (std::int32_t i = 0; i < columns; ++i) {
             row[i] = 0.0F;
         }

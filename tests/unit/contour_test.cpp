@@ -149,6 +149,13 @@ TEST(Coverage, CountsHolesAndCutsOffWhatIsBeyondTheGrid) {
     EXPECT_NEAR(sum(share), 0.5, 1e-6);
 }
 
+TEST(Coverage, WritesNothingWhereThereAreNoColumns) {
+    const Vec2f square[] = {{-1.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 2.0F}, {-1.0F, 2.0F}};
+    float share = 7.0F;
+    EXPECT_EQ(cover_cells(square, {}, 0, 2, &share), Status::ok);
+    EXPECT_EQ(share, 7.0F);
+}
+
 TEST(Coverage, RefusesWhatIsNoPolygon) {
     float share[4] = {};
     const Vec2f bow[] = {{0.0F, 0.0F}, {2.0F, 2.0F}, {2.0F, 0.0F}, {0.0F, 1.0F}};
