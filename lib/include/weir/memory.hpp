@@ -276,7 +276,8 @@ constexpr void place(Block block, Owner owner, Kept kept, std::size_t element_by
     result.element_bytes[slot] = static_cast<std::uint16_t>(element_bytes);
     result.kept[slot] = kept;
     result.owner_bytes[static_cast<std::size_t>(owner)] += bytes;
-    result.total_bytes += bytes;
+    const std::size_t left = ~std::size_t{0} - result.total_bytes;  // more has no memory
+    result.total_bytes += bytes < left ? bytes : left;
 }
 
 /// Where free bodies meet something. In packed worlds there are none.
