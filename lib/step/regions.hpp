@@ -104,7 +104,8 @@ void touch_regions(Regions<Real>* regions, const NodeBox& box) {
 /// How many particles stand before the pool.
 template <class Real>
 std::int32_t hidden_of(const Simulation<Real>& simulation) {
-    return simulation.regions != nullptr ? simulation.regions->hidden : 0;
+    const Regions<Real>* const regions = simulation.regions;
+    return simulation.window.beyond + (regions != nullptr ? regions->hidden : 0);
 }
 
 /// Lets the pool begin so many sleepers later than with the first one.

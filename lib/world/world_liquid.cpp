@@ -52,7 +52,8 @@ Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f vel
     return state.simulation.particles.full() ? Status::no_free_particle : Status::ok;
 }
 
-/// A field of all particles, those asleep as well, of a world that is one and has it.
+/// A field of all particles, those asleep or beyond the window as well, of a world that is one and
+/// has it.
 template <class Real, class Field>
 View<Field> view_of(const WorldState<Real>* state, Field* Particles<Real>::*field) {
     if (state == nullptr || state->simulation.particles.*field == nullptr) {

@@ -65,6 +65,20 @@ TYPED_TEST(Window, WhatIsBeyondFallsAlone) {
     EXPECT_TRUE(all_inside(*world));
 }
 
+TYPED_TEST(Window, ViewsShowWhatIsBeyondWhileAStepGoesOn) {
+    TestWorld<TypeParam> world(windowed(wide_def(0), 66 * 42));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.20F, 0.10F}}));
+    expect_ok(world->fill({{4.0F, 1.0F}, {4.06F, 1.04F}}));
+    const std::int32_t all = world->particle_positions().size;
+    StepReport report;
+    expect_ok(world->begin_step(0.01F, &report));
+    while (!world->advance(100)) {
+        EXPECT_EQ(world->particle_positions().size, all);
+        EXPECT_TRUE(all_inside(*world));
+    }
+    EXPECT_GT(report.particles_beyond, 0);
+}
+
 TYPED_TEST(Window, LosesNobodyHoweverSmallItIs) {
     for (std::int32_t kind = 0; kind < kKinds; ++kind) {
         expect_nobody_lost<TypeParam>(kind);
