@@ -1,9 +1,9 @@
 #include "solid/collide.hpp"
 
 #include "solid/blow.hpp"
-#include "solid/first_entry.hpp"
 #include "solid/look_packed.hpp"
 #include "solid/near_wall_lanes.hpp"
+#include "solid/slide.hpp"
 #include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
 
@@ -14,10 +14,6 @@ namespace {
 /// What is found inside goes out at this speed at most, cells per substep.
 template <class Real>
 constexpr Real kFastestWayOut = Real(1);
-
-/// Where a particle is put: this far in front of the wall, so that it is not found behind it again.
-template <class Real>
-constexpr Real kClearance = Real(Stored<Real>::coarse ? 1.0 / 64.0 : 1.0 / 1024.0);
 
 /// Set to the contour itself, all that come to a corner, or that a body pushes along, would meet in
 /// one place, and never part again: so much of their way back they go further.
@@ -134,10 +130,15 @@ template <class Real>
         slot = at.slot;  // who passed through a moving body is looked at again from there
     }
     ++scene.result.reflected;
-    scene.particles.position[k] = entry.place;
     answer(scene, k, at.slot, entry.place, at.hit.normal);
-    const bool stays = Real(16) * length(entry.place - from) <= length(x - from);
-    stop_if_blocked(scene, k, at.slot, entry.place, stays && !far);
+    const auto stays = [&] { return Real(16) * length(entry.place - from) <= length(x - from); };
+    bool wedged = !far && stays();
+    if (wedged) {
+        entry.place = slide(scene.shape, scene.walls, entry, x);
+        wedged = stays();
+    }
+    scene.particles.position[k] = entry.place;
+    stop_if_blocked(scene, k, at.slot, entry.place, wedged);
     return true;
 }
 
