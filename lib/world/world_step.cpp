@@ -26,14 +26,17 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
     wake_by_gravity(*state_, limited);
     Simulation<Real>& simulation = state_->simulation;
     const Vec2<Real> gravity = convert<Real>(pull_of(*state_) * convert<Face<Real>>(limited));
-    // The pressure that a blow built up must not act after it.
+    // The pressure of what is at rest goes with gravity: else a sensor's noise, which is up as often
+    // as down, takes some of it each time. The pressure that a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
     const bool elastic = simulation.pressure.elasticity != nullptr;
     const Real now = elastic && before > Real(0)
                          ? maximum(Real(0), dot(gravity, simulation.settings.gravity) / before)
                          : length(gravity);
-    if (now < before && !is_asleep(*state_)) {
-        simulation.pressure.change = simulation.pressure.change * (now / before);
+    const Real most_now = elastic ? before : before + before;
+    if (before > Real(0) && now != before && !is_asleep(*state_)) {
+        simulation.pressure.change =
+            minimum(Real(16), simulation.pressure.change * (minimum(now, most_now) / before));
     }
     simulation.settings.gravity = gravity;
     return Status::ok;
