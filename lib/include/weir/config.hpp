@@ -68,10 +68,11 @@ struct Capacity {
     /// 66 × 26. As long as that suffices no bit is different. If it does not, the sides that hold
     /// the fewest particles are left off: those fall by themselves, meet the tank's walls, the
     /// bodies and no other particle, and change places in the views, until they come back into
-    /// reach; `StepReport::particles_beyond` counts them. What a body buries there stays in it, and
-    /// goes along, until then. Beside bodies each of them asks all bodies where they are, which its
-    /// unit of work (`WorkBound`) does not tell: among a thousand bodies 400 times as long as one
-    /// within reach. Not with thin walls or `two_way`, nor in SmallFixed.
+    /// reach; `StepReport::particles_beyond` counts them. A pool out there falls flat, for good: a
+    /// level of many pools that all matter wants `sleeping_regions` instead. What a body buries
+    /// there stays in it, and goes along, until then. Beside bodies each of them takes several times
+    /// as long as one within reach, which its unit of work (`WorkBound`) does not tell. Not with
+    /// thin walls or `two_way`, nor in SmallFixed.
     std::int32_t window_cells = 0;
 };
 
@@ -171,8 +172,10 @@ struct WorldDef {
     std::int32_t max_substeps = 16;
 
     /// Share of the particle's own velocity kept, against the grid's; 0 (PIC: viscous, smooth)
-    /// … 1 (FLIP: lively, noisy). 0.97 loses about 1 % of a wave per period. More counts as 0.97
-    /// with an equation of state: noise would gain energy.
+    /// … 1 (FLIP: lively, noisy). 0.97 loses about 1 % of a wave per period. Of each substep: slow
+    /// motion has more of them a second and is thicker (a dam that keeps 0.94 of its energy for a
+    /// second at steps of 1/60 s keeps 0.89 at 1/2000). More counts as 0.97 with an equation of
+    /// state: noise would gain energy.
     float flip_ratio = 0.97F;
 
     /// Strength of the drift towards uniform particle density; 0 (off) … 1.
