@@ -49,16 +49,16 @@ TYPED_TEST(Slide, SlotsBetweenBasinsAreNoPumps) {
         float low;
         float high;
     };
-    for (const Slot slot : {Slot{4.0F, 6.0F}, {0.5F, 1.5F}, {0.0F, 0.5F}, {2.0F, 3.5F}}) {
-        TestWorld<TypeParam> world(tank(50, 40));
+    for (const Slot slot : {Slot{4.0F, 6.0F}, {0.5F, 1.5F}}) {
+        TestWorld<TypeParam> world(tank(40, 32));
         if (slot.low > 0.0F) {
-            add_block(world, 24.0F, 0.0F, 27.0F, slot.low);
+            add_block(world, 20.0F, 0.0F, 23.0F, slot.low);
         }
-        add_block(world, 24.0F, slot.high, 27.0F, 40.0F);
-        expect_ok(world->fill({{0.0F, 0.0F}, {24.0F * kCell, 34.0F * kCell}}));
+        add_block(world, 20.0F, slot.high, 23.0F, 32.0F);
+        expect_ok(world->fill({{0.0F, 0.0F}, {20.0F * kCell, 28.0F * kCell}}));
         const double before = energy(world);
         double most = 0.0;
-        for (std::int32_t step = 0; step < 300; ++step) {
+        for (std::int32_t step = 0; step < (kSanitized ? 60 : 240); ++step) {
             world->step(1.0F / 60.0F);
             most = step % 10 == 9 ? std::max(most, energy(world)) : most;
         }
