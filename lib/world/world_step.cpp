@@ -26,8 +26,8 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
     wake_by_gravity(*state_, limited);
     Simulation<Real>& simulation = state_->simulation;
     const Vec2<Real> gravity = convert<Real>(pull_of(*state_) * convert<Face<Real>>(limited));
-    // The pressure of what is at rest goes with gravity: else a sensor's noise, which is up as often
-    // as down, takes some of it each time. The pressure that a blow built up must not act after it.
+    // The pressure of what is at rest goes with gravity: else a sensor's noise, which is up as
+    // often as down, takes some of it each time. What a blow built up must not act after it.
     const Real before = length(simulation.settings.gravity);
     const bool elastic = simulation.pressure.elasticity != nullptr;
     const Real now = elastic && before > Real(0)

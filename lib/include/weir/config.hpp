@@ -70,9 +70,9 @@ struct Capacity {
     /// bodies and no other particle, and change places in the views, until they come back into
     /// reach; `StepReport::particles_beyond` counts them. A pool out there falls flat, for good: a
     /// level of many pools that all matter wants `sleeping_regions` instead. What a body buries
-    /// there stays in it, and goes along, until then. Beside bodies each of them takes several times
-    /// as long as one within reach, which its unit of work (`WorkBound`) does not tell. Not with
-    /// thin walls or `two_way`, nor in SmallFixed.
+    /// there stays in it, and goes along, until then. Beside bodies each of them takes several
+    /// times as long as one within reach, which its unit of work (`WorkBound`) does not tell. Not
+    /// with thin walls or `two_way`, nor in SmallFixed.
     std::int32_t window_cells = 0;
 };
 
