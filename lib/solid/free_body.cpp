@@ -83,35 +83,6 @@ Overhang<Real> overhang(const GridShape& s, const BodyTable<Real>& table,
     return beyond;
 }
 
-template <class Real>
-void move(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seconds<Real> dt_s) {
-    const GridShape& s = obstacles.tank;
-    part(obstacles);
-    for_each_free(table, [&](Body<Real>& body, const BodyLoad<Real>& load) {
-        const Twist<Real> twist = twist_of(body, load);
-        const Twist<Real>& parted = load.change;
-        const Wide<Real> centre = (convert<Face<Real>>(body.position) + arm_of_centre(body, load)) +
-                                  (obstacles.dt * twist.velocity + parted.velocity);
-        const Real turn = dt_s * body.spin + static_cast<Real>(parted.spin);
-        body.angle = wrapped_angle(body.angle + turn);
-        body.position = load.is_hinged() ? body.position + dt_s * body.velocity
-                                         : convert<Real>(centre - arm_of_centre(body, load));
-        place(table, body);
-        if (near_walls(s, body, Real(1))) {
-            const Overhang<Real> beyond = overhang(s, table, body);
-            const Vec2<Real> back = along_slides(
-                load,
-                Vec2<Real>{beyond.low_x - beyond.high_x, beyond.low_y - beyond.high_y});
-            if (back.x != Real(0) || back.y != Real(0)) {
-                body.position = body.position + back;
-                place(table, body);
-            }
-        }
-        set_twist(load, twist, body);
-        body.moved = true;
-    });
-}
-
 /// Particles bounce off a body as if it were too heavy to yield. One that is lighter than all that
 /// hit it takes only as much as brings it to their speed.
 template <class Real>
@@ -213,6 +184,72 @@ std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& 
         set_twist(load, twist, body);
     });
     return slowed;
+}
+
+/// Back into the tank, if the body reaches beyond it.
+template <class Real>
+void keep_in_tank(const GridShape& s, BodyTable<Real>& table, const BodyLoad<Real>& load,
+                  Body<Real>& body) {
+    if (!near_walls(s, body, Real(1))) {
+        return;
+    }
+    const Overhang<Real> beyond = overhang(s, table, body);
+    const Vec2<Real> back = along_slides(
+        load, Vec2<Real>{beyond.low_x - beyond.high_x, beyond.low_y - beyond.high_y});
+    if (back.x != Real(0) || back.y != Real(0)) {
+        body.position = body.position + back;
+        place(table, body);
+    }
+}
+
+/// An angle, what spin adds to it in a substep and what parting does are each within kMaxAngle.
+constexpr float kFurthestTurned = 3.0F * kMaxAngle;
+
+/// Moves a body by its velocity and as it is parted from others. False: that led nowhere, and it
+/// stays where it was, at rest. Nothing else may come of it, whatever the numbers were.
+template <class Real>
+bool go(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seconds<Real> dt_s,
+        const BodyLoad<Real>& load, Body<Real>& body) {
+    const Twist<Real> twist = twist_of(body, load);
+    const Twist<Real>& parted = load.change;
+    const Wide<Real> centre = (convert<Face<Real>>(body.position) + arm_of_centre(body, load)) +
+                              (obstacles.dt * twist.velocity + parted.velocity);
+    const Real before = body.angle;
+    const Real angle = before + (dt_s * body.spin + static_cast<Real>(parted.spin));
+    const bool in_range = absolute(angle) <= Real(kFurthestTurned);
+    body.angle = in_range ? wrapped_angle(angle) : before;
+    const Vec2<Real> to = load.is_hinged() ? body.position + dt_s * body.velocity
+                                           : convert<Real>(centre - arm_of_centre(body, load));
+    const bool sound = in_range && is_finite(to);
+    if (sound) {
+        body.position = to;
+    } else {
+        body.angle = before;
+    }
+    place(table, body);
+    keep_in_tank(obstacles.tank, table, load, body);
+    if (sound) {
+        set_twist(load, twist, body);
+    } else {
+        body.velocity = load.is_hinged() ? body.velocity : Vec2<Real>{};
+        body.spin = Real(0);
+    }
+    body.moved = true;
+    return sound;
+}
+
+/// Places are put right by no more than velocities may lead.
+template <class Real>
+std::int32_t move(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seconds<Real> dt_s) {
+    part(obstacles);
+    std::int32_t held_back = 0;
+    for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
+        const bool too_far = limit<Real>(Face<Real>(kLongestWay),
+                                         static_cast<Face<Real>>(body.radius), load.change);
+        const bool sound = go(obstacles, table, dt_s, load, body);
+        held_back += too_far || !sound ? 1 : 0;
+    });
+    return held_back;
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ struct FreeBodyStages {
     std::int32_t (*finish)(const Obstacles<Real>&, const PressedCells<Real>&, BodyTable<Real>&,
                            Contacts<Real>&);
     /// Moves them with it, and apart if they are in something; none of them leaves the tank.
-    void (*move)(const Obstacles<Real>&, BodyTable<Real>&, Seconds<Real> dt_s);
+    /// Returns how many were held back: their way was too long for a substep, or led nowhere.
+    std::int32_t (*move)(const Obstacles<Real>&, BodyTable<Real>&, Seconds<Real> dt_s);
 };
 
 /// The stages of free_body.cpp.

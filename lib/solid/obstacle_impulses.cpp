@@ -126,7 +126,7 @@ HeldWay<Real> held_way(const BodyTable<Real>& table, const Meeting<Real>& meetin
     }
     const Way<Real> way(table, meeting, along, held);
     const auto ease = [](const BodyLoad<Real>* load) {
-        return load == nullptr ? Face<Real>(0) : load->inverse_mass;
+        return load == nullptr ? Face<Real>(0) : load->ease * load->inverse_mass;
     };
     held.yielding = way.own.yielding() + way.other.yielding();
     if (held.yielding < kRigid<Real> * (ease(way.own.load) + ease(way.other.load))) {
@@ -367,6 +367,9 @@ void part(const Obstacles<Real>& obstacles) {
     for (Meeting<Real>& meeting : meetings) {
         meeting.gap += obstacles.dt * ahead(obstacles.bodies, meeting).speed();
         meeting.push = Face<Real>(0);
+        // What bodies take along has changed: where they yield by over twice of what was found
+        // when the substep began the rounds would not converge, and each push outgrow the last.
+        meeting.ahead = held_way(obstacles.bodies, meeting, meeting.normal);
     }
     for (std::int32_t slot = 0; slot < obstacles.bodies.capacity; ++slot) {
         obstacles.bodies.load[slot].change = Twist<Real>{};

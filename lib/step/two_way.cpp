@@ -127,7 +127,8 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
     if (simulation.free_bodies == nullptr) {
         return;
     }
-    simulation.free_bodies->move(obstacles_of(simulation, dt_s), simulation.bodies, dt_s);
+    report.bodies_slowed += simulation.free_bodies->move(obstacles_of(simulation, dt_s),
+                                                         simulation.bodies, dt_s);
     report.nodes_rasterized += merge_moving(simulation.layers, simulation.bodies);
     locate_bodies(simulation.bodies);
 }

@@ -33,7 +33,8 @@ enum class Clamped : std::uint32_t {
     not_initialised = 1U << 5U,  ///< there is no world: nothing was done
     viscosity = 1U << 6U,      ///< the liquid was made thinner to fit max_substeps
     surface_tension = 1U << 7U,  ///< it was lowered to fit max_substeps
-    body_speed = 1U << 8U,    ///< free bodies were limited to 2 cells a substep
+    body_speed = 1U << 8U,    ///< free bodies were limited to 2 cells a substep, also as they are
+                              ///< moved apart, or stopped where their numbers led nowhere
 };
 
 /// The ladder of a deadline: what steps leave off to cost less. 0: nothing. 1: half of the
