@@ -246,6 +246,9 @@ std::int32_t move(const Obstacles<Real>& obstacles, BodyTable<Real>& table, Seco
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         const bool too_far = limit<Real>(Face<Real>(kLongestWay),
                                          static_cast<Face<Real>>(body.radius), load.change);
+        if (too_far) {
+            load.stopped = Twist<Real>{};  // parting added to it: it is kept, but read no more
+        }
         const bool sound = go(obstacles, table, dt_s, load, body);
         held_back += too_far || !sound ? 1 : 0;
     });
