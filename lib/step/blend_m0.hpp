@@ -5,7 +5,7 @@
 #include "math/packed_arithmetic.hpp"
 #include "step/places_packed.hpp"
 
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
 
 namespace weir::packed {
 
@@ -141,9 +141,10 @@ namespace weir::packed {
     "b 9f\n"
 
 /// The faces from `field` to `end`, some of them with nothing but liquid around.
+/// Not inline: in a larger function there are not enough registers.
 /// @return what stood in the last one.
-inline std::int32_t blend_faces(const FacesAround& told, Speed* field, const Speed* end,
-                                std::int32_t share) {
+[[gnu::noinline]] inline std::int32_t blend_faces(const FacesAround& told, Speed* field,
+                                                  const Speed* end, std::int32_t share) {
     const FacesAround at = told;
     const std::uint32_t chances = kChance;
     std::int32_t left = field[-1].raw;

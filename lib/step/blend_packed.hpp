@@ -56,7 +56,7 @@ inline void blend_last(const FacesAround& at, const BlendRow& row, std::int32_t 
 
 template <bool Sharp>
 void blend_row(const FacesAround at, const BlendRow& row) {
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
     if (Sharp) {
         blend_last(at, row, blend_faces(at, row.field, row.field + row.count, row.share));
         return;

@@ -53,7 +53,7 @@ void update_packed(const SmallFixed* momentum, VelocityOf<SmallFixed>* mass, con
                    SmallFixed gained, VelocityOf<SmallFixed>* velocity) {
     const std::int32_t faster = VelocityOf<SmallFixed>(gained).raw;
     for (std::int32_t face = faces.first; face < faces.end; ++face) {
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
         const auto first = reinterpret_cast<std::uintptr_t>(mass);
         const VelocityOf<SmallFixed>* const next = packed::velocities_of(
             mass + face, mass + faces.end, reinterpret_cast<std::uintptr_t>(momentum) - 2 * first,

@@ -22,7 +22,7 @@ template <bool OnU>
     const std::uintptr_t to_momentum = whole(reinterpret_cast<std::uintptr_t>(momentum) -
                                              2 * reinterpret_cast<std::uintptr_t>(mass));
     std::int32_t refused = 0;
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
     const auto* place = reinterpret_cast<const char*>(particles.position);
     const std::ptrdiff_t to_velocity = reinterpret_cast<const char*>(particles.velocity) - place +
                                        (OnU ? 0 : kSpeedBytes);
@@ -190,7 +190,7 @@ constexpr std::uint32_t kHalves = 0x7FFF7FFFU;
 constexpr std::uint32_t kOneCell = 0x1000100U;
 constexpr std::uint32_t kFarBits = 0xFE00FE00U;
 
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
 /// `first`: the first face. `between`: to the same one of the other field.
 GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const void* ways,
                    const Speed* first, std::ptrdiff_t between, std::ptrdiff_t component) {
@@ -213,7 +213,7 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
 /// both want more registers than there are. @return the square of the fastest, or `fastest`.
 [[gnu::noinline]] std::int32_t gather_u(const Gather& gather, const Particles<Real>& particles,
                                         void* ways, std::int32_t fastest) {
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
     const auto* place = reinterpret_cast<const char*>(particles.position);
     return gather_along_u(task_of(gather, particles, ways, gather.grid.u + 1,
                                   bytes_between(gather.grid.u, gather.grid.mass_u), 0),
@@ -245,7 +245,7 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
 }
 
 /// A Cortex-M0 has one loop for both.
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
 constexpr bool kAlwaysKeeps = true;
 #else
 constexpr bool kAlwaysKeeps = false;
@@ -257,7 +257,7 @@ template <bool Keeps>
                                         void* ways, std::int32_t fastest,
                                         TransferResult<Real>& result) {
     const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
     const GatherTask task = task_of(gather, particles, ways, further(gather.grid.v, row),
                                     bytes_between(gather.grid.v, gather.grid.mass_v), kSpeedBytes);
     const WayBounds bounds{kLowest, gather.high, kHalves, kOneCell, kFarBits};

@@ -5,7 +5,7 @@
 #include "math/quotient_packed.hpp"
 #include "step/places_packed.hpp"
 
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_LOOPS_OF_M0)
 
 namespace weir::packed {
 

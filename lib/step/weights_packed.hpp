@@ -70,7 +70,7 @@ inline std::int32_t weighed(const Speed* low, const Speed* high, const Weights& 
     return sum;
 }
 
-#if !defined(__ARM_ARCH_6M__)  // which scatters in a loop of its own
+#if !defined(WEIR_LOOPS_OF_M0)  // which scatters in a loop of its own
 inline std::uint32_t lower_pair(const Weights& w) {
     return static_cast<std::uint32_t>(w.lower_left + w.lower_right * 0x10000);
 }
@@ -86,7 +86,7 @@ inline void add_momenta(Real* low, Real* high, const Weights& w, std::int32_t ve
 #endif
 #endif
 
-#if !defined(__ARM_ARCH_6M__)
+#if !defined(WEIR_LOOPS_OF_M0)
 /// Mass of 32 particles: 8 times what a full cell's faces hold.
 inline constexpr std::uint32_t kFull = 0x2000;
 
