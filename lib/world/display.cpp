@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int32_t kOne = 256;  // of a cell, and of a full cell
 constexpr std::int32_t kMostPixels = 1024;
+constexpr std::uint32_t kMostShade = 15;
 
 /// 0 … kOne.
 template <class Number>
@@ -203,7 +204,8 @@ bool draw_row(const Scene<Real>& scene, const Display& display, std::int32_t y,
 template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display) {
     const bool can_be = display.pixels != nullptr && within(display.width, 1, kMostPixels) &&
-                        within(display.height, 1, kMostPixels);
+                        within(display.height, 1, kMostPixels) &&
+                        display.liquid <= kMostShade && display.solid <= kMostShade;
     const Box& shown = display.shown_m;
     const std::int32_t columns = world.cells_x();
     const std::int32_t rows = world.cells_y();

@@ -31,6 +31,16 @@ TEST(Display, WhatCannotBeIsLeftAsItIs) {
     EXPECT_FALSE(changed(16, 0, pixels.data()));
     EXPECT_FALSE(changed(16, -16, pixels.data()));
     EXPECT_FALSE(changed(16, 1025, pixels.data()));
+    for (const auto shade : {&Display::liquid, &Display::solid}) {
+        for (const int none : {16, 200, 255}) {  // no half byte
+            Display display;
+            display.width = 16;
+            display.height = 16;
+            display.pixels = pixels.data();
+            display.*shade = static_cast<std::uint8_t>(none);
+            EXPECT_EQ(draw(*world, display).last, -1) << none;
+        }
+    }
     EXPECT_EQ(pixels, before);
     EXPECT_TRUE(changed(16, 16, pixels.data()));
     EXPECT_NE(pixels, before);

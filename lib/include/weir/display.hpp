@@ -16,7 +16,7 @@ struct Display {
     std::int32_t height = 0;        ///< pixels, at most 1024
     std::uint8_t* pixels = nullptr;  ///< (width + 1) / 2 · height bytes
     std::uint8_t liquid = 11;       ///< shade of full liquid, 1 … 15
-    std::uint8_t solid = 4;         ///< shade of solids
+    std::uint8_t solid = 4;         ///< shade of solids, 0 … 15
     std::uint8_t hysteresis = 96;   ///< a shade changes if it is off by ½ and this / 256 of one
     /// What is shown, metres, as a camera that scrolls and zooms has it, to the nearest 256th of a
     /// cell, within `kMaxCells` of the tank's corner. An axis whose ends are both 0: all of it.
@@ -32,8 +32,8 @@ struct ChangedRows {
 /// Draws what is shown over the whole display: the density of cells, bilinear between their
 /// centres, as `World::density` knows it; solids where the contour is, and beyond the tank. Pixels
 /// take integers only. Of a tank with `Capacity::window_cells` what is beyond the window is drawn
-/// empty, its solids left out, too. A display that cannot be, without pixels or of a place that is
-/// none, is left as it is.
+/// empty, its solids left out, too. A display that cannot be, without pixels, of a place that is
+/// none or with a shade that is none, is left as it is.
 /// Cost: 140 instructions a pixel on a Cortex-M4, 190 where there are bodies, 240 and more on an
 /// M0: whoever sleeps draws once when `StepReport::asleep` first says so, and then no more.
 template <class Real>
