@@ -112,9 +112,10 @@ FieldView<DistanceOf<Real>> World<Real>::signed_distance() const {
 
 template <class Real>
 View<Contact> World<Real>::contacts() const {
-    return state_ == nullptr ? View<Contact>{}
-                             : View<Contact>{state_->simulation.contacts.entry,
-                                             state_->simulation.contacts.used};
+    if (state_ == nullptr || state_->stepping) {  // they are sums until `finish`
+        return {};
+    }
+    return {state_->simulation.contacts.entry, state_->simulation.contacts.used};
 }
 
 #define WEIR_INSTANTIATE(Real)                                                 \

@@ -146,6 +146,23 @@ TYPED_TEST(BodyContacts, OfTheTankCarryAndAreToldFromSplashes) {
     EXPECT_TRUE(splashed);
 }
 
+/// While a step goes on they are sums that mean nothing yet: none is shown.
+TYPED_TEST(BodyContacts, AreShownOnceTheStepIsDone) {
+    TestWorld<TypeParam> world{dry_def(4)};
+    BodyId id;
+    expect_ok(world->add_free_body(body_of(kCrate, {0.4F, 0.05F}), &id));
+    for (int step = 0; step < 5; ++step) {
+        StepReport report;
+        expect_ok(world->begin_step(kDt, &report));
+        std::int32_t slices = 1;
+        for (; !world->advance(20); ++slices) {
+            ASSERT_EQ(world->contacts().size, 0);
+        }
+        EXPECT_GT(slices, 10);
+        EXPECT_EQ(world->contacts().size, 1);
+    }
+}
+
 /// Without room they are counted, and nothing is different for it.
 TYPED_TEST(BodyContacts, WithoutRoomChangeNothing) {
     std::uint64_t hash[2];

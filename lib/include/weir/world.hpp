@@ -188,8 +188,8 @@ public:
     View<std::uint8_t> particle_tags() const;
     /// What bodies met in the last step, one entry for each body and what it met: splashes, thuds.
     /// In the order of the first blows. Of two free bodies the one that was added to the lower slot
-    /// has the entry. Empty without `capacity.contacts`. A body that was removed since is still
-    /// named.
+    /// has the entry. Empty without `capacity.contacts`, and while a step goes on. A body that was
+    /// removed since is still named.
     View<Contact> contacts() const;
     /// Pressure at cell centres from the last substep, in the solver's own unit: multiply by
     /// `pressure_scale()` for p / ρ in m²/s², ρ the first liquid's. Columns and rows are cells.
