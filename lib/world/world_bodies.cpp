@@ -298,7 +298,8 @@ Status World<Real>::move_body(BodyId id, Vec2f position_m, float angle_rad, floa
     // A body that was held goes for both steps in the next one.
     const float behind_s =
         unit_of(*state_) * static_cast<float>(state_->simulation.walls_behind_s);
-    const float per_s = 1.0F / (dt_s + behind_s);
+    constexpr float kShortest = 1.0e-20F;  // whatever is faster than it can be, and not infinite
+    const float per_s = 1.0F / maximum(dt_s + behind_s, kShortest);
     motion.velocity_mps = {per_s * (position_m.x - now.position_m.x),
                            per_s * (position_m.y - now.position_m.y)};
     motion.spin_radps = per_s * shorter_turn(wrapped_angle(angle_rad - now.angle_rad));
