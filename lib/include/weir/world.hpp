@@ -103,8 +103,8 @@ public:
     /// Fills a box with particles on a lattice, leaving out what is inside solids.
     /// All or nothing: refuses if not every particle has room. A box takes about its area over
     /// cell_m² times `particles_per_cell`; one that holds no point of the lattice adds 0, and is
-    /// ok. It does not look at particles: where there is liquid already there is twice as much
-    /// then.
+    /// ok. A box that reaches beyond the tank is refused (`Status::box_outside_domain`). It does
+    /// not look at particles: where there is liquid already there is twice as much then.
     /// @param added number of particles, may be null; with `Status::no_free_particle` how many it
     /// would have been.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
