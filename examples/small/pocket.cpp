@@ -101,6 +101,7 @@ int main() {
     for (int step = 1; step <= POCKET_STEPS; ++step) {
         require(g_world.set_gravity(gravity_at(step)));
         port::wait_for_tick();
+        // Of gravity that a sensor tells 1/66 s: at 1/64 its noise makes two substeps of many.
         substeps += g_world.step(1.0F / 64.0F).substeps;
 #ifdef POCKET_OLED
         oled::show(g_world);

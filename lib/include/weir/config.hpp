@@ -148,8 +148,9 @@ struct WorldDef {
     /// be some hundreds of 32,768ths of it. Liquid that gets faster is limited, and the report says
     /// so; bodies are refused. Gravity may be as strong as 0.46 top² / cell_m at least: less than a
     /// fall of a cell needs no top speed. SmallFixed wants it on cells of 5 mm and below, where 255
-    /// of them are 1.3 m/s, and wherever steps report `Clamped::speed`: about 2 √(2gh), h the
-    /// tank's height. Other arithmetic has no need of it.
+    /// of them are 1.3 m/s, in whatever is shaken, on larger cells too, and wherever steps report
+    /// `Clamped::speed`: about 2 √(2gh), h the tank's height, g the strongest pull. Other
+    /// arithmetic has no need of it.
     float top_speed_mps = 0.0F;
 
     std::int32_t particles_per_cell = 4;  ///< at rest: 1, 4, 9 or 16. 4 is a 2×2 lattice
