@@ -15,6 +15,14 @@ public:
             value_ = (value_ ^ ((word >> (8 * byte)) & 0xFFU)) * 0x100000001B3ULL;
         }
     }
+    /// As many words that are 0, one after the other.
+    void add_zeros(std::uint32_t words) {
+        constexpr std::uint64_t kPrime = 0x100000001B3ULL;
+        std::uint64_t factor = (kPrime * kPrime) * (kPrime * kPrime);
+        for (; words != 0; words >>= 1U, factor *= factor) {
+            value_ *= (words & 1U) != 0 ? factor : 1U;
+        }
+    }
     void add(std::int32_t word) { add(static_cast<std::uint32_t>(word)); }
     /// -0 and +0 compare equal, so they hash equal. The state never holds a NaN.
     void add(float number) {

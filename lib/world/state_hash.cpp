@@ -12,16 +12,27 @@ void hash_pressure(Hash& hash, const Simulation<Real>& simulation) {
     const GridShape& tank = simulation.layers.shape;
     const GridShape window = stored_part(simulation);
     const Regions<Real>* regions = simulation.regions;
-    const std::int32_t first = window.i0 - 1;
-    const std::int32_t last = window.i0 + window.nx;
+    const std::int32_t first = maximum(0, window.i0 - 1);
+    const std::int32_t end = minimum(tank.nx, window.i0 + window.nx + 1);
+    const auto pass_empty = [&](std::int32_t cells) {
+        constexpr auto kWords = static_cast<std::uint32_t>(sizeof(Real) / sizeof(std::uint32_t));
+        if constexpr (kHasWindow<Real>) {
+            hash.add_zeros(kWords * static_cast<std::uint32_t>(cells));
+        }
+    };
     for (std::int32_t j = 0; j < tank.ny; ++j) {
-        const bool stored = window.j0 - 1 <= j && j <= window.j0 + window.ny;
-        for (std::int32_t i = 0; i < tank.nx; ++i) {
+        if (j < window.j0 - 1 || j > window.j0 + window.ny) {
+            pass_empty(tank.nx);
+            continue;
+        }
+        pass_empty(first);
+        for (std::int32_t i = first; i < end; ++i) {
             const bool asleep =
                 regions != nullptr && regions->is_number(regions->tile[regions->tile_at(i, j)]);
             const Real* field = asleep ? regions->pressure : simulation.pressure.pressure;
-            hash.add(stored && first <= i && i <= last ? field[tank.index(i, j)] : Real(0));
+            hash.add(field[tank.index(i, j)]);
         }
+        pass_empty(tank.nx - end);
     }
 }
 
