@@ -67,16 +67,6 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
                      layers.nodes, field_of(layers, distance, nearest));
 }
 
-/// Of the static layer in a box, once its bodies are drawn.
-template <class Real>
-void deepen(const Layers<Real>& layers, const BodyTable<Real>& table, const NodeBox& box) {
-    if (layers.contour != Contour::mid_edge) {
-        deepen_where_bodies_touch(
-            layers.shape, DrawnBodies<Real>(table), stored_of(layers, box),
-            field_of(layers, layers.static_distance, layers.static_nearest));
-    }
-}
-
 /// Copies the static layer into the merged one.
 template <class Real>
 void restore(Layers<Real>& layers, const NodeBox& changed) {
@@ -203,20 +193,33 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
     each([&](const NodeBox& box) { recut(layers, box); });
 }
 
-/// Draws all static bodies anew, and the moving ones onto them.
+/// Draws all static bodies that reach into a box anew, and the moving ones onto them. What was
+/// deepened is not drawn onto: the picture would depend on who came when.
 template <class Real>
-std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table) {
+std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table,
+                           const NodeBox& changed) {
+    const NodeBox box = stored_of(layers, changed);
+    if (box.empty()) {
+        return 0;
+    }
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        empty<Real>({layers.shape.index(box.i0, j), layers.shape.index(box.i1, j) + 1},
+                    layers.static_distance, layers.static_nearest);
+    }
     std::int32_t nodes = 0;
-    empty<Real>(stored_entries(layers), layers.static_distance, layers.static_nearest);
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
-        if (body.kind == BodyKind::fixed && !body.drawn.empty()) {
-            nodes += draw(layers, table, slot, body.drawn, layers.static_distance,
+        if (body.kind == BodyKind::fixed && overlap(body.drawn, box)) {
+            nodes += draw(layers, table, slot, common(body.drawn, box), layers.static_distance,
                           layers.static_nearest);
         }
     }
-    deepen(layers, table, everywhere(layers));
-    return nodes + refresh(layers, table, everywhere(layers));
+    if (layers.contour != Contour::mid_edge) {
+        deepen_where_bodies_touch(
+            layers.shape, DrawnBodies<Real>(table), box,
+            field_of(layers, layers.static_distance, layers.static_nearest));
+    }
+    return nodes + refresh(layers, table, box);
 }
 
 /// Thin walls are looked at where there are any.
@@ -264,36 +267,48 @@ template <class Real>
 std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
     Body<Real>& body = table.body[slot];
     body.drawn = reach(layers.shape, table, body);
-    if (body.drawn.empty()) {
-        return 0;
-    }
-    const std::int32_t nodes = draw(layers, table, slot, body.drawn, layers.static_distance,
-                                    layers.static_nearest);
-    deepen(layers, table, body.drawn);
-    return nodes + refresh(layers, table, body.drawn);
+    return redraw_static(layers, table, body.drawn);
 }
 
 template <class Real>
-void redraw_all(Layers<Real>& layers, BodyTable<Real>& table) {
+void forget_drawn(Layers<Real>& layers, BodyTable<Real>& table) {
     clear_layers(layers);
-    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        Body<Real>& body = table.body[slot];
-        body.drawn = body.kind == BodyKind::free ? NodeBox{} : reach(layers.shape, table, body);
-    }
     clear_thin_walls(layers.thin, layers.shape, table.capacity);
     layers.walls.thin = nullptr;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        if (table.body[slot].kind != BodyKind::free) {
+        table.body[slot].drawn = NodeBox{};
+    }
+}
+
+template <class Real>
+void draw_missing(Layers<Real>& layers, BodyTable<Real>& table, Stale stale) {
+    for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
+        Body<Real>& body = table.body[slot];
+        if (body.kind != BodyKind::free && body.drawn.empty()) {
             keep_thin_edges(layers, table, slot);
+            body.drawn = reach(layers.shape, table, body);
+            stale.add(body);
         }
     }
-    redraw_static(layers, table);
+    const bool sticking = any_without_slip(table);
+    layers.walls.any_sticking = layers.walls.any_sticking || sticking;  // and was, until now
+    redraw_static(layers, table, stale.fixed);
+    refresh(layers, table, stale.moving);
+    layers.walls.any_sticking = sticking;
 }
 
 template <class Real>
 std::int32_t draw_stored(Layers<Real>& layers, const BodyTable<Real>& table) {
     clear_layers(layers);
-    return redraw_static(layers, table);
+    return redraw_static(layers, table, everywhere(layers));
+}
+
+template <class Real>
+void look_again(Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot) {
+    const bool sticking = any_without_slip(table);
+    layers.walls.any_sticking = true;  // or was, until now
+    recut(layers, table.body[slot].drawn);
+    layers.walls.any_sticking = sticking;
 }
 
 /// Every body that moved leaves a rectangle and enters one; both are wiped, then all bodies that
@@ -342,23 +357,21 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
 template <class Real>
 void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
     const bool fixed = table.body[slot].kind == BodyKind::fixed;
+    const NodeBox drawn = table.body[slot].drawn;
     const bool thin = kHasThinWalls<Real> && layers.thin.capacity > 0;
     if (thin) {
         remove_thin_edges(layers.thin, table, slot);
     }
-    if (!fixed) {
-        const NodeBox drawn = table.body[slot].drawn;
-        table.body[slot].drawn = NodeBox{};
-        refresh(layers, table, drawn);
-    }
     remove(table, slot);
-    layers.walls.any_sticking = any_without_slip(table);
     if (thin) {
         relink_all(layers.thin, layers.shape, table);
     }
-    if (fixed || thin) {
-        redraw_static(layers, table);
+    if (fixed) {
+        redraw_static(layers, table, drawn);
+    } else {
+        refresh(layers, table, drawn);
     }
+    layers.walls.any_sticking = any_without_slip(table);
     show_thin_walls(layers);
     layers.walls.active = table.used > 0;
 }
@@ -367,7 +380,9 @@ void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
     template void clear_layers(Layers<Real>&);                                        \
     template bool keep_thin_edges(Layers<Real>&, BodyTable<Real>&, std::int32_t);     \
     template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t); \
-    template void redraw_all(Layers<Real>&, BodyTable<Real>&);                        \
+    template void forget_drawn(Layers<Real>&, BodyTable<Real>&);                      \
+    template void draw_missing(Layers<Real>&, BodyTable<Real>&, Stale);               \
+    template void look_again(Layers<Real>&, const BodyTable<Real>&, std::int32_t);    \
     template std::int32_t merge_moving(Layers<Real>&, BodyTable<Real>&);              \
     template std::int32_t draw_stored(Layers<Real>&, const BodyTable<Real>&);         \
     template void remove_drawn(Layers<Real>&, BodyTable<Real>&, std::int32_t);

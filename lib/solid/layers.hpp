@@ -30,13 +30,35 @@ void clear_layers(Layers<Real>& layers);
 template <class Real>
 bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
 
-/// Draws one more static body. Returns the number of nodes that were computed.
+/// Draws one more static body, and others as far as they reach into its rectangle. Returns the
+/// number of nodes that were computed.
 template <class Real>
 std::int32_t draw_static(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
 
-/// Draws everything anew from the bodies' poses alone: what merging step by step would have led to.
+/// What was drawn and is no more: static bodies, and moving ones.
+struct Stale {
+    NodeBox fixed;
+    NodeBox moving;
+
+    template <class Real>
+    void add(const Body<Real>& body) {
+        NodeBox& box = body.kind == BodyKind::fixed ? fixed : moving;
+        box = unite(box, body.drawn);
+    }
+};
+
+/// Empties both layers, and forgets where bodies were drawn.
 template <class Real>
-void redraw_all(Layers<Real>& layers, BodyTable<Real>& table);
+void forget_drawn(Layers<Real>& layers, BodyTable<Real>& table);
+
+/// Draws anew what is stale, and all bodies of which nothing is drawn: what drawing and merging
+/// them one by one would have led to.
+template <class Real>
+void draw_missing(Layers<Real>& layers, BodyTable<Real>& table, Stale stale);
+
+/// Looks again at what is open around a body, since its surface is another.
+template <class Real>
+void look_again(Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot);
 
 /// Merges the moving bodies that moved since the last call, each within the rectangle that it
 /// left and the one that it entered. Returns the number of nodes that were computed: 0 if nothing
@@ -58,7 +80,7 @@ std::int32_t most_stored_nodes(const Layers<Real>& layers, const BodyTable<Real>
 template <class Real>
 std::int32_t most_nodes(const Layers<Real>& layers, const BodyTable<Real>& table);
 
-/// Removes a body from the table and from all that was drawn of it.
+/// Removes a body from the table, and draws anew what reaches into its rectangle.
 template <class Real>
 void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot);
 

@@ -63,21 +63,41 @@ void write(SnapshotWriter& writer, const Layout& plan, const Head& head,
     writer.word64(writer.checksum());
 }
 
-/// Goes through all that follows the head. `apply` is false to look only, and true to take it over
-/// after it was looked at.
+/// Whether a body stands where another one is drawn, and looks like it, but for its vertices.
+template <class Real>
+bool looks_like(const Body<Real>& a, const Body<Real>& drawn) {
+    return !drawn.moved && a.kind == drawn.kind && a.open == drawn.open &&
+           a.position.x == drawn.position.x && a.position.y == drawn.position.y &&
+           a.angle == drawn.angle && a.surface.no_slip == drawn.surface.no_slip &&
+           a.room == drawn.room && a.rings == drawn.rings &&
+           a.vertex_count == drawn.vertex_count;
+}
+
+/// In this order: what is read may be whatever, then is sound, then need not be drawn anew where
+/// the same stands already.
+enum class Pass : std::uint8_t { check, compare, take };
+
+/// Goes through all that follows the head. Returns, when it compares, what was drawn and is not to
+/// be found in the snapshot; those bodies are no longer drawn.
 template <class Stream, class Real>
-void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldState<Real>& state) {
+Stale go_through(SnapshotReader& reader, Pass pass, const Layout& plan, WorldState<Real>& state) {
     Stream stream{reader};
     BodyTable<Real>& table = state.simulation.bodies;
-    const auto take = [&](std::int32_t block, std::size_t first, std::size_t elements,
+    Stale stale;
+    bool same = false;
+    const auto take = [&](std::int32_t block, std::int32_t first, std::size_t elements,
                           const Body<Real>& of) {
         const std::size_t size = plan.element_bytes[block];
         const std::byte* from = reader.array(elements * size);
         if (from == nullptr) {
             return;
         }
-        if (apply) {
-            std::memcpy(memory_of(state, plan, block) + first * size, from, elements * size);
+        std::byte* const at =
+            memory_of(state, plan, block) + static_cast<std::size_t>(first) * size;
+        if (pass == Pass::take) {
+            std::memcpy(at, from, elements * size);
+        } else if (pass == Pass::compare) {
+            same = same && std::memcmp(at, from, elements * size) == 0;
         } else if (elements > 0 && !harmless<Real>(static_cast<Block>(block), state.simulation,
                                                    from, elements, of)) {
             reader.refuse();
@@ -86,9 +106,10 @@ void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldSta
     const Extents extents = world_members(stream, state);
     if constexpr (kHasWindow<Real>) {
         if (state.simulation.window.cells > 0) {
-            if (apply) {
+            if (pass == Pass::take) {
                 number_cells(extents.window, state.simulation);
-            } else if (reader.sound() && !is_window(state.simulation, extents.window)) {
+            } else if (pass == Pass::check && reader.sound() &&
+                       !is_window(state.simulation, extents.window)) {
                 reader.refuse();
             }
         }
@@ -103,29 +124,43 @@ void go_through(SnapshotReader& reader, bool apply, const Layout& plan, WorldSta
                    : body.room > 0 || body.moved || body.leapt) {
             reader.refuse();
         }
-        body.first_vertex = places;
+        Body<Real>& known = table.body[slot];
+        same = pass == Pass::compare && looks_like(body, known);
+        body.first_vertex = same ? known.first_vertex : places;
         for (std::int32_t block = 0; block < kBlockCount && reader.sound(); ++block) {
             if (by_vertex(plan, block)) {
-                take(block, static_cast<std::size_t>(places),
+                take(block, body.first_vertex,
                      elements_of(static_cast<Block>(block), body), body);
             }
         }
         places += body.room;
-        if (apply) {
-            table.body[slot] = body;
+        if (pass == Pass::take) {
+            body.drawn = known.drawn;
+            body.hollow = known.hollow;
+            known = body;
+        } else if (pass == Pass::compare && !same) {
+            stale.add(known);
+            known.drawn = NodeBox{};
         }
     }
     if (places != extents.vertices) {
         reader.refuse();
     }
+    same = false;
     for (std::int32_t block = 0; block < kBlockCount && reader.sound(); ++block) {
         take(block, 0, elements_kept(plan, block, extents), {});
     }
+    return stale;
 }
 
-/// Computes again what follows from what was kept.
+bool is_same_part(const GridShape& a, const GridShape& b) {
+    return a.i0 == b.i0 && a.j0 == b.j0 && a.nx == b.nx && a.ny == b.ny;
+}
+
+/// Computes again what follows from what was kept. `picture`: the solids', of what it is no more,
+/// or null if it is of another part of the tank.
 template <class Real>
-void redraw(Simulation<Real>& simulation) {
+void redraw(Simulation<Real>& simulation, const Stale* picture) {
     BodyTable<Real>& table = simulation.bodies;
     table.used = 0;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
@@ -139,7 +174,6 @@ void redraw(Simulation<Real>& simulation) {
     }
     note_movable(table);
     simulation.layers.walls.active = table.used > 0;
-    simulation.layers.walls.any_sticking = any_without_slip(table);
     simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = stored_part(simulation);  // what is not kept may stand anywhere
     if (simulation.regions != nullptr) {
@@ -147,7 +181,10 @@ void redraw(Simulation<Real>& simulation) {
     }
     clear(simulation.contacts);
     if (table.capacity > 0) {
-        redraw_all(simulation.layers, table);
+        if (picture == nullptr) {
+            forget_drawn(simulation.layers, table);
+        }
+        draw_missing(simulation.layers, table, picture != nullptr ? *picture : Stale{});
     }
 }
 
@@ -196,7 +233,7 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
     const auto* contents = static_cast<const std::byte*>(snapshot) + kHeadBytes;
     const std::size_t length = end - kHeadBytes - kChecksumBytes;
     SnapshotReader look(contents, length);
-    go_through<MemberCheck>(look, false, plan, *state_);
+    go_through<MemberCheck>(look, Pass::check, plan, *state_);
     if (!look.sound() || !look.at_end()) {
         return Status::snapshot_damaged;
     }
@@ -206,9 +243,15 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
     if (state_->simulation.regions != nullptr) {
         hide_sleepers(0, state_->simulation);
     }
+    SnapshotReader compare(contents, length);
+    const Stale stale = go_through<MemberCheck>(compare, Pass::compare, plan, *state_);
+    const GridShape before = stored_part(state_->simulation);
     SnapshotReader take(contents, length);
-    go_through<MemberRead>(take, true, plan, *state_);
-    redraw(state_->simulation);
+    go_through<MemberRead>(take, Pass::take, plan, *state_);
+    // Records of thin edges name places in the pool, which are others now.
+    const bool keeps = state_->simulation.layers.thin.capacity == 0 &&
+                       is_same_part(before, stored_part(state_->simulation));
+    redraw(state_->simulation, keeps ? &stale : nullptr);
     state_->stepping = false;
     state_->density_stale = true;
     forget_rows(state_->simulation.grid);

@@ -352,8 +352,7 @@ Status World<Real>::set_surface(BodyId id, const Surface& surface) {
     const bool stuck = body.surface.no_slip;
     body.surface = surface_law<Real>(surface, pace_of(*state_));
     if (surface.no_slip != stuck) {  // that is felt further away
-        layers.walls.any_sticking = any_without_slip(table);
-        redraw_all(layers, table);
+        look_again(layers, table, id.slot);
     }
     touch_regions(state_->simulation.regions, body.drawn);
     wake(*state_);

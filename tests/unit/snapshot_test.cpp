@@ -18,12 +18,15 @@ static_assert(snapshot_bytes<float>(kSmall) > 200 * 16 + 18 * 18 * 4, "at compil
 
 using Bytes = std::vector<std::byte>;
 
-/// Whatever a snapshot does not bring gets random bits, not-a-numbers among them.
+/// Whatever a snapshot does not bring gets random bits, not-a-numbers among them: but for the
+/// solids' picture, which stays where it is the same, and half of the time what it brings as well.
 template <class Real>
 void scramble(TestWorld<Real>& world, const Capacity& capacity, Dice& dice) {
     const Layout plan = layout<Real>(capacity);
+    const bool all = dice.below(2) == 0;
     for (std::int32_t block = 0; block < kBlockCount; ++block) {
-        if (plan.kept[block] == Kept::members) {
+        const Kept kept = plan.kept[block];
+        if (kept == Kept::members || kept == Kept::redrawn || (kept == Kept::vertices && !all)) {
             continue;
         }
         for (std::size_t at = 0; at < plan.bytes[block]; at += 4) {
@@ -40,7 +43,8 @@ void expect_same_picture(TestWorld<Real>& a, TestWorld<Real>& b, const Capacity&
     const Layout plan = layout<Real>(capacity);
     for (const Block block :
          {Block::static_distance, Block::static_body, Block::merged_distance, Block::merged_body,
-          Block::contour_case, Block::open_u, Block::open_v, Block::full_density}) {
+          Block::contour_case, Block::near_wall, Block::open_u, Block::open_v,
+          Block::full_density}) {
         const auto k = static_cast<std::int32_t>(block);
         EXPECT_EQ(std::memcmp(a.memory() + plan.offset[k], b.memory() + plan.offset[k],
                               plan.bytes[k]), 0)

@@ -90,7 +90,7 @@ inline constexpr std::int32_t kBlockCount = static_cast<std::int32_t>(Block::cou
 /// What a snapshot keeps of a block.
 enum class Kept : std::uint8_t {
     nothing,    ///< scratch: each step writes it before it reads it
-    redrawn,    ///< computed again, to the bit, from what is kept
+    redrawn,    ///< follows, to the bit, from what is kept: computed again where that is other
     members,    ///< single members, listed in world/snapshot_members.hpp
     whole,      ///< all of it
     particles,  ///< as much as there are particles
