@@ -6,11 +6,22 @@
 
 namespace weir {
 
+/// Room for such a list. Whoever asks for all bodies has none: it is a seventh of a small chip's
+/// stack. Tiles of a cell around 4 × 4 nodes are fewer than 96; small worlds have no thousands.
+template <class Real>
+struct BodyRoom {
+    static constexpr std::int32_t kMost = Stored<Real>::coarse ? 64 : 96;
+    std::uint16_t slot[kMost];
+};
+
 template <class Real>
 class DrawnBodies {
 public:
     /// All of them.
     explicit DrawnBodies(const BodyTable<Real>& table) : table_(&table) {}
+    /// The same, with room to narrow them.
+    DrawnBodies(const DrawnBodies& all, BodyRoom<Real>& room)
+        : table_(all.table_), listed_(room.slot) {}
 
     /// Those of a wider list that may have drawn a node of a box, and for which fits(body) holds.
     /// If they are too many, they are not listed, and still all of the table's slots are asked.
@@ -20,7 +31,7 @@ public:
         box_ = box;
         wider.for_each_at(box, [&](std::uint16_t slot, const Body<Real>& body) {
             if (count_ >= 0 && fits(body)) {
-                if (count_ == kMost) {
+                if (count_ == BodyRoom<Real>::kMost) {
                     count_ = kNotListed;
                 } else {
                     listed_[count_++] = slot;
@@ -56,13 +67,12 @@ public:
     Outline<Real> outline(const Body<Real>& body) const { return table_->outline(body); }
 
 private:
-    static constexpr std::int32_t kMost = 96;  ///< tiles of a cell around 4 × 4 nodes are fewer
     static constexpr std::int32_t kNotListed = -1;
 
     const BodyTable<Real>* table_;
     std::int32_t count_ = kNotListed;
     NodeBox box_;
-    std::uint16_t listed_[kMost];
+    std::uint16_t* listed_ = nullptr;
 };
 
 /// The nodes that any body may be drawn at.

@@ -8,7 +8,7 @@ namespace weir {
 template <class Real>
 PictureBeyond<Real>::PictureBeyond(const GridShape& tank, const Walls<Real>& walls,
                                    const BodyTable<Real>& bodies)
-    : shape_(tank), walls_(walls), bodies_(bodies), near_(bodies) {
+    : shape_(tank), walls_(walls), bodies_(bodies), near_(DrawnBodies<Real>(bodies), room_) {
     shape_.stride = kEdge;
     walls_.stored = {};
 }

@@ -39,6 +39,7 @@ private:
     GridShape shape_;
     Walls<Real> walls_;
     const BodyTable<Real>& bodies_;
+    BodyRoom<Real> room_;
     DrawnBodies<Real> near_;
     NodeBox nodes_;
     std::uint8_t case_ = 0;

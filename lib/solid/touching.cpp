@@ -23,7 +23,11 @@ constexpr std::int32_t kBlock = 4;
 template <class Real>
 struct Union {
     Bounds<Real> tank;
+    BodyRoom<Real> room;
     DrawnBodies<Real> bodies;  ///< static ones, of a block
+
+    Union(const GridShape& shape, const DrawnBodies<Real>& all)
+        : tank{{}, {static_cast<Real>(shape.nx), static_cast<Real>(shape.ny)}}, bodies(all, room) {}
 
     /// Whether there are two static bodies, of which any node of a block may have been drawn by
     /// both.
@@ -125,7 +129,7 @@ void deepen_block(const Union<Real>& bodies, const NodeBox& block, const NodeFie
 template <class Real>
 void deepen_where_bodies_touch(const GridShape& tank, const DrawnBodies<Real>& all,
                                const NodeBox& box, const NodeField<Real>& field) {
-    Union<Real> bodies{{{}, {static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)}}, all};
+    Union<Real> bodies(tank, all);
     for (std::int32_t j = box.j0; j <= box.j1; j += kBlock) {
         for (std::int32_t i = box.i0; i <= box.i1; i += kBlock) {
             const NodeBox block{i, j, minimum(i + kBlock - 1, box.i1),
