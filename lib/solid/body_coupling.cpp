@@ -16,15 +16,21 @@ void add_film(const CoupledSolve<Real>& solve, const Meeting<Real>& meeting,
     }
 }
 
+/// @param own the body that is asked for.
 template <class Real>
-Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::int32_t i, std::int32_t j) {
+Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::int32_t i,
+                       std::int32_t j) {
     const Walls<Real>& walls = solve.walls;
     Levers<Real> levers;
     for_each_closed_face(solve.shape, walls, i, j, [&](const ClosedFace<Real>& face) {
         if (face.slot != kNoBody && walls.load[face.slot].is_free()) {
-            levers.of(face.slot)->add(convert<Face<Real>>(face.outward),
-                                      convert<Face<Real>>(face.centre) -
-                                          walls.load[face.slot].at);
+            const Impulse<Real> reach = reach_of_face(solve.obstacles.bodies, walls, face);
+            levers.of(face.slot)->add(reach);
+            levers.before += spun_beyond_face(walls.load[face.slot], face, reach);
+            if (face.slot == own) {
+                levers.own.add(reach);
+                levers.any_own = true;
+            }
         }
     });
     const std::int32_t cell = solve.shape.index(i, j);
@@ -68,41 +74,16 @@ void for_each_cell(const CoupledSolve<Real>& solve, Visit visit) {
     });
 }
 
-/// pressure_impulse, by the cells of one rectangle that are kept; the cursor goes past them.
-template <class Real>
-Impulse<Real> kept_impulse(const CoupledSolve<Real>& solve, std::uint16_t slot,
-                           const LeverCell<Real>*& cursor, const LeverCell<Real>* end) {
-    const Vec2<Face<Real>> centre = solve.walls.load[slot].at;
-    Impulse<Real> impulse;
-    for (; cursor != end && cursor->slot == slot; cursor = cursor->next()) {
-        const LeverCell<Real>& kept = *cursor;
-        const Real pressure = solve.pressure[solve.shape.index(kept.i, kept.j)];
-        for_each_closed_face(
-            solve.shape, solve.walls, kept.i, kept.j,
-            [&](const ClosedFace<Real>& face) {
-                impulse.add(convert<Face<Real>>(pressure * face.outward),
-                            convert<Face<Real>>(face.centre) - centre);
-            },
-            kept.marks);
-        if ((kept.marks & LeverCell<Real>::kLifted) != 0) {
-            impulse.add(kept.lift);
-        }
-    }
-    return impulse;
-}
-
 /// What the pressure that there is makes of the bodies, and where they are stopped. Calls
 /// before(load) and after(load) for each.
 template <class Real, class Before, class After>
 void answer_pressure(const CoupledSolve<Real>& solve, Before before, After after) {
-    const KeptLevers<Real> kept(solve.obstacles.bodies);
-    const LeverCell<Real>* cursor = kept.begin();
+    PressureOnFree<Real> pressure(solve.obstacles.bodies);
     for_each_box(solve, [&](std::uint16_t slot, const NodeBox&) {
         BodyLoad<Real>& load = solve.walls.load[slot];
         before(load);
-        Impulse<Real> pressed =
-            kept.are_kept() ? kept_impulse(solve, slot, cursor, kept.end())
-                            : pressure_impulse(solve.shape, solve.walls, slot, solve.cells);
+        Impulse<Real> pressed = pressure.next(solve.shape, solve.obstacles.bodies, solve.walls,
+                                              slot, solve.cells);
         pressed.add(film_impulse(solve.obstacles, solve.cells, slot));
         load.change = answer_stopped(load, pressed);
         after(load);
@@ -124,8 +105,8 @@ Face<Real> pushed_into(const CoupledSolve<Real>& solve, const Lever<Real>* lever
     return sum;
 }
 
-/// Calls visit(box's slot, i, j, cell, levers, whether it was met before) for the cells on which
-/// free bodies press. The diagonal serves as a mark for cells that were met.
+/// Calls visit(box's slot, i, j, cell, levers, whether it was met before) for the cells of liquid
+/// on which free bodies press. The diagonal serves as a mark for cells that were met.
 template <class Real, class Visit>
 void for_each_pressed(const CoupledSolve<Real>& solve, Visit visit) {
     for_each_cell(solve, [&](std::int32_t, std::int32_t, std::int32_t c) {
@@ -135,8 +116,8 @@ void for_each_pressed(const CoupledSolve<Real>& solve, Visit visit) {
         for (std::int32_t j = box.j0; j <= box.j1; ++j) {
             for (std::int32_t i = box.i0; i <= box.i1; ++i) {
                 const std::int32_t c = solve.shape.index(i, j);
-                if (is_pressed(solve, c)) {
-                    const Levers<Real> levers = levers_of(solve, i, j);
+                if (solve.cells.level[c] > Real(0) && is_pressed(solve, c)) {
+                    const Levers<Real> levers = levers_of(solve, slot, i, j);
                     visit(slot, i, j, c, levers, solve.diagonal[c] != Real(0));
                     solve.diagonal[c] = Real(1);
                 }
@@ -164,7 +145,7 @@ void add_flow(const CoupledSolve<Real>& solve, Face<Real> sign) {
         return;
     }
     for (const LeverCell<Real>* at = kept.begin(); at != kept.end(); at = at->next()) {
-        if ((at->marks & LeverCell<Real>::kAgain) == 0) {
+        if (!at->again) {
             add(solve.shape.index(at->i, at->j), at->levers(), at->count, at->before);
         }
     }
@@ -217,26 +198,6 @@ void relax_cell(const CoupledSolve<Real>& solve, Real omega, std::int32_t c,
     }
 }
 
-/// Which faces of a cell the body closes in whose rectangle it is, and what lifts it there.
-template <class Real>
-void mark_faces(const CoupledSolve<Real>& solve, LeverCell<Real>& kept) {
-    const GridShape& s = solve.shape;
-    Vec2<Real> closed;
-    std::uint32_t bits = 0;
-    for_each_closed_face(s, solve.walls, kept.i, kept.j, [&](const ClosedFace<Real>& face) {
-        if (face.slot == kept.slot) {
-            closed = closed + face.outward;
-            bits |= face.bit;
-        }
-    });
-    if (closed.x != Real(0) || closed.y != Real(0)) {
-        bits |= LeverCell<Real>::kLifted;
-        kept.lift = contour_impulse(s, solve.walls, kept.i, kept.j, closed,
-                                    solve.cells.gravity_dt, solve.walls.load[kept.slot].at);
-    }
-    kept.marks = static_cast<std::uint8_t>(kept.marks | bits);
-}
-
 /// For the solve that follows, if there is room.
 template <class Real>
 void keep_levers(const CoupledSolve<Real>& solve) {
@@ -254,11 +215,11 @@ void keep_levers(const CoupledSolve<Real>& solve) {
         if (!fits || levers.count == 0) {
             return;
         }
-        *at = {i, j, slot, static_cast<std::uint8_t>(levers.count), 0, levers.before,
-               Face<Real>(0), Impulse<Real>{}, -1};
-        at->marks = again ? LeverCell<Real>::kAgain : std::uint8_t{0};
-        if (solve.cells.level[c] > Real(0)) {
-            mark_faces(solve, *at);
+        *at = {i, j, slot, static_cast<std::uint8_t>(levers.count), again, levers.before,
+               Face<Real>(0), CellReach<Real>{}, -1};
+        if (levers.any_own) {
+            at->own = {levers.own,
+                       way_to_contour(solve.shape, solve.walls, c, solve.cells.gravity_dt), true};
         }
         Lever<Real>* lever = reinterpret_cast<Lever<Real>*>(at + 1);
         for (std::int32_t k = 0; k < levers.count; ++k) {
@@ -277,7 +238,7 @@ void relax_unkept(const CoupledSolve<Real>& solve, Real omega, std::int32_t colo
             for (std::int32_t i = box.i0 + ((box.i0 + j + colour) & 1); i <= box.i1; i += 2) {
                 const std::int32_t c = solve.shape.index(i, j);
                 if (solve.diagonal[c] != Real(0)) {
-                    const Levers<Real> levers = levers_of(solve, i, j);
+                    const Levers<Real> levers = levers_of(solve, kNoBody, i, j);
                     relax_cell(solve, omega, c, levers.lever, levers.count, levers.before,
                                yielding_diagonal(solve, c, levers.lever, levers.count));
                 }
@@ -317,7 +278,7 @@ void set_aside(const CoupledSolve<Real>& solve) {
         *link[0] = *link[1] = -1;
     } else {
         for_each_cell(solve, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-            if (is_pressed(solve, c) && levers_of(solve, i, j).count > 0) {
+            if (is_pressed(solve, c) && levers_of(solve, kNoBody, i, j).count > 0) {
                 take(c);
             }
         });

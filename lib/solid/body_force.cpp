@@ -6,7 +6,13 @@ namespace weir {
 
 namespace {
 
-/// Middle of the contour within a cell, from the cell's lower left corner.
+template <class Real>
+Vec2<Real> at_corner(std::int32_t i, std::int32_t j) {
+    return {static_cast<Real>(i), static_cast<Real>(j)};
+}
+
+}  // namespace
+
 template <class Real>
 Vec2<Real> middle_of_contour(const GridShape& s, const Walls<Real>& walls, std::int32_t node) {
     const DistanceOf<Real>* low = walls.distance + node;
@@ -23,12 +29,20 @@ Vec2<Real> middle_of_contour(const GridShape& s, const Walls<Real>& walls, std::
     return weight > Real(0) ? (Real(1) / weight) * sum : Vec2<Real>{Real(0.5), Real(0.5)};
 }
 
+/// Of the pressure's way from a cell's centre to the contour that a body closes there.
+/// @param closed sum of the faces that it closes.
 template <class Real>
-Vec2<Real> at_corner(std::int32_t i, std::int32_t j) {
-    return {static_cast<Real>(i), static_cast<Real>(j)};
+static Impulse<Real> contour_impulse(const GridShape& shape, const Walls<Real>& walls,
+                                     std::int32_t i, std::int32_t j, Vec2<Real> closed,
+                                     Vec2<Real> gravity_dt, Vec2<Face<Real>> centre) {
+    const Vec2<Real> middle = middle_of_contour(shape, walls, shape.index(i, j));
+    const Vec2<Real> half{Real(0.5), Real(0.5)};
+    const Real more = dot(gravity_dt, middle - half);
+    Impulse<Real> impulse;
+    impulse.add(convert<Face<Real>>(more * closed),
+                convert<Face<Real>>(at_corner<Real>(i, j) + middle) - centre);
+    return impulse;
 }
-
-}  // namespace
 
 template <class Real>
 void locate_bodies(BodyTable<Real>& table) {
@@ -40,19 +54,6 @@ void locate_bodies(BodyTable<Real>& table) {
             load.at = convert<Face<Real>>(body.position) + load.arm;
         }
     }
-}
-
-template <class Real>
-Impulse<Real> contour_impulse(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
-                              std::int32_t j, Vec2<Real> closed, Vec2<Real> gravity_dt,
-                              Vec2<Face<Real>> centre) {
-    const Vec2<Real> middle = middle_of_contour(shape, walls, shape.index(i, j));
-    const Vec2<Real> half{Real(0.5), Real(0.5)};
-    const Real more = dot(gravity_dt, middle - half);
-    Impulse<Real> impulse;
-    impulse.add(convert<Face<Real>>(more * closed),
-                convert<Face<Real>>(at_corner<Real>(i, j) + middle) - centre);
-    return impulse;
 }
 
 template <class Real>
@@ -85,19 +86,13 @@ Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
 }
 
 template <class Real>
-void press_on_bodies(const GridShape& shape, Walls<Real>& walls, BodyTable<Real>& table,
+void press_on_bodies(const GridShape& shape, const Walls<Real>& walls, BodyTable<Real>& table,
                      const PressedCells<Real>& cells) {
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
-        Body<Real>& body = table.body[slot];
-        if (body.kind == BodyKind::free) {
-            continue;
-        }
-        BodyLoad<Real>& load = walls.load[slot];
-        const Impulse<Real> impulse =
-            pressure_impulse(shape, walls, static_cast<std::uint16_t>(slot), cells);
-        load.received.add(impulse);
-        if (load.is_free()) {
-            load.change = answer_stopped(load, impulse);
+        const Body<Real>& body = table.body[slot];
+        if (body.kind != BodyKind::free && !table.load[slot].is_free()) {
+            table.load[slot].received.add(
+                pressure_impulse(shape, walls, static_cast<std::uint16_t>(slot), cells));
         }
     }
 }
@@ -112,13 +107,12 @@ void forget_impulses(BodyTable<Real>& table) {
 
 #define WEIR_INSTANTIATE(Real)                                                         \
     template void locate_bodies(BodyTable<Real>&);                                     \
-    template Impulse<Real> contour_impulse(const GridShape&, const Walls<Real>&,       \
-                                           std::int32_t, std::int32_t, Vec2<Real>,     \
-                                           Vec2<Real>, Vec2<Face<Real>>);              \
+    template Vec2<Real> middle_of_contour(const GridShape&, const Walls<Real>&,        \
+                                          std::int32_t);                               \
     template Impulse<Real> pressure_impulse(const GridShape&, const Walls<Real>&,      \
                                             std::uint16_t, const PressedCells<Real>&); \
-    template void press_on_bodies(const GridShape&, Walls<Real>&, BodyTable<Real>&,    \
-                                  const PressedCells<Real>&);                          \
+    template void press_on_bodies(const GridShape&, const Walls<Real>&,                \
+                                  BodyTable<Real>&, const PressedCells<Real>&);        \
     template void forget_impulses(BodyTable<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

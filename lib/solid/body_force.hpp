@@ -28,6 +28,8 @@ template <class Real>
 struct ClosedFace {
     Vec2<Real> outward;     ///< length: how much of the face is closed
     Vec2<Real> centre;      ///< of the face
+    std::int32_t node = 0;  ///< at its left or lower end
+    std::int32_t next = 0;  ///< and at the other
     std::uint16_t slot = kNoBody;
     std::uint8_t bit = 0;           ///< 1, 2, 4, 8: left, right, lower, upper
 };
@@ -47,8 +49,8 @@ inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, s
     const auto look = [&](Real open, Vec2<Real> outward, Vec2<Real> centre, std::int32_t a,
                           std::int32_t b, std::uint8_t bit) {
         if ((among & bit) != 0 && open < Real(1)) {
-            visit(ClosedFace<Real>{(Real(1) - open) * outward, centre, nearest_body(walls, a, b),
-                                   bit});
+            visit(ClosedFace<Real>{(Real(1) - open) * outward, centre, a, b,
+                                   nearest_body(walls, a, b), bit});
         }
     };
     look(walls.open_u[node], {Real(-1), Real(0)}, {x, y + kHalf}, node, up, 1);
@@ -62,12 +64,9 @@ inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, s
 template <class Real>
 void locate_bodies(BodyTable<Real>& table);
 
-/// Of the pressure's way from a cell's centre to the contour that a body closes there.
-/// @param closed sum of the faces that it closes.
+/// Middle of the contour within a cell, from the cell's lower left corner.
 template <class Real>
-Impulse<Real> contour_impulse(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
-                              std::int32_t j, Vec2<Real> closed, Vec2<Real> gravity_dt,
-                              Vec2<Face<Real>> centre);
+Vec2<Real> middle_of_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node);
 
 /// Impulse of the pressure on a body within the last substep, about its centre of mass: cell
 /// pressure × closed parts of the faces, and the pressure's way from the cell's centre to the
@@ -77,10 +76,10 @@ template <class Real>
 Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
                                std::uint16_t slot, const PressedCells<Real>& cells);
 
-/// Adds what the pressure did in the last substep to all bodies' records; free bodies take the
-/// velocity that follows.
+/// Adds what the pressure did in the last substep to the records of all bodies but free ones
+/// (solid/body_reach.hpp).
 template <class Real>
-void press_on_bodies(const GridShape& shape, Walls<Real>& walls, BodyTable<Real>& table,
+void press_on_bodies(const GridShape& shape, const Walls<Real>& walls, BodyTable<Real>& table,
                      const PressedCells<Real>& cells);
 
 /// What a body takes at a point of the tank: the velocity that a mass of liquid lost there.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solid/body_coupling.hpp"
+#include "solid/body_reach.hpp"
 
 namespace weir {
 
@@ -22,7 +23,11 @@ template <class Real>
 struct Levers {
     Lever<Real> lever[6];
     std::int32_t count = 0;
-    Face<Real> before = Face<Real>(0);  ///< what goes into films, as bodies are before the pressure
+    Impulse<Real> own;     ///< of the body that is asked for, without films
+    bool any_own = false;  ///< it closes a face
+    /// What goes into films, and by spin beyond what `wall_flow` takes, as bodies are before the
+    /// pressure.
+    Face<Real> before = Face<Real>(0);
 
     Impulse<Real>* of(std::uint16_t slot) {
         std::int32_t k = 0;
@@ -45,14 +50,11 @@ struct LeverCell {
     std::int32_t j;
     std::uint16_t slot;   ///< whose rectangle it is
     std::uint8_t count;   ///< of levers
-    std::uint8_t marks;   ///< bits of that body's closed faces, kLifted, kAgain
+    bool again;           ///< another body's rectangle had it before
     Face<Real> before;    ///< as in Levers
     Face<Real> diagonal;  ///< with what bodies yield, if it is ours to relax
-    Impulse<Real> lift;   ///< of the contour, on the body of that rectangle
+    CellReach<Real> own;  ///< of the body of that rectangle, without films, where there is liquid
     std::int32_t chained;  ///< where the next one stands that is relaxed in the same half sweep
-
-    static constexpr std::uint8_t kLifted = 16;
-    static constexpr std::uint8_t kAgain = 32;  ///< another body's rectangle had it before
 
     const Lever<Real>* levers() const { return reinterpret_cast<const Lever<Real>*>(this + 1); }
     const LeverCell* next() const { return reinterpret_cast<const LeverCell*>(levers() + count); }
@@ -90,6 +92,32 @@ struct KeptLevers {
 
 private:
     static constexpr std::int32_t kHead = 16;
+};
+
+/// Impulses of the pressure on free bodies, slot by slot: by what is kept, if it is, with the bits
+/// of `impulse_on_free`.
+template <class Real>
+struct PressureOnFree {
+    KeptLevers<Real> kept;
+    const LeverCell<Real>* cursor;
+
+    explicit PressureOnFree(const BodyTable<Real>& table) : kept(table), cursor(kept.begin()) {}
+
+    Impulse<Real> next(const GridShape& shape, const BodyTable<Real>& table,
+                       const Walls<Real>& walls, std::uint16_t slot,
+                       const PressedCells<Real>& cells) {
+        if (!kept.are_kept()) {
+            return impulse_on_free(shape, table, walls, slot, cells);
+        }
+        Impulse<Real> impulse;
+        for (; cursor != kept.end() && cursor->slot == slot; cursor = cursor->next()) {
+            if (cursor->own.any) {
+                impulse.add(
+                    cursor->own.impulse(cells.pressure[shape.index(cursor->i, cursor->j)]));
+            }
+        }
+        return impulse;
+    }
 };
 
 }  // namespace weir

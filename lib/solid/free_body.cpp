@@ -3,7 +3,7 @@
 #include "base/work.hpp"
 
 #include "math/rotation.hpp"
-#include "solid/body_coupling.hpp"
+#include "solid/body_levers.hpp"
 #include "solid/immersion.hpp"
 
 namespace weir {
@@ -103,6 +103,7 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         load.unpressed = twist;
         load.change = load.stopped = Twist<Real>{};
     });
+    *KeptLevers<Real>(table).bytes = -1;  // until there is a solve
     std::int32_t cost = find_meetings(obstacles);
     cost = minimum(cost, kMostWork / 2) + recall(obstacles);
     stop(obstacles, kRoundsBefore);
@@ -164,12 +165,14 @@ template <class Real>
 std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
                     BodyTable<Real>& table, Contacts<Real>& contacts) {
     const Face<Real> fastest = Face<Real>(kLongestWay) / obstacles.dt;
+    PressureOnFree<Real> pressure(table);
     for_each_free(table, [&](const Body<Real>& body, BodyLoad<Real>& load) {
-        const Impulse<Real> film =
-            film_impulse(obstacles, cells, static_cast<std::uint16_t>(&body - table.body));
-        const Twist<Real> pushed = answer(load, film);
-        load.received.add(film);
-        load.change = {load.change.velocity + pushed.velocity, load.change.spin + pushed.spin};
+        const auto slot = static_cast<std::uint16_t>(&body - table.body);
+        Impulse<Real> pressed =
+            pressure.next(obstacles.tank, table, obstacles.walls, slot, cells);
+        pressed.add(film_impulse(obstacles, cells, slot));
+        load.received.add(pressed);
+        load.change = answer_stopped(load, pressed);
     });
     std::int32_t slowed = 0;
     stop(obstacles, kRoundsAfter);

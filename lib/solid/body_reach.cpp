@@ -1,0 +1,119 @@
+#include "solid/body_reach.hpp"
+
+#include "geometry/outline.hpp"
+
+namespace weir {
+
+namespace {
+
+/// A contour is no further than this from the outline that it is of, cells.
+constexpr double kFurthestOff = 0.75;
+
+/// The point of an edge that is nearest to x.
+template <class Number>
+Vec2<Number> nearest_of_edge(Vec2<Number> from, Vec2<Number> to, Vec2<Number> x) {
+    const Vec2<Number> way = to - from;
+    const Number square = dot(way, way);
+    if (!(square > Number(0))) {
+        return from;
+    }
+    return from + clamp(dot(x - from, way) / square, Number(0), Number(1)) * way;
+}
+
+/// The point of a body's outline that is nearest to x; x itself, if none is near.
+template <class Real>
+Vec2<Face<Real>> on_outline(const BodyTable<Real>& table, std::uint16_t slot, Vec2<Real> x) {
+    using Number = Face<Real>;
+    constexpr Real kOff = Real(kFurthestOff);
+    const Vec2<Number> wide = convert<Number>(x);
+    Vec2<Number> nearest = wide;
+    Number least = Number(kFurthestOff * kFurthestOff);
+    for_each_edge(table.outline(table.body[slot]), [&](Vec2<Real> from, Vec2<Real> to) {
+        if (minimum(from.x, to.x) - kOff < x.x && x.x < maximum(from.x, to.x) + kOff &&
+            minimum(from.y, to.y) - kOff < x.y && x.y < maximum(from.y, to.y) + kOff) {
+            const Vec2<Number> at =
+                nearest_of_edge(convert<Number>(from), convert<Number>(to), wide);
+            const Number square = dot(at - wide, at - wide);
+            if (square < least) {
+                least = square;
+                nearest = at;
+            }
+        }
+    });
+    return nearest;
+}
+
+}  // namespace
+
+template <class Real>
+Impulse<Real> reach_of_face(const BodyTable<Real>& table, const Walls<Real>& walls,
+                            const ClosedFace<Real>& face) {
+    using Number = Face<Real>;
+    const Vec2<Number> centre = table.load[face.slot].at;
+    const bool upright = (face.bit & 3) != 0;
+    const Real along = Real(0.5);
+    const Vec2<Real> half =
+        upright ? Vec2<Real>{Real(0), along} : Vec2<Real>{along, Real(0)};
+    const Real closed = absolute(face.outward.x) + absolute(face.outward.y);
+    const Vec2<Real> low = face.centre - half;
+    const Vec2<Real> high = face.centre + half;
+    const auto end = [&](std::int32_t node, Vec2<Real> own, Vec2<Real> other) {
+        return Real(walls.distance[node]) > Real(0)
+                   ? on_outline(table, face.slot, other + closed * (own - other))
+                   : convert<Number>(own);
+    };
+    const Vec2<Number> from = end(face.node, low, high) - centre;
+    const Vec2<Number> to = end(face.next, high, low) - centre;
+    const Number twice = dot(to - from, to + from);
+    const bool turns_right = face.outward.x > Real(0) || face.outward.y < Real(0);
+    return {convert<Number>(face.outward), (turns_right ? Number(-0.5) : Number(0.5)) * twice};
+}
+
+template <class Real>
+Face<Real> way_to_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node,
+                          Vec2<Real> gravity_dt) {
+    const Vec2<Real> half{Real(0.5), Real(0.5)};
+    const Real beyond = dot(gravity_dt, middle_of_contour(shape, walls, node) - half);
+    return static_cast<Face<Real>>(beyond);
+}
+
+template <class Real>
+Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& table,
+                              const Walls<Real>& walls, std::uint16_t slot,
+                              const PressedCells<Real>& cells) {
+    const NodeBox box = cells_of(shape, table.body[slot].drawn);
+    Impulse<Real> impulse;
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+            const std::int32_t c = shape.index(i, j);
+            if (untouched(walls, c, c + shape.stride) || !(cells.level[c] > Real(0))) {
+                continue;
+            }
+            CellReach<Real> reach;
+            for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
+                if (face.slot == slot) {
+                    reach.sum.add(reach_of_face(table, walls, face));
+                    reach.any = true;
+                }
+            });
+            if (reach.any) {
+                reach.beyond = way_to_contour(shape, walls, c, cells.gravity_dt);
+                impulse.add(reach.impulse(cells.pressure[c]));
+            }
+        }
+    }
+    return impulse;
+}
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template Impulse<Real> reach_of_face(const BodyTable<Real>&, const Walls<Real>&,        \
+                                         const ClosedFace<Real>&);                          \
+    template Face<Real> way_to_contour(const GridShape&, const Walls<Real>&, std::int32_t,  \
+                                       Vec2<Real>);                                         \
+    template Impulse<Real> impulse_on_free(const GridShape&, const BodyTable<Real>&,        \
+                                           const Walls<Real>&, std::uint16_t,               \
+                                           const PressedCells<Real>&);
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
+
+}  // namespace weir
