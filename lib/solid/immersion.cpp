@@ -7,8 +7,15 @@ namespace weir {
 
 namespace {
 
-/// Less than this share of a body's area is not missed: corners of bodies of three cells and more.
+/// Less than this share of a body's area, as corners of bodies of three cells and more, is lifted
+/// and nothing else: the pressure beside it turns it, and it takes no liquid along.
 constexpr double kMissed = 1.0 / 8.0;
+
+/// What a film lifts anyway, cells² for each of its length.
+constexpr double kUnderFilm = 1.0 / 4.0;
+
+/// So much of its weight that lifts at most: of light bodies corners matter less.
+constexpr double kMostLift = 0.5;
 
 /// A cell with less room than this tells nothing of the liquid.
 constexpr double kLeastRoom = 1.0 / 16.0;
@@ -18,11 +25,17 @@ constexpr std::int32_t kMostLooks = 64;
 
 /// Area of a body as the contour has it, cells².
 template <class Real>
-Face<Real> shown_area(const Obstacles<Real>& obstacles, std::uint16_t slot) {
+struct Shown {
+    Face<Real> area = Face<Real>(0);
+    Face<Real> shared = Face<Real>(0);  ///< of that, in cells where there is another one, too
+};
+
+template <class Real>
+Shown<Real> shown_of(const Obstacles<Real>& obstacles, std::uint16_t slot) {
     const Walls<Real>& walls = obstacles.walls;
     const GridShape& s = obstacles.tank;
     const NodeBox box = cells_of(s, obstacles.bodies.body[slot].drawn);
-    Face<Real> sum = Face<Real>(0);
+    Shown<Real> shown;
     for (std::int32_t j = box.j0; j <= box.j1; ++j) {
         for (std::int32_t i = box.i0; i <= box.i1; ++i) {
             const std::int32_t c = s.index(i, j);
@@ -38,11 +51,14 @@ Face<Real> shown_area(const Obstacles<Real>& obstacles, std::uint16_t slot) {
             }
             if (own > 0) {
                 const auto solid = static_cast<Face<Real>>(Real(1) - open_area(distance));
-                sum += solid * (static_cast<Face<Real>>(own) / static_cast<Face<Real>>(inside));
+                const Face<Real> part =
+                    solid * (static_cast<Face<Real>>(own) / static_cast<Face<Real>>(inside));
+                shown.area += part;
+                shown.shared += own < inside ? part : Face<Real>(0);
             }
         }
     }
-    return sum;
+    return shown;
 }
 
 /// The liquid along an outline.
@@ -112,6 +128,28 @@ Around<Real> around_of(const Obstacles<Real>& obstacles, const PressedCells<Real
     return around;
 }
 
+/// How long the films under a body are: they go to its corners, and lift them.
+template <class Real>
+Face<Real> film_under(const Obstacles<Real>& obstacles, std::uint16_t slot) {
+    const Face<Real> half = Face<Real>(-0.5) * length(obstacles.fall);
+    Face<Real> sum = Face<Real>(0);
+    Meetings<Real>(obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
+        if (meeting.slot == slot && dot(meeting.normal, obstacles.fall) < half) {
+            sum += meeting.film;
+        }
+    });
+    return sum;
+}
+
+/// Lifts a body by so much liquid. It answers that before the next pressure, as it does blows.
+template <class Real>
+void lift(const BodyTable<Real>& table, Face<Real> liquid, Wide<Real> fall,
+          BodyLoad<Real>& load) {
+    const Wide<Real> push = (-liquid) * fall;
+    load.blows.linear = load.blows.linear + push;
+    receive_from_tank(table, push, load);
+}
+
 }  // namespace
 
 template <class Real>
@@ -120,17 +158,27 @@ void immerse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, 
     using Number = Face<Real>;
     BodyLoad<Real>& load = obstacles.bodies.load[slot];
     load.ease = Number(1);
-    const Number missing = (load.area - shown_area(obstacles, slot)) - Number(kMissed) * load.area;
-    if (!(missing > Number(0))) {
+    const Shown<Real> shown = shown_of(obstacles, slot);
+    const Number missing = load.area - shown.area;
+    // Which part of a cell is whose where bodies share it is a guess: that much may be there.
+    const Number most = Number(kMissed) * load.area;
+    const Number guessed =
+        minimum(shown.shared + Number(kUnderFilm) * film_under(obstacles, slot), most);
+    if (!(missing > guessed)) {
         return;
     }
     const Around<Real> around = around_of(obstacles, cells, slot);
     if (!(around.wet > Number(0))) {
         return;
     }
-    const Number carried =
-        Number(1.0 / (1.0 - kMissed)) * missing * (around.wet / around.length);
+    const auto displaced = [&](Number but) {
+        return (load.area / (load.area - but)) * maximum(missing - but, Number(0)) *
+               (around.wet / around.length);
+    };
+    const Number carried = displaced(most);
     load.ease = load.mass / (load.mass + carried);
+    lift(obstacles.bodies, minimum(displaced(guessed) - carried, Number(kMostLift) * load.mass),
+         obstacles.fall, load);
     const Wide<Real> arm = (Number(1) / around.wet) * around.place - load.at;
     const Twist<Real> turned =
         answer(load, Impulse<Real>{{}, cross(arm, (-carried) * obstacles.fall)});
