@@ -33,12 +33,12 @@ struct Way {
     float angle = 0.0F;   ///< at the end
 };
 
-/// A box in the middle of a pool, released, for so many steps.
+/// A body in the middle of a pool, released, for so many steps.
 template <class Real>
-Way release(Vec2f cells, float density, float offset, std::int32_t wall_edges, int steps) {
+Way release_ring(const Ring& outline, float density, float offset, std::int32_t wall_edges,
+                 int steps) {
     TestWorld<Real> world{pool_def(wall_edges)};
-    const Ring box = rectangle(cells.x * kCell, cells.y * kCell);
-    BodyDef body = body_of(box, {(24 + offset) * kCell, 10 * kCell});
+    BodyDef body = body_of(outline, {(24 + offset) * kCell, 10 * kCell});
     body.density_ratio = density;
     BodyId id;
     expect_ok(world->add_free_body(body, &id));
@@ -55,6 +55,21 @@ Way release(Vec2f cells, float density, float offset, std::int32_t wall_edges, i
         way.angle = motion.angle_rad;
     }
     return way;
+}
+
+template <class Real>
+Way release(Vec2f cells, float density, float offset, std::int32_t wall_edges, int steps) {
+    return release_ring<Real>(rectangle(cells.x * kCell, cells.y * kCell), density, offset,
+                              wall_edges, steps);
+}
+
+Ring ball(float cells, int corners) {
+    Ring ring;
+    for (int k = 0; k < corners; ++k) {
+        const float angle = 6.2831853F * static_cast<float>(k) / static_cast<float>(corners);
+        ring.push_back({cells * kCell * std::cos(angle), cells * kCell * std::sin(angle)});
+    }
+    return ring;
 }
 
 template <class Real>
@@ -100,6 +115,44 @@ TYPED_TEST(Immersion, StonesSinkAndCorksStay) {
 TYPED_TEST(Immersion, LeavesLargeBodiesAlone) {
     const Way way = release<TypeParam>({8.0F, 6.0F}, 0.5F, 0.3F, 0, 240);
     EXPECT_NEAR(way.last, -0.5F, 0.15F);
+}
+
+/// Nearly as heavy as the liquid, they rise from the deep to where they float: they hovered, or sank.
+TYPED_TEST(Immersion, BallsNearlyAsDenseAsTheLiquidRise) {
+    for (const float radius : {1.0F, 1.5F}) {
+        for (const float density : {0.9F, 0.95F}) {
+            const Way way = release_ring<TypeParam>(ball(radius, 12), density, 0.3F, 0, 600);
+            EXPECT_NEAR(way.last, -0.9F * radius, 0.4F) << radius << " cells, " << density;
+        }
+    }
+}
+
+/// Pressure acts through the centre of what is round: nothing turns it. They spun at 50 to 100 rad/s
+/// in liquid at rest, for ever.
+TYPED_TEST(Immersion, NothingTurnsBalls) {
+    constexpr int kSteps = 600;
+    for (const float density : {0.5F, 0.8F}) {
+        for (const int corners : {12, 24}) {
+            WorldDef def = pool_def(0);
+            def.capacity.cells_x = def.capacity.cells_y = 16;
+            def.capacity.vertices = 24;
+            TestWorld<TypeParam> world{def};
+            const Ring outline = ball(2.0F, corners);
+            BodyDef body = body_of(outline, {8 * kCell, 8 * kCell});
+            body.density_ratio = density;
+            BodyId id;
+            expect_ok(world->add_free_body(body, &id));
+            expect_ok(world->fill({{0, 0}, {16 * kCell, 8 * kCell}}));
+            float spin = 0.0F;
+            for (int step = -kSteps; step < kSteps; ++step) {
+                world->step(kDt);
+                Motion motion;
+                expect_ok(world->motion(id, &motion));
+                spin += step < 0 ? 0.0F : std::abs(motion.spin_radps) / kSteps;
+            }
+            EXPECT_LT(spin, 8.0F) << corners << " corners, " << density;
+        }
+    }
 }
 
 /// It goes on from a snapshot to the bit.
