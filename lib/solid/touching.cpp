@@ -17,8 +17,17 @@ template <class Real>
 constexpr Real kDeepest = Real(1);
 
 /// Nodes of which the bodies are listed together, along an axis: slots are gone through once for
-/// all of them, so that a map of thousands of tiles is drawn in a moment.
+/// all of them, so that a map of thousands of tiles is drawn in a moment. Those of a block are
+/// looked for among those of a wider one.
 constexpr std::int32_t kBlock = 4;
+constexpr std::int32_t kWide = 16;
+
+template <class Real>
+void list_static(const DrawnBodies<Real>& all, const NodeBox& block, DrawnBodies<Real>& listed) {
+    listed.narrow(all, block, [](const Body<Real>& body) {
+        return body.kind == BodyKind::fixed && !body.hollow;
+    });
+}
 
 template <class Real>
 struct Union {
@@ -32,9 +41,7 @@ struct Union {
     /// Whether there are two static bodies, of which any node of a block may have been drawn by
     /// both.
     bool list(const DrawnBodies<Real>& all, const NodeBox& block) {
-        bodies.narrow(all, block, [](const Body<Real>& body) {
-            return body.kind == BodyKind::fixed && !body.hollow;
-        });
+        list_static(all, block, bodies);
         return !bodies.fewer_than(2);
     }
 
@@ -124,21 +131,37 @@ void deepen_block(const Union<Real>& bodies, const NodeBox& block, const NodeFie
     }
 }
 
+template <class Visit>
+void for_each_block(const NodeBox& box, std::int32_t nodes, const Visit& visit) {
+    for (std::int32_t j = box.j0; j <= box.j1; j += nodes) {
+        for (std::int32_t i = box.i0; i <= box.i1; i += nodes) {
+            visit(NodeBox{i, j, minimum(i + nodes - 1, box.i1), minimum(j + nodes - 1, box.j1)});
+        }
+    }
+}
+
 }  // namespace
 
 template <class Real>
 void deepen_where_bodies_touch(const GridShape& tank, const DrawnBodies<Real>& all,
                                const NodeBox& box, const NodeField<Real>& field) {
     Union<Real> bodies(tank, all);
-    for (std::int32_t j = box.j0; j <= box.j1; j += kBlock) {
-        for (std::int32_t i = box.i0; i <= box.i1; i += kBlock) {
-            const NodeBox block{i, j, minimum(i + kBlock - 1, box.i1),
-                                minimum(j + kBlock - 1, box.j1)};
-            if (any_shallow(block, field) && bodies.list(all, block)) {
+    BodyRoom<Real> room;
+    DrawnBodies<Real> near(all, room);
+    for_each_block(box, kWide, [&](const NodeBox& wide) {
+        if (!any_shallow(wide, field)) {
+            return;
+        }
+        list_static(all, wide, near);
+        if (near.fewer_than(2)) {
+            return;
+        }
+        for_each_block(wide, kBlock, [&](const NodeBox& block) {
+            if (any_shallow(block, field) && bodies.list(near, block)) {
                 deepen_block(bodies, block, field);
             }
-        }
-    }
+        });
+    });
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \
