@@ -6,11 +6,11 @@
 
 namespace weir {
 
-/// Room for such a list. Whoever asks for all bodies has none: it is a seventh of a small chip's
-/// stack. Tiles of a cell around 4 × 4 nodes are fewer than 96; small worlds have no thousands.
+/// Room for such a list. Whoever asks for all bodies has none: small chips have little stack. Tiles
+/// of a cell around 4 × 4 nodes are fewer than 96; packed worlds have room for as many larger ones.
 template <class Real>
 struct BodyRoom {
-    static constexpr std::int32_t kMost = Stored<Real>::coarse ? 64 : 96;
+    static constexpr std::int32_t kMost = Stored<Real>::coarse ? 16 : 96;
     std::uint16_t slot[kMost];
 };
 

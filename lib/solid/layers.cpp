@@ -52,11 +52,12 @@ NodeField<Real> field_of(const Layers<Real>& layers, DistanceOf<Real>* distance,
     return {distance, nearest, layers.shape.index(0, 0), layers.shape.stride, all.i0, all.i1};
 }
 
+/// As much of a body as is drawn in a box.
 template <class Real>
 std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std::int32_t slot,
                   const NodeBox& nodes, DistanceOf<Real>* distance, SlotOf<Real>* nearest) {
     const Body<Real>& body = table.body[slot];
-    const NodeBox box = stored_of(layers, nodes);
+    const NodeBox box = common(body.drawn, stored_of(layers, nodes));
     if (body.hollow || box.empty()) {
         return 0;
     }
@@ -138,10 +139,8 @@ std::int32_t refresh(Layers<Real>& layers, const BodyTable<Real>& table, const N
     restore(layers, box);
     std::int32_t nodes = 0;
     for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
-        const Body<Real>& body = table.body[slot];
-        const NodeBox part = common(body.drawn, box);
-        if (body.kind == BodyKind::moving && !part.empty()) {
-            nodes += draw(layers, table, slot, part, layers.walls.distance, layers.walls.nearest);
+        if (table.body[slot].kind == BodyKind::moving) {
+            nodes += draw(layers, table, slot, box, layers.walls.distance, layers.walls.nearest);
         }
     }
     recut(layers, box);
@@ -193,6 +192,18 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
     each([&](const NodeBox& box) { recut(layers, box); });
 }
 
+/// Of the static layer in a box, once its bodies are drawn. A list of bodies takes stack, which is
+/// deepest where they are drawn.
+template <class Real>
+[[gnu::noinline]] void deepen(const Layers<Real>& layers, const BodyTable<Real>& table,
+                              const NodeBox& box) {
+    if (layers.contour != Contour::mid_edge) {
+        deepen_where_bodies_touch(
+            layers.shape, DrawnBodies<Real>(table), box,
+            field_of(layers, layers.static_distance, layers.static_nearest));
+    }
+}
+
 /// Draws all static bodies that reach into a box anew, and the moving ones onto them. What was
 /// deepened is not drawn onto: the picture would depend on who came when.
 template <class Real>
@@ -210,15 +221,11 @@ std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table,
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
         if (body.kind == BodyKind::fixed && overlap(body.drawn, box)) {
-            nodes += draw(layers, table, slot, common(body.drawn, box), layers.static_distance,
+            nodes += draw(layers, table, slot, box, layers.static_distance,
                           layers.static_nearest);
         }
     }
-    if (layers.contour != Contour::mid_edge) {
-        deepen_where_bodies_touch(
-            layers.shape, DrawnBodies<Real>(table), box,
-            field_of(layers, layers.static_distance, layers.static_nearest));
-    }
+    deepen(layers, table, box);
     return nodes + refresh(layers, table, box);
 }
 
@@ -343,7 +350,7 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
     for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         const Body<Real>& body = table.body[slot];
         const bool stale = body.moved || disturbed(table, body.drawn, all);
-        if (body.kind == BodyKind::moving && stale && !body.drawn.empty()) {
+        if (body.kind == BodyKind::moving && stale) {
             nodes += draw(layers, table, slot, body.drawn, layers.walls.distance,
                           layers.walls.nearest);
         }
