@@ -52,6 +52,10 @@ inline constexpr Real kSettling = Real(Stored<Real>::coarse ? 0.25 : 1.0 / 256.0
 /// Substeps from one in which leaning surfaces are quieted to the next.
 inline constexpr std::uint16_t kQuietEvery = 4;
 
+/// A solve starts from so many times the last pressure at most.
+template <class Real>
+inline constexpr Real kMostRescale = Real(16);
+
 template <class Real>
 struct PressureFields {
     Real* pressure = nullptr;          ///< dt · p / ρ (the first liquid's), cells²/s; 0 in air
@@ -73,8 +77,8 @@ struct PressureFields {
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
-    /// What of `pressure` to start from, at most 1: less if gravity has become weaker since it was
-    /// solved for, or sound slower.
+    /// What of `pressure` to start from, at most kMostRescale: as gravity has changed since it was
+    /// solved for; less if sound has become slower.
     Real change = Real(1);
     Real sound_speed = Real(0);  ///< with an equation of state, in use, cells/s; 0: incompressible
     /// Pressure under a cell of still liquid, and what gravity makes of a velocity in the step.

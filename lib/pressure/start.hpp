@@ -125,7 +125,7 @@ Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Re
     const bool cold = !(fields.last_dt > Seconds<Real>{});
     // A much longer step than the last starts from less than the last pressure would suggest.
     const Real rescale =
-        cold ? Real(0) : minimum(fields.change * (dt_s / fields.last_dt), Real(16));
+        cold ? Real(0) : minimum(fields.change * (dt_s / fields.last_dt), kMostRescale<Real>);
     fields.change = Real(1);
     fields.last_dt = dt_s;
     Solve<Real> solve;

@@ -98,7 +98,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
         stream.member(fall.owed.y, -unit, unit);
     }
     stream.member(walls_behind, Seconds<Real>{}, Seconds<Real>(1));
-    stream.member(change, Real(0), Real(1));
+    stream.member(change, Real(0), kMostRescale<Real>);
     stream.member(sound_speed, Real(0), elasticity != nullptr ? settings.sound_speed : Real(0));
     stream.member(on_surface, false, true);
     stream.member(drift_turn, 0, 0xFFFF);

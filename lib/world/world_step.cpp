@@ -35,8 +35,8 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
                          : length(gravity);
     const Real most_now = elastic ? before : before + before;
     if (before > Real(0) && now != before && !is_asleep(*state_)) {
-        simulation.pressure.change =
-            minimum(Real(16), simulation.pressure.change * (minimum(now, most_now) / before));
+        Real& change = simulation.pressure.change;
+        change = minimum(kMostRescale<Real>, change * (minimum(now, most_now) / before));
     }
     simulation.settings.gravity = gravity;
     return Status::ok;
