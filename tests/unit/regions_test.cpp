@@ -265,7 +265,7 @@ TYPED_TEST(RegionsOf, AwokenItGoesOnAsItWas) {
     for (Pools<TypeParam>* each : {&pools, &twin}) {
         expect_ok((*each)->set_gravity({9.81F, 0.0F}));  // as strong as it was
     }
-    for (int step = 0; step < 20; ++step) {
+    for (int step = 0; step < 6; ++step) {
         EXPECT_EQ(pools->step(0.4F * kDt).particles_asleep, 0);
         twin->step(0.4F * kDt);
         const auto a = pools->particle_positions();
