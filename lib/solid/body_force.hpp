@@ -60,6 +60,21 @@ inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, s
     look(walls.open_v[up], {Real(0), Real(1)}, {x + kHalf, y + Real(1)}, up, up + 1, 8);
 }
 
+/// Calls visit(i, j, cell) for the cells of liquid that solids cut, of a body's rectangle.
+template <class Real, class Visit>
+inline void for_each_beside(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
+                            const PressedCells<Real>& cells, const Visit& visit) {
+    const NodeBox box = cells_of(s, walls.body[slot].drawn);
+    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if (!untouched(walls, c, c + s.stride) && cells.level[c] > Real(0)) {
+                visit(i, j, c);
+            }
+        }
+    }
+}
+
 /// Finds the centres of mass, once the bodies have moved.
 template <class Real>
 void locate_bodies(BodyTable<Real>& table);
@@ -67,14 +82,6 @@ void locate_bodies(BodyTable<Real>& table);
 /// Middle of the contour within a cell, from the cell's lower left corner.
 template <class Real>
 Vec2<Real> middle_of_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node);
-
-/// Impulse of the pressure on a body within the last substep, about its centre of mass: cell
-/// pressure × closed parts of the faces, and the pressure's way from the cell's centre to the
-/// wall, as it is at rest. Without that the force would move in steps of a cell.
-/// Cost: a look at each cell of the body's rectangle, about 60 operations for each that it cuts.
-template <class Real>
-Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
-                               std::uint16_t slot, const PressedCells<Real>& cells);
 
 /// Adds what the pressure did in the last substep to the records of all bodies but free ones
 /// (solid/body_reach.hpp).

@@ -81,27 +81,20 @@ template <class Real>
 Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& table,
                               const Walls<Real>& walls, std::uint16_t slot,
                               const PressedCells<Real>& cells) {
-    const NodeBox box = cells_of(shape, table.body[slot].drawn);
     Impulse<Real> impulse;
-    for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-        for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-            const std::int32_t c = shape.index(i, j);
-            if (untouched(walls, c, c + shape.stride) || !(cells.level[c] > Real(0))) {
-                continue;
+    for_each_beside(shape, walls, slot, cells, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+        CellReach<Real> reach;
+        for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
+            if (face.slot == slot) {
+                reach.sum.add(reach_of_face(table, walls, face));
+                reach.any = true;
             }
-            CellReach<Real> reach;
-            for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
-                if (face.slot == slot) {
-                    reach.sum.add(reach_of_face(table, walls, face));
-                    reach.any = true;
-                }
-            });
-            if (reach.any) {
-                reach.beyond = way_to_contour(shape, walls, c, cells.gravity_dt);
-                impulse.add(reach.impulse(cells.pressure[c]));
-            }
+        });
+        if (reach.any) {
+            reach.beyond = way_to_contour(shape, walls, c, cells.gravity_dt);
+            impulse.add(reach.impulse(cells.pressure[c]));
         }
-    }
+    });
     return impulse;
 }
 

@@ -44,7 +44,8 @@ Face<Real> way_to_contour(const GridShape& shape, const Walls<Real>& walls, std:
                           Vec2<Real> gravity_dt);
 
 /// Impulse of the pressure on a free body within the last substep, about its centre of mass.
-/// Cost: as of `pressure_impulse`, and a look at each edge for each line that the contour crosses.
+/// Cost: a look at each cell of the body's rectangle, and for each line that the contour crosses
+/// one at each edge.
 template <class Real>
 Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& table,
                               const Walls<Real>& walls, std::uint16_t slot,
