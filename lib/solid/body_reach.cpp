@@ -51,9 +51,8 @@ Impulse<Real> reach_of_face(const BodyTable<Real>& table, const Walls<Real>& wal
     using Number = Face<Real>;
     const Vec2<Number> centre = table.load[face.slot].at;
     const bool upright = (face.bit & 3) != 0;
-    const Real along = Real(0.5);
     const Vec2<Real> half =
-        upright ? Vec2<Real>{Real(0), along} : Vec2<Real>{along, Real(0)};
+        upright ? Vec2<Real>{Real(0), Real(0.5)} : Vec2<Real>{Real(0.5), Real(0)};
     const Real closed = absolute(face.outward.x) + absolute(face.outward.y);
     const Vec2<Real> low = face.centre - half;
     const Vec2<Real> high = face.centre + half;

@@ -22,11 +22,15 @@ constexpr Real kDeepest = Real(1);
 constexpr std::int32_t kBlock = 4;
 constexpr std::int32_t kWide = 16;
 
+/// Whether a body is one of those that make the union.
+template <class Real>
+bool is_part(const Body<Real>& body) {
+    return body.kind == BodyKind::fixed && !body.hollow;
+}
+
 template <class Real>
 void list_static(const DrawnBodies<Real>& all, const NodeBox& block, DrawnBodies<Real>& listed) {
-    listed.narrow(all, block, [](const Body<Real>& body) {
-        return body.kind == BodyKind::fixed && !body.hollow;
-    });
+    listed.narrow(all, block, is_part<Real>);
 }
 
 template <class Real>
@@ -48,7 +52,7 @@ struct Union {
     template <class Visit>
     void for_each_at(std::int32_t i, std::int32_t j, const Visit& visit) const {
         bodies.for_each_at({i, j, i, j}, [&](std::uint16_t, const Body<Real>& body) {
-            if (body.kind == BodyKind::fixed && !body.hollow) {
+            if (is_part(body)) {
                 visit(body);
             }
         });

@@ -31,7 +31,7 @@ void fly(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, const Part
     PictureBeyond<Real> picture(tank, simulation.layers.walls, simulation.bodies);
     Walls<Real> walls = simulation.layers.walls;
     walls.stored.picture = &picture;
-    const NodeBox drawn = all_drawn(simulation.bodies);
+    const NodeBox drawn = Solids ? all_drawn(simulation.bodies) : NodeBox{};
     // From the last one on: who takes the place of one that is removed has been moved.
     for (std::int32_t k = -1 - part.first; k > -1 - part.end; --k) {
         const Vec2<PositionOf<Real>> before = particles.position[k];
