@@ -16,8 +16,10 @@ public:
 
     void charge(Stage stage) {
         const std::int32_t left = work_.left();
-        report_.work[static_cast<std::int32_t>(stage)] +=
+        std::uint32_t& sum = report_.work[static_cast<std::int32_t>(stage)];
+        const std::uint32_t more =
             static_cast<std::uint32_t>(left_) - static_cast<std::uint32_t>(left);
+        sum = more < ~sum ? sum + more : ~0U;  // many substeps of a large tank
         left_ = left;
         if (ticks_ != nullptr) {
             const std::uint64_t now = ticks_();

@@ -55,8 +55,16 @@ void hash_regions(Hash& hash, const Regions<Real>& regions) {
     }
 }
 
+/// Where particles last met a thin wall: from there on it sweeps them along in the next step.
 template <class Real>
-void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
+void hash_way(Hash& hash, const Body<Real>& body) {
+    hash.add(body.met_position.x);
+    hash.add(body.met_position.y);
+    hash.add(body.met_angle);
+}
+
+template <class Real>
+void hash_bodies(Hash& hash, const BodyTable<Real>& table, bool thin_walls) {
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
         hash.add(static_cast<std::uint32_t>(body.generation));
@@ -71,6 +79,9 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table) {
             hash.add(number);
         }
         hash.add(static_cast<std::uint32_t>(body.surface.no_slip));
+        if (thin_walls && body.kind == BodyKind::moving) {
+            hash_way(hash, body);
+        }
         if (body.open) {
             hash.add(std::uint32_t{1});
         }
@@ -130,6 +141,9 @@ std::uint64_t World<Real>::state_hash() const {
     for (const Real number : numbers) {
         hash.add(number);
     }
+    if (simulation.walls_behind_s > Seconds<Real>{}) {
+        hash.add(simulation.walls_behind_s);
+    }
     if (simulation.pressure.sound_speed > Real(0)) {
         hash.add(simulation.pressure.sound_speed);
     }
@@ -148,7 +162,7 @@ std::uint64_t World<Real>::state_hash() const {
     if (simulation.regions != nullptr) {
         hash_regions(hash, *simulation.regions);
     }
-    hash_bodies(hash, simulation.bodies);
+    hash_bodies(hash, simulation.bodies, simulation.layers.thin.capacity > 0);
     return hash.value();
 }
 

@@ -344,6 +344,32 @@ TEST(ThinWalls, RoomForEdgesIsKeptAndGivenBack) {
     world->step(kFrame);
 }
 
+/// The next step sweeps particles along from where they last met a wall to where it stands now.
+TEST(ThinWalls, TheHashKnowsTheWayOfAWall) {
+    TestWorld<float> world(tank());
+    TestWorld<float> other(tank());
+    Ring ring = {{0, 0}, {0, 8}};
+    BodyDef def = line_of(ring);
+    def.motion.position_m = {0.2F, 0.2F};
+    const BodyId id = add(*world, def, true);
+    ASSERT_EQ(world->set_motion(id, def.motion), Status::ok);
+    ASSERT_EQ(other->set_motion(add(*other, def, true), def.motion), Status::ok);
+    EXPECT_EQ(world->state_hash(), other->state_hash());
+    def.motion.position_m = {0.22F, 0.2F};
+    TestWorld<float> placed(tank());
+    const BodyId there = add(*placed, def, true);
+    const Motion between{{0.21F, 0.2F}, 0.0F, {0, 0}, 0.0F};
+    ASSERT_EQ(world->set_motion(id, between), Status::ok);
+    ASSERT_EQ(placed->set_motion(there, between), Status::ok);
+    EXPECT_NE(world->state_hash(), placed->state_hash());
+    ASSERT_EQ(world->add_particle({0.205F, 0.25F}, {0, 0}), Status::ok);
+    ASSERT_EQ(placed->add_particle({0.205F, 0.25F}, {0, 0}), Status::ok);
+    world->step(kFrame);
+    placed->step(kFrame);
+    EXPECT_GT(world->particle_positions()[0].x, 10.5F) << "swept along";
+    EXPECT_LT(placed->particle_positions()[0].x, 10.5F);
+}
+
 TEST(ThinWalls, LinesLongerThanAnyRoomAreRefused) {
     WorldDef def = tank(100);
     def.capacity.vertices = 4000;

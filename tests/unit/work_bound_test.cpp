@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "busy_world.hpp"
+#include "step/stage_clock.hpp"
 
 namespace weir {
 namespace {
@@ -172,6 +173,21 @@ TEST(WorkBound, HoldsForCrowdedLayouts) {
         expect_within_bound(*pile, kDt, step % 2 == 0 ? 0 : 500, step == 0);
         expect_within_bound(*rim, kDt, step % 2 == 0 ? 0 : 500, step == 0);
     }
+}
+
+TEST(WorkBound, WhatWasDoneIsNotToldAsLess) {
+    StepReport report;
+    std::uint32_t& sum = report.work[static_cast<std::int32_t>(Stage::collide)];
+    Progress progress;
+    progress.resume(1000);
+    StageClock clock(nullptr, Work(progress), report);
+    progress.spend(100);
+    clock.charge(Stage::collide);
+    EXPECT_EQ(sum, 100U);
+    sum = 0xFFFFFFF0U;
+    progress.spend(100);
+    clock.charge(Stage::collide);
+    EXPECT_EQ(sum, 0xFFFFFFFFU);
 }
 
 TEST(WorkBound, RefusesWhatItCannotTell) {

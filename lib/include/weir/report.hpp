@@ -61,7 +61,8 @@ struct WorkBound {
 
 struct StepReport {
     std::uint64_t ticks[kStageCount] = {};  ///< per stage, over all substeps; 0: no counter
-    /// The same in units of `World::advance`, by which `World::work_bound` bounds them.
+    /// The same in units of `World::advance`, by which `World::work_bound` bounds them; no more
+    /// than 2³² − 1 is told.
     std::uint32_t work[kStageCount] = {};
     std::int32_t substeps = 0;        ///< 0 while asleep
     std::uint32_t clamped = 0;        ///< set of Clamped bits

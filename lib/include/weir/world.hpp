@@ -234,7 +234,8 @@ public:
     std::int32_t cells_y() const;
 
     /// 64-bit hash of everything that decides the future: equal states, equal hashes, on every
-    /// machine. 0 before init.
+    /// machine. Only the turns of what is done every few substeps are left out, so that what is at
+    /// rest keeps its hash. 0 before init.
     std::uint64_t state_hash() const;
 
 private:
