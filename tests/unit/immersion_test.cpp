@@ -79,8 +79,8 @@ TYPED_TEST_SUITE(Immersion, Scalars, );
 
 /// However it lies to the grid's lines: they sank, or hung in the water, below two cells.
 TYPED_TEST(Immersion, SmallSquaresOfHalfTheDensityFloat) {
-    for (const float size : {0.5F, 1.0F, 1.6F}) {
-        for (const float offset : {0.0F, 0.3F}) {
+    for (const float size : some_of({0.5F, 1.0F, 1.6F})) {
+        for (const float offset : some_of({0.0F, 0.3F})) {
             const Way way = release<TypeParam>({size, size}, 0.5F, offset, 0, 180);
             EXPECT_NEAR(way.last, 0.0F, 0.6F) << size << " cells, " << offset;
             EXPECT_LT(way.highest, 2.0F) << size << " cells, " << offset;
@@ -90,8 +90,8 @@ TYPED_TEST(Immersion, SmallSquaresOfHalfTheDensityFloat) {
 
 /// Planks, with room for thin walls and without, lie flat in the surface.
 TYPED_TEST(Immersion, PlanksFloat) {
-    for (const float thick : {0.2F, 0.5F, 1.0F, 1.4F}) {
-        for (const std::int32_t wall_edges : {0, 300}) {
+    for (const float thick : some_of({0.2F, 0.5F, 1.0F, 1.4F})) {
+        for (const std::int32_t wall_edges : some_of({0, 300})) {
             const Way way = release<TypeParam>({8.0F, thick}, 0.5F, 0.3F, wall_edges, 180);
             EXPECT_NEAR(way.last, 0.0F, 0.8F) << thick << ", " << wall_edges;
             EXPECT_NEAR(way.angle, 0.0F, 0.2F) << thick << ", " << wall_edges;
@@ -101,7 +101,7 @@ TYPED_TEST(Immersion, PlanksFloat) {
 
 /// As heavy as a stone they sink to the floor, as light as cork they stay in the surface.
 TYPED_TEST(Immersion, StonesSinkAndCorksStay) {
-    for (const float size : {0.5F, 1.0F}) {
+    for (const float size : some_of({0.5F, 1.0F})) {
         const Way stone = release<TypeParam>({size, size}, 3.0F, 0.3F, 0, 180);
         EXPECT_NEAR(stone.last, 0.5F * size - 20, 0.3F) << size;
         const Way cork = release<TypeParam>({size, size}, 0.05F, 0.3F, 0, 240);
@@ -119,8 +119,8 @@ TYPED_TEST(Immersion, LeavesLargeBodiesAlone) {
 
 /// Nearly as heavy as the liquid, they rise from the deep to where they float: they hovered, or sank.
 TYPED_TEST(Immersion, BallsNearlyAsDenseAsTheLiquidRise) {
-    for (const float radius : {1.0F, 1.5F}) {
-        for (const float density : {0.9F, 0.95F}) {
+    for (const float radius : some_of({1.0F, 1.5F})) {
+        for (const float density : some_of({0.9F, 0.95F})) {
             const Way way = release_ring<TypeParam>(ball(radius, 12), density, 0.3F, 0, 600);
             EXPECT_NEAR(way.last, -0.9F * radius, 0.4F) << radius << " cells, " << density;
         }
@@ -131,8 +131,8 @@ TYPED_TEST(Immersion, BallsNearlyAsDenseAsTheLiquidRise) {
 /// in liquid at rest, for ever.
 TYPED_TEST(Immersion, NothingTurnsBalls) {
     constexpr int kSteps = 600;
-    for (const float density : {0.5F, 0.8F}) {
-        for (const int corners : {12, 24}) {
+    for (const float density : some_of({0.5F, 0.8F})) {
+        for (const int corners : some_of({12, 24})) {
             WorldDef def = pool_def(0);
             def.capacity.cells_x = def.capacity.cells_y = 16;
             def.capacity.vertices = 24;

@@ -133,7 +133,8 @@ void expect_nobody_lost(std::int32_t kind) {
     Dice dice(static_cast<std::uint64_t>(kind) + 1);
     Nomads<Real> nomads(kind, static_cast<std::uint64_t>(kind));
     std::int32_t beyond = 0;
-    for (std::int32_t step = 0; step < (kind < kKinds ? 80 : 40); ++step) {
+    constexpr std::int32_t kFew = kSanitized ? 20 : 40;
+    for (std::int32_t step = 0; step < (kind < kKinds ? 2 * kFew : kFew); ++step) {
         const Vec2f low{dice.uniform(0.0F, 4.8F), dice.uniform(0.0F, 2.9F)};
         const Vec2f gravity{dice.uniform(-20.0F, 20.0F), dice.uniform(-20.0F, 20.0F)};
         for (TestWorld<Real>* world : {&one, &other}) {
