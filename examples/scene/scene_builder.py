@@ -11,11 +11,17 @@ from shapely.geometry import box
 from scene_geometry import clean_polygons, finished_rings, to_float32, united
 from scene_motion import (NUMBER, Motion, body_key, fractions_of, guide_ids, motion_of,
                           role_and_depth)
-from svg_outline import area_on_page, has_paint, is_line, is_shown
+from svg_outline import area_on_page, has_dashes, has_paint, is_line, is_shown
 from svg_reader import DrawingError
 
 DEFAULT_CELLS = 96
 MAX_CELLS = 4096
+# What the library takes (weir/config.hpp). Said here, before two builds have been waited for.
+LEAST_CELLS = 4
+CELL_RANGE_M = (1e-6, 1e3)
+MAX_GRAVITY = 1000.0
+MAX_STEP_S = 1.0
+PARTICLES_PER_CELL = (1, 4, 9, 16)
 BACKGROUND_SHARE = 0.99  # a filling that covers this share of the page is paper, not a solid
 HEADROOM_SHARE = 0.6  # of the page's height, added above a drawing without liquid
 DEFAULT_LIQUID_SHARE = 0.3  # of the page's height: the block that pours over the drawing
@@ -106,6 +112,9 @@ class Builder:
                 result.append((role, depth, shape, True))
         if stroked:
             self.notices.append(f"{stroked} unfilled shape(s): the pen stroke is the shape")
+        dashed = sum(has_dashes(shape, faint) for _, _, shape, _ in result)
+        if dashed:
+            self.notices.append(f"{dashed} dashed stroke(s) are taken without their gaps")
         if not result:
             raise DrawingError("the drawing is empty: no visible filled or stroked shape")
         return result
@@ -121,7 +130,7 @@ class Builder:
                 f"no group 'liquid': {HEADROOM_SHARE:.0%} of the page's height is added on top, "
                 "with a block of liquid in it")
         cells = self.options.cells or root_numbers(drawing, "data-cells", DEFAULT_CELLS,
-                                                   low=4, high=MAX_CELLS)
+                                                   low=LEAST_CELLS, high=MAX_CELLS)
         if cells != int(cells):
             raise DrawingError("data-cells must be a whole number")
         cell = to_float32(max(width, height) / cells)
@@ -129,13 +138,20 @@ class Builder:
         lost = max(abs(side / cell - n) for side, n in zip((width, height), counts))
         if lost > 0.25:
             self.notices.append(f"the shorter side is rounded to whole cells, by {lost:.2f} cell")
-        per_cell = root_numbers(drawing, "data-particles-per-cell", 4, low=1, high=64)
-        if math.isqrt(int(per_cell)) ** 2 != per_cell:
-            raise DrawingError("data-particles-per-cell must be a square number: 1, 4, 9, 16 ...")
+        if min(counts) < LEAST_CELLS:
+            raise DrawingError(f"the tank would have {counts[0]} x {counts[1]} cells, and wants "
+                               f"{LEAST_CELLS} along each side: more data-cells, or another page")
+        if not CELL_RANGE_M[0] <= cell <= CELL_RANGE_M[1]:
+            raise DrawingError(f"cells would be {cell:.3g} m, and may be {CELL_RANGE_M[0]:g} to "
+                               f"{CELL_RANGE_M[1]:g} m: state data-page-width-m")
+        per_cell = root_numbers(drawing, "data-particles-per-cell", 4)
+        if per_cell not in PARTICLES_PER_CELL:
+            raise DrawingError("data-particles-per-cell must be 1, 4, 9 or 16")
         steps = root_numbers(drawing, "data-steps", 300, low=1, high=10_000_000)
         return SceneData(name, counts[0], counts[1], cell,
-                         root_numbers(drawing, "data-gravity", (0.0, -9.81), 2, -1e4, 1e4),
-                         root_numbers(drawing, "data-dt", 1.0 / 60.0, 1, 1e-6, 10.0),
+                         root_numbers(drawing, "data-gravity", (0.0, -9.81), 2,
+                                      -MAX_GRAVITY, MAX_GRAVITY),
+                         root_numbers(drawing, "data-dt", 1.0 / 60.0, 1, 1e-6, MAX_STEP_S),
                          int(steps), int(per_cell))
 
     def to_metres(self, x_px, y_px):

@@ -52,6 +52,13 @@ def has_paint(shape, kind, min_opacity):
         return True
 
 
+def has_dashes(shape, min_opacity):
+    """Whether its pen stroke has gaps."""
+    pattern = shape.attribute("stroke-dasharray", "none").lower()
+    lengths = [fraction(length, 1.0) for length in pattern.replace(",", " ").split()]
+    return pattern != "none" and any(lengths) and has_paint(shape, "stroke", min_opacity)
+
+
 def is_line(shape):
     """Whether a shape is one straight line: filling it, as is the default, covers nothing."""
     segments = shape.element.segments(transformed=False)

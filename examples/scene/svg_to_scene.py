@@ -5,16 +5,17 @@ The page is the tank. Every visible shape is a static solid: what its filling an
 cover. Two groups mean something else, named by id, Inkscape label or class: shapes in `liquid`
 are filled with particles, shapes in `moving` move. A drawing without `liquid` gets headroom and a
 block of liquid above it, so any icon or logo makes a scene. A shape that covers the whole page is a
-background and ignored. Text, bitmaps, markers, clip paths and masks are not taken.
+background and ignored. Text, bitmaps, markers, clip paths, masks and the gaps of dashed strokes
+are not taken.
 
 Attributes on the root element (all optional; Inkscape's XML editor sets them):
   data-cells="96"               grid cells along the page's longer side
   data-page-width-m="1.28"      width of the page in metres. Without it, a page in mm, cm, in, pt or
                                 pc has its true size; one in pixels is 1 m along its longer side
-  data-gravity="0 -9.81"        m/s^2, y up
-  data-dt="0.0166667"           seconds per frame
+  data-gravity="0 -9.81"        m/s^2, y up, each at most 1000
+  data-dt="0.0166667"           seconds per frame, at most 1
   data-steps="300"              frames worth showing
-  data-particles-per-cell="4"   a square number
+  data-particles-per-cell="4"   1, 4, 9 or 16
 
 Attributes on shapes and groups inside `moving`; they hold for everything inside, innermost first:
   data-velocity="vx vy"         m/s, y up
@@ -100,6 +101,7 @@ def main(arguments=None):
     args = parse_arguments(arguments)
     name = args.name or os.path.splitext(os.path.basename(args.drawing))[0]
     options = Options(args.tolerance_cells, args.cells, args.min_opacity, args.margin)
+    drawing = None
     try:
         drawing = read_drawing(args.drawing)
         if args.particles:
@@ -113,6 +115,8 @@ def main(arguments=None):
             with open(args.header, "w", encoding="ascii") as file:
                 file.write(text)
     except (DrawingError, OSError) as error:
+        for notice in drawing.notices if drawing else []:  # may be why: it is all text, say
+            print(f"notice: {notice}", file=sys.stderr)
         print(f"svg_to_scene: {error}", file=sys.stderr)
         return 2
     for notice in scene.notices:

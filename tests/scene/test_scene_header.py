@@ -115,11 +115,22 @@ class ToolTest(SceneTest):
             self.assertFalse(os.path.exists(self.path("out.hpp")))
 
     def test_bad_root_attributes_exit_2(self):
-        for bad in ('data-gravity="down"', 'data-dt="0"', 'data-steps="0"',
-                    'data-particles-per-cell="5"', 'data-page-width-m="-1"'):
+        for bad in ('data-gravity="down"', 'data-gravity="0 -1001"', 'data-dt="0"', 'data-dt="1.5"',
+                    'data-steps="0"', 'data-particles-per-cell="5"', 'data-particles-per-cell="25"',
+                    'data-page-width-m="-1"', 'data-page-width-m="9e5"'):
             result = self.run_tool(self.write("", page=PAGE + " " + bad), "-")
             self.assertEqual(result.returncode, 2, bad)
             self.assertIn(bad.split("=")[0], result.stderr)
+
+    def test_tank_that_the_library_would_refuse_exits_2(self):
+        result = self.run_tool(self.write("", page='width="1000" height="20"'), "-")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("96 x 2 cells", result.stderr)
+
+    def test_what_was_left_out_is_said_of_an_empty_drawing_too(self):
+        result = self.run_tool(self.write("<text y='50'>WEIR</text>", liquid=""), "-")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("convert text to paths", result.stderr)
 
     def test_compressed_drawing_and_summary(self):
         with open(self.write('<circle cx="50" cy="50" r="20"/>'), "rb") as file:

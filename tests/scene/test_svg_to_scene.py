@@ -154,6 +154,13 @@ class ShapeTest(SceneTest):
                           'stroke-width:6"/>')
         self.assertAlmostEqual(ring.area, math.pi * (0.33 ** 2 - 0.27 ** 2), delta=0.002)
 
+    def test_dashes_are_taken_whole_with_notice(self):
+        line = '<line x1="10" y1="50" x2="90" y2="50" stroke="red" stroke-width="4" {}/>'
+        for pattern, said in (("10 5", True), ("10,5", True), ("none", False), ("0", False)):
+            scene = self.scene(line.format(f'stroke-dasharray="{pattern}"'))
+            self.assertEqual(len(scene.solids), 1)
+            self.assertEqual(any("dashed" in n for n in scene.notices), said, pattern)
+
     def test_stroke_widens_a_filled_solid_but_not_liquid(self):
         rect = '<rect x="40" y="40" width="20" height="20" stroke="#000" stroke-width="4"/>'
         self.assert_same_area(self.solid(rect), box(0.38, 0.38, 0.62, 0.62))
