@@ -1,8 +1,8 @@
 // Runs a drawing on whatever this was built for and prints what it took, one fact a line:
 // `name value ...`, integers only, so that a host and a chip without printf say it alike.
 //
-// Arguments, key=value: steps (default: the drawing's), frames (a file to write for draw_frames),
-// every (steps between frames, default 5).
+// Arguments, key=value: steps (default: the drawing's), frames (a file to write for draw_frames, at
+// most 255 characters), every (steps between frames, default 5). Numbers are whole, 1 … 10,000,000.
 #include "drawing.hpp"
 #include "port/port.hpp"
 #include "port/print.hpp"
@@ -45,14 +45,26 @@ void require(weir::Status status) {
     }
 }
 
+[[noreturn]] void refuse(const char* key) {
+    port::print("error ", key, "= is no whole number from 1 to 10000000, or too long\n");
+    port::exit(1);
+}
+
 std::int32_t number_argument(const char* key, std::int32_t otherwise) {
-    char text[12];
-    if (port::argument(key, text, sizeof text) == 0) {
+    char text[9];
+    const std::size_t digits = port::argument(key, text, sizeof text);
+    if (digits == 0) {
         return otherwise;
     }
     std::int32_t value = 0;
-    for (const char* digit = text; *digit >= '0' && *digit <= '9'; ++digit) {
+    for (const char* digit = text; *digit != '\0'; ++digit) {
+        if (*digit < '0' || *digit > '9') {
+            refuse(key);
+        }
         value = 10 * value + (*digit - '0');
+    }
+    if (digits >= sizeof text || value < 1 || value > 10'000'000) {
+        refuse(key);
     }
     return value;
 }
@@ -128,7 +140,11 @@ void print_totals(std::int32_t steps, const Totals& totals) {
 int main() {
     port::init();
     char frames[256];
-    const bool record = port::argument("frames", frames, sizeof frames) != 0;
+    const std::size_t name = port::argument("frames", frames, sizeof frames);
+    const bool record = name != 0;
+    if (name >= sizeof frames) {
+        refuse("frames");
+    }
     const std::int32_t steps = number_argument("steps", kScene.steps);
     const std::int32_t every = number_argument("every", 5);
 
