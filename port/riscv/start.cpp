@@ -7,13 +7,19 @@
 extern "C" {
 
 /// Where the processor starts: first in the image. mscratch keeps the top of the handlers' stack,
-/// which a trap changes its own for: one that main()'s stack caused has somewhere to run.
+/// which a trap changes its own for: one that main()'s stack caused has somewhere to run. An FPU is
+/// off until it is asked for; fcsr = 0 rounds to nearest, which the same-bits promise needs.
 [[gnu::section(".vectors"), gnu::naked, gnu::used]] void port_reset() {
   asm volatile(
       ".option push \n"
       ".option norelax \n"  // this is what relaxed addresses are relative to
       "la gp, __global_pointer$ \n"
       ".option pop \n"
+#if defined(__riscv_flen)
+      "li t0, 0x6000 \n"  // mstatus.FS
+      "csrs mstatus, t0 \n"
+      "fscsr zero \n"
+#endif
       "la sp, port_handler_stack_top \n"
       "csrw mscratch, sp \n"
       "la t0, port_trap \n"
