@@ -11,7 +11,8 @@ set(weir_boards "" CACHE INTERNAL "The boards this build makes images for")
 #   boards/<board>/board.cmake sets
 #     board_processor  CMAKE_SYSTEM_PROCESSOR of the toolchain file
 #     board_sources    files more, relative to the calling folder (a timer), if any
-#     board_ram_end    the first address past its RAM, hexadecimal without 0x: tests store there
+#     board_ram_end    the first address past its RAM, hexadecimal, small letters, without 0x: tests
+#                      store there
 #     board_port       a file in place of port.cpp and semihosting.cpp, relative as well, if any
 #     board_small      yes: runs only what was made for it, tests that want more memory pass it by
 #   Objects, not an archive: start-up code and memcpy then link whatever the order of the libraries.
@@ -20,10 +21,16 @@ function(weir_add_boards)
   set(folder ${CMAKE_CURRENT_SOURCE_DIR})
   set(boards ${weir_boards})
   foreach(board ${arg_BOARDS})
+    unset(board_processor)
+    unset(board_ram_end)
     unset(board_small)
     unset(board_sources)
     set(board_port ${WEIR_BARE_METAL_DIR}/port.cpp ${WEIR_BARE_METAL_DIR}/semihosting.cpp)
     include(${folder}/boards/${board}/board.cmake)
+    if(NOT board_processor OR NOT board_ram_end MATCHES "^[0-9a-f]+$")
+      message(FATAL_ERROR "${folder}/boards/${board}/board.cmake: set board_processor, and "
+        "board_ram_end in hexadecimal, small letters, without 0x")
+    endif()
     if(NOT board_processor STREQUAL CMAKE_SYSTEM_PROCESSOR)
       continue()
     endif()
