@@ -7,8 +7,14 @@
 #include "math/fixed.hpp"
 #include "math/packed.hpp"
 
-#if defined(__FAST_MATH__)
-#error "weir needs strict floating point: remove -ffast-math (or -Ofast) for its sources"
+// With these options bits are not everyone's, and nothing else would say so. Parts of fast-math
+// have names of their own.
+#if defined(__FAST_MATH__) || __FINITE_MATH_ONLY__ || defined(__ASSOCIATIVE_MATH__) || \
+    defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
+#error "weir needs strict floating point: remove -ffast-math, -Ofast or their like for it"
+#endif
+#if __FLT_EVAL_METHOD__ == 2
+#error "weir needs floats that are rounded as floats: -msse2 -mfpmath=sse on 32-bit x86"
 #endif
 
 /// Boards leave World<double> out: none computes in it.
