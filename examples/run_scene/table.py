@@ -26,9 +26,10 @@ def print_table(host, target, board):
     row = "{:<18} {:>15} {:>15}   {:>15} {:>15}".format
     fact = "{:<18} {}".format
     cells = " x ".join(host["cells"])
-    print(fact("scene", f"{host['scene'][0]}: {cells} cells, {thousands(host['particles'][0])} "
-                        f"particles, {host['bodies'][0]} static and {host['bodies'][1]} moving "
-                        f"bodies, {host['steps'][0]} steps ({host['substeps'][0]} substeps)"))
+    print(fact("scene", f"{' '.join(host['scene'])}: {cells} cells, "
+                        f"{thousands(host['particles'][0])} particles, {host['bodies'][0]} static "
+                        f"and {host['bodies'][1]} moving bodies, {host['steps'][0]} steps "
+                        f"({host['substeps'][0]} substeps)"))
     print()
     print("world bytes by owner")
     for name, values in host.items():

@@ -127,7 +127,7 @@ class Builder:
         if not self.has_liquid:
             height *= 1.0 + HEADROOM_SHARE
             self.notices.append(
-                f"no group 'liquid': {HEADROOM_SHARE:.0%} of the page's height is added on top, "
+                f"nothing in a group 'liquid': {HEADROOM_SHARE:.0%} of the page's height is added on top, "
                 "with a block of liquid in it")
         cells = self.options.cells or root_numbers(drawing, "data-cells", DEFAULT_CELLS,
                                                    low=LEAST_CELLS, high=MAX_CELLS)
