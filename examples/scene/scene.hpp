@@ -62,6 +62,7 @@ struct Scene {
     std::int32_t total_vertices;      // of all solids and moving bodies together, and 3 a hole
     std::int32_t max_vertices;        // of the one that has most
     std::int32_t max_holes;           // of the one that has most
+    std::int32_t wall_edges = 0;      // room for walls thinner than a cell, if there are any
 };
 
 // Bodies a world must have room for.

@@ -8,7 +8,8 @@ from shapely import vectorized
 from shapely.affinity import affine_transform
 from shapely.geometry import box
 
-from scene_geometry import clean_polygons, finished_rings, to_float32, united
+from scene_geometry import (clean_polygons, finished_rings, polygon_of, thin_wall_edges, to_float32,
+                            united)
 from scene_motion import (NUMBER, Motion, body_key, fractions_of, guide_ids, motion_of,
                           role_and_depth)
 from svg_outline import area_on_page, has_dashes, has_paint, is_line, is_shown
@@ -22,6 +23,7 @@ CELL_RANGE_M = (1e-6, 1e3)
 MAX_GRAVITY = 1000.0
 MAX_STEP_S = 1.0
 PARTICLES_PER_CELL = (1, 4, 9, 16)
+MAX_WALL_EDGES = 65000
 BACKGROUND_SHARE = 0.99  # a filling that covers this share of the page is paper, not a solid
 HEADROOM_SHARE = 0.6  # of the page's height, added above a drawing without liquid
 DEFAULT_LIQUID_SHARE = 0.3  # of the page's height: the block that pours over the drawing
@@ -64,6 +66,7 @@ class SceneData:
     moving: list = field(default_factory=list)
     liquid: list = field(default_factory=list)
     max_particles: int = 0
+    wall_edges: int = 0
     liquid_cells2: float = 0.0
     notices: list = field(default_factory=list)
 
@@ -127,8 +130,8 @@ class Builder:
         if not self.has_liquid:
             height *= 1.0 + HEADROOM_SHARE
             self.notices.append(
-                f"nothing in a group 'liquid': {HEADROOM_SHARE:.0%} of the page's height is added on top, "
-                "with a block of liquid in it")
+                f"nothing in a group 'liquid': {HEADROOM_SHARE:.0%} of the page's height is added "
+                "on top, with a block of liquid in it")
         cells = self.options.cells or root_numbers(drawing, "data-cells", DEFAULT_CELLS,
                                                    low=LEAST_CELLS, high=MAX_CELLS)
         if cells != int(cells):
@@ -197,6 +200,7 @@ class Builder:
         for shape, areas in bodies.values():
             slivers += self.add_body(shape, areas)
         slivers += self.add_liquid(liquid)
+        self.add_wall_edges()
         if slivers:
             self.notices.append(f"{slivers} part(s) or hole(s) below 0.02 cell^2 dropped")
         scene = self.scene
@@ -239,6 +243,16 @@ class Builder:
         for rings in self.finished(polygons, pivot):
             self.scene.moving.append(Body(rings, motion, start, fractions))
         return slivers
+
+    def add_wall_edges(self):
+        """What keeps strokes and plates tight that are thinner than the grid shows."""
+        rings = self.scene.solids + [body.rings for body in self.scene.moving]
+        edges = thin_wall_edges([polygon_of(r) for r in rings], self.cell)
+        if edges > MAX_WALL_EDGES:
+            edges = 0
+            self.notices.append("thin walls are too long to be kept tight: draw them 1.5 cells "
+                                "wide, or use fewer cells")
+        self.scene.wall_edges = edges
 
     def add_liquid(self, areas):
         """Liquid, or the default block; and the number of lattice points in it."""

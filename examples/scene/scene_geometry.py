@@ -7,7 +7,7 @@ and coordinates that are exact single-precision numbers; outer rings run counter
 import math
 import struct
 
-from shapely.geometry import MultiPolygon, Polygon
+from shapely.geometry import LineString, MultiPolygon, Polygon
 from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 from shapely.validation import make_valid
@@ -17,6 +17,9 @@ from svg_outline import polygons_of
 SLIVER_CELLS2 = 0.02  # smaller than any contour can show
 MIN_EDGE_CELLS = 0.01
 HAIRLINE_CELLS = 0.01  # gaps, spikes and threads narrower than this are closed or cut off
+WALL_CELLS = 1.0  # narrower walls the grid may miss: the library wants room for their edges ...
+THIN_CELLS = 1.5  # ... and then takes the edges of all that is narrower than this
+THIN_SLACK_CELLS = 0.5
 COLLINEAR_CELLS = 1e-3  # a vertex this close to its neighbours' chord says nothing
 
 
@@ -142,3 +145,26 @@ def clean_polygons(area, cell, tolerance, clip=None):
     if clip is not None:
         area = united([area.intersection(clip)])
     return without_slivers(area, cell)
+
+
+def opened(polygon, reach, **join):
+    """What discs of that radius within a polygon cover; corners stay with mitred joins."""
+    return polygon.buffer(-reach, join_style=2).buffer(1.01 * reach, **join)
+
+
+def thin_wall_edges(polygons, cell):
+    """Room that the library wants for walls thinner than the grid shows; 0 if there are none.
+
+    Sharp corners take room as well, but hold without, and are no reason for it.
+    """
+    has_walls, room = False, 0
+    for polygon in polygons:
+        walls = polygon.difference(opened(polygon, 0.5 * WALL_CELLS * cell, join_style=2))
+        has_walls = has_walls or walls.area > WALL_CELLS ** 2 * cell ** 2
+        narrow = polygon.difference(opened(polygon, 0.5 * THIN_CELLS * cell))
+        near = narrow.buffer(THIN_SLACK_CELLS * cell)
+        for ring in [polygon.exterior, *polygon.interiors]:
+            for a, b in zip(ring.coords, ring.coords[1:]):
+                if near.intersects(LineString([a, b])):  # 3 a cell, and 6 at either end
+                    room += 3 * math.ceil(math.dist(a, b) / cell) + 12
+    return room if has_walls else 0

@@ -112,5 +112,6 @@ inline constexpr scene::Scene kScene = {{
     {sum(counts) + 3 * sum(holes)},  // total_vertices
     {max(counts, default=0)},  // max_vertices
     {max(holes, default=0)},  // max_holes
+    {scene.wall_edges},  // wall_edges
 }};
 """

@@ -14,6 +14,7 @@ constexpr weir::Capacity capacity_of(const Scene& s) {
     capacity.cells_y = s.cells_y;
     capacity.bodies = body_count(s);
     capacity.vertices = s.total_vertices;
+    capacity.wall_edges = s.wall_edges;
     return capacity;
 }
 

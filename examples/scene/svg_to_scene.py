@@ -6,7 +6,7 @@ cover. Two groups mean something else, named by id, Inkscape label or class: sha
 are filled with particles, shapes in `moving` move. A drawing without `liquid` gets headroom and a
 block of liquid above it, so any icon or logo makes a scene. A shape that covers the whole page is a
 background and ignored. Text, bitmaps, markers, clip paths, masks and the gaps of dashed strokes
-are not taken.
+are not taken. Walls thinner than a cell hold liquid; where there are any the scene takes longer.
 
 Attributes on the root element (all optional; Inkscape's XML editor sets them):
   data-cells="96"               grid cells along the page's longer side

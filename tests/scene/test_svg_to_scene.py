@@ -161,6 +161,14 @@ class ShapeTest(SceneTest):
             self.assertEqual(len(scene.solids), 1)
             self.assertEqual(any("dashed" in n for n in scene.notices), said, pattern)
 
+    def test_room_for_walls_thinner_than_a_cell(self):
+        line = '<path d="M11 20 V81 H61 V20" fill="none" stroke="red" stroke-width="{}"/>'
+        self.assertGreater(self.scene(line.format(1)).wall_edges, 3 * 2 * 86)  # both sides of it
+        moving = f'<g id="moving" data-spin="1">{line.format(1)}</g>'
+        self.assertGreater(self.scene(moving).wall_edges, 3 * 2 * 86)
+        self.assertEqual(self.scene(line.format(4)).wall_edges, 0)
+        self.assertEqual(self.scene('<path d="M20 90 L80 90 L50 40z"/>').wall_edges, 0)
+
     def test_stroke_widens_a_filled_solid_but_not_liquid(self):
         rect = '<rect x="40" y="40" width="20" height="20" stroke="#000" stroke-width="4"/>'
         self.assert_same_area(self.solid(rect), box(0.38, 0.38, 0.62, 0.62))
