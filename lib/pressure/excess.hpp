@@ -41,28 +41,41 @@ struct Held {
     Real at_rest = Real(1);  ///< without pressure
     Real rise = Real(0);     ///< 1 / weight of a cell of liquid; 0 without gravity
     Real enough = Real(0);   ///< pressure from which on all of it does
+    const VelocityOf<Real>* light_u = nullptr;  ///< inverse densities; null: one liquid
+    const VelocityOf<Real>* light_v = nullptr;
 
+    /// A cell's pressure, as much as it would be in the first liquid: others weigh more, or less.
+    Real pressed(Real pressure, std::int32_t stride, std::int32_t c) const {
+        if (light_u == nullptr) {
+            return pressure;
+        }
+        const Real light = (Real(light_u[c]) + light_u[c + 1]) +
+                           (Real(light_v[c]) + light_v[c + stride]);
+        return (Real(0.25) * light) * pressure;
+    }
     Real share(Real pressure) const {
         return clamp<Real>(at_rest + rise * pressure, Real(0), Real(1));
     }
 };
 
 template <class Real>
-inline Held<Real> held_by(Real weight, const PressureFields<Real>& f) {
+inline Held<Real> held_by(Real weight, const PressureFields<Real>& f,
+                          const StaggeredGrid<Real>& grid) {
     if (!(weight > Real(0))) {
         return {};
     }
     const Real least = maximum(weight, kLeastWeight<Real>);
     const bool slack = f.sound_speed > Real(0);
     return {Real(slack ? 0 : 1), Real(1) / least,
-            slack ? Real(1.0 + 1.0 / 1024.0) * least : Real(0)};  // more than by rounding
+            slack ? Real(1.0 + 1.0 / 1024.0) * least : Real(0),  // more than by rounding
+            grid.inverse_density_u, grid.inverse_density_v};
 }
 
 /// How much too dense a cell is, or too thin where liquid is all around. `lowest`: level of the
 /// lowest cell next to it.
 template <class Real>
-inline Real excess(const PressureFields<Real>& f, const Held<Real>& held, std::int32_t c,
-                   Real lowest) {
+inline Real excess(const GridShape& s, const PressureFields<Real>& f, const Held<Real>& held,
+                   std::int32_t c, Real lowest) {
     Real e = f.density[c] - Real(1);
     if (!(f.level[c] > Real(0) && lowest > Real(0))) {
         return clamp<Real>(e - kSurfaceSlack<Real>, Real(0), kWindow<Real>);
@@ -72,7 +85,7 @@ inline Real excess(const PressureFields<Real>& f, const Held<Real>& held, std::i
         e -= clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
     }
     if (e < Real(0)) {
-        e = held.share(f.pressure[c]) * e;
+        e = held.share(held.pressed(f.pressure[c], s.stride, c)) * e;
     }
     return clamp(e, -kWindow<Real>, kWindow<Real>);
 }
@@ -80,7 +93,7 @@ inline Real excess(const PressureFields<Real>& f, const Held<Real>& held, std::i
 template <class Real>
 [[gnu::noinline]] Real excess(const GridShape& s, const PressureFields<Real>& f,
                               const Held<Real>& held, std::int32_t c) {
-    return excess<Real>(f, held, c,
+    return excess<Real>(s, f, held, c,
                         minimum<Real>(minimum<Real>(f.level[c - 1], f.level[c + 1]),
                                       minimum<Real>(f.level[c - s.stride], f.level[c + s.stride])));
 }
@@ -99,7 +112,7 @@ template <class Real>
     look(walls.open_u[c + 1], c + 1);
     look(walls.open_v[c], c - s.stride);
     look(walls.open_v[c + s.stride], c + s.stride);
-    const Real e = excess<Real>(f, held, c, lowest);
+    const Real e = excess<Real>(s, f, held, c, lowest);
     const Real known = e - clamp(e, -kSubsurfaceSlack<Real>, kSubsurfaceSlack<Real>);
     // What is more than a full cell too much counts by what it is, however little room there is.
     const Real dense = maximum<Real>(Real(1), Real(f.density[c]) - Real(1));
@@ -110,7 +123,8 @@ template <class Real>
 inline ExcessLimits excess_limits(const PressureFields<Real>& fields, const Held<Real>& held) {
     return {static_cast<float>(kSurfaceSlack<Real>), static_cast<float>(kSubsurfaceSlack<Real>),
             static_cast<float>(kWindow<Real>), fields.on_surface,
-            static_cast<float>(held.at_rest), static_cast<float>(held.rise)};
+            static_cast<float>(held.at_rest), static_cast<float>(held.rise),
+            held.light_u, held.light_v};
 }
 
 /// The same where it is told at once: in air, and in a cell with full ones all around.

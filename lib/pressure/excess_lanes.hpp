@@ -14,15 +14,30 @@ struct ExcessLimits {
     bool exact_below;    ///< no allowance below the surface
     float held_at_rest;  ///< as `Held`
     float held_rise;
+    const float* light_u;  ///< as `Held`
+    const float* light_v;
 };
 
 #if WEIR_HAS_LANES
 
+/// As `Held::pressed`.
+template <class L>
+inline typename L::Floats pressed_cells(const PressureFields<float>& f, const ExcessLimits& limits,
+                                        std::int32_t stride, std::int32_t c) {
+    const auto pressure = L::load(f.pressure + c);
+    if (limits.light_u == nullptr) {
+        return pressure;
+    }
+    const auto light = (L::load(limits.light_u + c) + L::load(limits.light_u + c + 1)) +
+                       (L::load(limits.light_v + c) + L::load(limits.light_v + c + stride));
+    return (L::all(0.25F) * light) * pressure;
+}
+
 /// As `excess`; `lowest`: level of the lowest cell next to each.
 template <class L>
 inline typename L::Floats excess_of_cells(const PressureFields<float>& f,
-                                          const ExcessLimits& limits, std::int32_t c,
-                                          typename L::Floats lowest) {
+                                          const ExcessLimits& limits, std::int32_t stride,
+                                          std::int32_t c, typename L::Floats lowest) {
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
     const auto slack = L::all(limits.subsurface_slack);
@@ -37,7 +52,7 @@ inline typename L::Floats excess_of_cells(const PressureFields<float>& f,
         const auto more = e + L::all(0.125F) * missing * missing;
         inside = below ? more - L::clamp(more, -slack, slack) : e;
     }
-    const auto rise = L::all(limits.held_rise) * L::load(f.pressure + c);
+    const auto rise = L::all(limits.held_rise) * pressed_cells<L>(f, limits, stride, c);
     const auto share = L::clamp(L::all(limits.held_at_rest) + rise, zero, one);
     inside = inside < zero ? share * inside : inside;
     return inner ? L::clamp(inside, -window, window) : at_surface;
@@ -51,7 +66,7 @@ inline std::int32_t excess_cells(const PressureFields<float>& f, std::int32_t st
         const auto lowest =
             L::minimum(L::minimum(L::load(f.level + c - 1), L::load(f.level + c + 1)),
                        L::minimum(L::load(f.level + c - stride), L::load(f.level + c + stride)));
-        L::store(f.divergence + c, excess_of_cells<L>(f, limits, c, lowest));
+        L::store(f.divergence + c, excess_of_cells<L>(f, limits, stride, c, lowest));
     }
     return c;
 }
@@ -75,7 +90,7 @@ inline void excess_beside_walls_lanes(const Walls<float>& walls, const PressureF
     look(walls.open_u + c + 1, c + 1);
     look(walls.open_v + c, c - stride);
     look(walls.open_v + c + stride, c + stride);
-    const auto e = excess_of_cells<L>(f, limits, c, lowest);
+    const auto e = excess_of_cells<L>(f, limits, stride, c, lowest);
     const auto slack = L::all(limits.subsurface_slack);
     const auto dense = L::maximum(L::all(1.0F), L::load(f.density + c) - L::all(1.0F));
     const auto room = L::minimum(L::all(1.0F), dense * L::load(walls.full_density + c));

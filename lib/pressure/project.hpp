@@ -25,7 +25,7 @@ template <class Real>
     rise = (pushes ? push_through(fields, wet != wet_before, through) : Real(1)) * rise;
     if (wet != wet_before) {
         const Real share =
-            jet_share(fields, wet ? face : before, wet ? before : face, through);
+            jet_share(fields, wet ? face : before, wet ? before : face, light, through);
         const Real fall = fields.sound_speed > Real(0) ? Real(0) : fields.cell_weight;
         const Real stop = clamp(rise, minimum(was, Real(0)) - fall, maximum(was, Real(0)) + fall);
         rise = share < Real(1) ? stop + share * (rise - stop) : rise;

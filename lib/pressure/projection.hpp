@@ -88,16 +88,16 @@ inline Real push_through(const PressureFields<Real>& fields, bool surface, Real 
 /// the weight of a cell. Densities about a flat surface add up to its fraction and a half; a
 /// compressible liquid's fraction is no less than a quarter, the mean suits that. Incompressible
 /// liquid without weight or with surface tension is left alone: there smooth flow and bent surfaces
-/// make pressure, too.
+/// make pressure, too. `light`: 1/density, for what weighs more than the first liquid presses more.
 template <class Real>
 inline Real jet_share(const PressureFields<Real>& fields, std::int32_t wet, std::int32_t dry,
-                      Real open) {
+                      Real light, Real open) {
     const bool elastic = fields.sound_speed > Real(0);
     const bool weighs = fields.cell_weight > Real(0) && !fields.on_surface;
     const Real fraction = liquid_fraction<Real>(fields, fields.level[wet], fields.level[dry], open);
     const Real both = Real(fields.density[wet]) + Real(fields.density[dry]);
     const Real mass = elastic ? Real(0.5) * both : both - Real(0.5);
-    const Real pressure = fields.pressure[wet] - fields.pressure[dry];
+    const Real pressure = light * (fields.pressure[wet] - fields.pressure[dry]);
     const Real weight = fields.cell_weight * Real(fields.level[wet]);
     if (!(mass > fraction && pressure > weight && (elastic || weighs))) {
         return Real(1);

@@ -104,7 +104,7 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
     const bool pays = fields.cell_weight > Real(0);
-    const Held<Real> held = held_by(fields.cell_weight, fields);
+    const Held<Real> held = held_by(fields.cell_weight, fields, grid);
     work.share(work.take(s.ny, s.nx), s.nx, 1,
                [&](const Part& rows, std::int32_t) { find_excess(s, rows, held, fields); });
     if constexpr (Solids) {

@@ -13,7 +13,9 @@ struct Cell {
     float level[9] = {};
     float pressure[9] = {};
     float result[9] = {};
+    float light[9] = {};
     PressureFields<float> fields;
+    StaggeredGrid<float> grid;
 
     Cell(float how_dense, float how_pressed) {
         fields.density = density;
@@ -25,9 +27,18 @@ struct Cell {
         }
         density[4] = how_dense;
         pressure[4] = how_pressed;
+        grid.shape.stride = 3;
+    }
+    /// One of two liquids, so many times as heavy as the first.
+    void weigh(float ratio) {
+        for (float& one : light) {
+            one = 1.0F / ratio;
+        }
+        grid.inverse_density_u = light;
+        grid.inverse_density_v = light;
     }
     float excess_under(float weight) {
-        return excess<float>(fields, held_by(weight, fields), 4, 2.0F);
+        return excess<float>(grid.shape, fields, held_by(weight, fields, grid), 4, 2.0F);
     }
 };
 
@@ -41,6 +52,17 @@ TEST(Excess, OfWhatHangsIsNoDeficit) {
     EXPECT_FLOAT_EQ(Cell(0.75F, -2.0F).excess_under(1.0F), 0.0F);
     EXPECT_FLOAT_EQ(Cell(1.25F, -2.0F).excess_under(1.0F), 0.25F) << "it may yet be too dense";
     EXPECT_FLOAT_EQ(Cell(0.75F, -2.0F).excess_under(0.0F), -0.25F) << "without gravity";
+}
+
+TEST(Excess, OfWhatHangsCountsByItsOwnWeight) {
+    const auto excess_of = [](float ratio) {
+        Cell cell(0.75F, -0.5F);
+        cell.weigh(ratio);
+        return cell.excess_under(1.0F);
+    };
+    EXPECT_FLOAT_EQ(excess_of(1.0F), -0.125F);
+    EXPECT_FLOAT_EQ(excess_of(4.0F), -0.21875F) << "an eighth of its weight";
+    EXPECT_FLOAT_EQ(excess_of(0.25F), 0.0F) << "twice its weight";
 }
 
 TEST(Excess, OfCompressibleLiquidWantsPressureToBeADeficit) {
