@@ -51,6 +51,13 @@ Real fastest(const Simulation<Real>& simulation) {
     return speed;
 }
 
+/// Density of the lightest liquid: the same tension makes the fastest ripples on it.
+template <class Real>
+Real lightest(const Simulation<Real>& simulation) {
+    const bool two = simulation.pressure.second_liquid != nullptr;
+    return two ? minimum(Real(1), simulation.settings.second_density) : Real(1);
+}
+
 /// Sound that steps are too long for. Liquid that is faster than it piles up: what it then stored
 /// would tear it apart, so sound gives way by as much again.
 template <class Real>
@@ -92,9 +99,10 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     if (settings.viscosity > Real(0)) {
         wanted = maximum(wanted, at_least(settings.viscosity * dt_s / kDiffusion<Real>, most));
     }
+    const Real light = lightest(simulation);
     if (settings.surface_tension > Real(0)) {
-        const Real ripples =
-            dt_s * (square_root(settings.surface_tension) / kRootOfCapillary<Real>);
+        const Real ripples = dt_s * (square_root(settings.surface_tension) /
+                                     (square_root(light) * kRootOfCapillary<Real>));
         wanted = maximum(wanted, at_least(ripples, most));
     }
     plan.substeps = static_cast<std::int16_t>(minimum(wanted, most));
@@ -106,7 +114,7 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     }
     plan.viscosity = minimum(settings.viscosity, kDiffusion<Real> / plan.dt_s);
     plan.surface_tension =
-        minimum(settings.surface_tension, kCapillary<Real> / (plan.dt_s * plan.dt_s));
+        minimum(settings.surface_tension, (light * kCapillary<Real>) / (plan.dt_s * plan.dt_s));
     // Liquid that was just put there has not shown how fast it is. Where forces are counted, what
     // is lost so would have to be settled. Packed liquid cannot do without: it would creep on.
     const bool counts = !Stored<Real>::coarse && simulation.two_way != nullptr;

@@ -317,6 +317,30 @@ TEST(SurfaceTension, IsLoweredToFitTheSubsteps) {
     EXPECT_TRUE(all_inside(*extreme));
 }
 
+/// The same tension makes ripples on a second liquid faster that is a 25th as heavy: a square of it
+/// swings as a drop and does not burst.
+TEST(SurfaceTension, TakesTheSubstepsThatTheLightestLiquidWants) {
+    WorldDef def;
+    def.capacity.cells_x = 32;
+    def.capacity.cells_y = 32;
+    def.capacity.particles = 1024;
+    def.capacity.second_liquid = true;
+    def.second_density_ratio = 0.04F;
+    def.cell_m = 0.002F;
+    def.surface_tension_m3ps2 = 7.3e-5F;
+    def.gravity_mps2 = {0, 0};
+    def.max_substeps = 32;
+    TestWorld<float> world(def);
+    ASSERT_EQ(world->fill({{0.02F, 0.02F}, {0.044F, 0.044F}}, nullptr, Liquid::second), Status::ok);
+    const double fast = std::sqrt(7.3e-5 / 0.04 / 0.0135);  // √(σ/ρR)
+    for (int step = 0; step < 60; ++step) {
+        const StepReport report = world->step(1.0F / 60.0F);
+        ASSERT_EQ(report.clamped, 0U) << step;
+        ASSERT_GE(report.substeps, 20) << step;  // the first liquid's were four
+        ASSERT_LT(static_cast<double>(report.max_speed_mps), 2.0 * fast) << step;
+    }
+}
+
 /// A periodic tank has no edge: a drop across the seam is as much at rest as any.
 TEST(SurfaceTension, ADropAcrossTheSeam) {
     WorldDef def = drop_def(28);
