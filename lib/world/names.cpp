@@ -60,7 +60,7 @@ const char* init_text(Status status) {
         case Status::viscosity_out_of_range:
             return "viscosity_m2ps: choose 0 … 1e6 cells² a second";
         case Status::surface_tension_out_of_range:
-            return "surface_tension_m3ps2: choose 0 … 1e12 cells³/s²";
+            return "surface_tension_m3ps2: choose 0 … 1e12 cells³/s², in Fixed 30,000";
         case Status::surface_tension_needs_projection:
             return "surface tension: choose Pressure::projection, or set it to 0";
         case Status::density_ratio_out_of_range:

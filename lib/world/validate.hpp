@@ -23,7 +23,7 @@ template <class Real>
 inline constexpr Reach kReach{};
 template <>
 inline constexpr Reach kReach<Fixed>{kMaxCellsFixed,   kMaxSpeedFixed, kMaxGravityFixed,
-                                     kFurthestFixed, 30000.0F,       true};
+                                     kFurthestFixed, kMaxTensionFixed, true};
 template <>
 inline constexpr Reach kReach<SmallFixed>{kMaxCellsSmallFixed, kMaxSpeedSmallFixed,
                                           kMaxGravityFixed,    kFurthestFixed,

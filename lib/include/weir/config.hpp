@@ -25,8 +25,9 @@ inline constexpr float kMaxSpeed = 1.0e6F;
 /// Angles of bodies beyond this are refused, rad; faster spin too, rad/s.
 inline constexpr float kMaxAngle = 1.0e4F;
 
-/// What fixed point bears: cells along an axis, speeds in cells/s, gravity in cells/s², places of
-/// bodies in cells from the tank's origin. Beyond it set-up calls refuse, and `set_gravity` limits.
+/// What fixed point bears: cells along an axis, speeds in cells/s, gravity in cells/s², surface
+/// tension in cells³/s² (water's on cells of 1.35 mm and above), places of bodies in cells from the
+/// tank's origin. Beyond it set-up calls refuse, and `set_gravity` limits.
 inline constexpr std::int32_t kMaxCellsFixed = 256;
 inline constexpr std::int32_t kMaxCellsSmallFixed = 255;
 inline constexpr std::int32_t kMaxBodiesSmallFixed = 255;
@@ -35,6 +36,7 @@ inline constexpr float kMaxSpeedSmallFixed = 255.0F;  ///< unless `top_speed_mps
 /// Highest top speed that a definition may promise in SmallFixed, cells/s.
 inline constexpr float kMaxTopSpeedSmallFixed = 2040.0F;
 inline constexpr float kMaxGravityFixed = 30000.0F;
+inline constexpr float kMaxTensionFixed = 30000.0F;
 inline constexpr float kFurthestFixed = 16000.0F;
 
 /// How much of everything a world can ever hold. Memory is a function of this alone.
@@ -190,14 +192,17 @@ struct WorldDef {
     /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps.
     float viscosity_m2ps = 0.0F;
 
-    /// Surface tension over density, m³/s²; 0 (not computed) … 1e12 cells³/s². Water has 7.3e-5,
-    /// which shows on cells of a few millimetres and below. Solids and walls are met at a right
-    /// angle. Explicit: on small cells it costs substeps. With Pressure::projection only.
+    /// Surface tension over density, m³/s²; 0 (not computed) … 1e12 cells³/s², in Fixed
+    /// kMaxTensionFixed. Water has 7.3e-5, which shows on cells of a few millimetres and below.
+    /// Solids and walls are met at a right angle. Explicit: on small cells it costs substeps. With
+    /// Pressure::projection only.
     float surface_tension_m3ps2 = 0.0F;
 
     /// Density of the second liquid over that of the first; 0.01 … 100. Only with
     /// `capacity.second_liquid`, and with Pressure::projection. Unlike densities want more sweeps.
-    /// Poured in, 0.8 rises within 20 s of 30 cells of water, 0.9 within 80.
+    /// Poured in, 0.8 rises within 20 s of 30 cells of water, 0.9 within 80. In Fixed, whose
+    /// pressures have less room, the heavier one is to be the first if it is over ten times as
+    /// heavy: a pool of 20 cells that is 100 times as heavy as the first one sinks.
     float second_density_ratio = 1.0F;
 
     TankWalls walls;
