@@ -33,6 +33,13 @@ std::int32_t copy_rings(BodyTable<Real>& table, const BodyDef& def, Face<Real> c
     return count;
 }
 
+/// What an earlier body left there is none of this one's state, and a snapshot keeps the room.
+template <class Real>
+void clear_pieces(const BodyTable<Real>& table, const Body<Real>& body) {
+    std::uint16_t* list = table.piece_list(body);
+    std::memset(list, 0, static_cast<std::size_t>(table.ring_ends(body) - list) * sizeof *list);
+}
+
 }  // namespace
 
 template <class Real>
@@ -62,6 +69,7 @@ bool add_polygon(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_pe
     body.room = places_for(body.vertex_count, def.holes.size);
     std::uint16_t* ends = table.ring_ends(body);
     std::memmove(ends, list, static_cast<std::size_t>(body.rings) * sizeof *ends);
+    clear_pieces(table, body);
     Outline<Real> outline = table.outline(body);
     outline.vertex = table.local + body.first_vertex;
     if (cut != nullptr) {
@@ -92,6 +100,7 @@ void add_polyline(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_p
     }
     body.room = body.vertex_count;
     body.rings = 1;
+    clear_pieces(table, body);
     *table.ring_ends(body) = static_cast<std::uint16_t>(body.vertex_count);
     table.vertices_used += body.room;
 }
