@@ -127,14 +127,14 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     return extents;
 }
 
-/// Members of a body. Its vertices are kept by slot, whatever their order in the pool was, and
-/// where it was drawn follows from its pose.
+/// Members of a body. Its vertices are kept by slot, whatever their order in the pool was. Where it
+/// is drawn follows from its pose: whether that has been done yet is no state.
 template <class Real, class Stream>
 void body_members(Stream& stream, std::int32_t most_places, const BodyTable<Real>& table,
                   Body<Real>& record) {
-    auto& [position, velocity, angle, spin, surface, radius, first_vertex, vertex_count, room,
-           rings, piece_length, drawn, left, met_position, met_angle, generation, kind, moved,
-           open, hollow, led, leapt] = record;
+    [[maybe_unused]] auto& [position, velocity, angle, spin, surface, radius, first_vertex,
+                            vertex_count, room, rings, piece_length, drawn, left, met_position,
+                            met_angle, generation, kind, moved, open, hollow, led, leapt] = record;
     auto& [restitution, friction, conveyor, no_slip] = surface;
     stream.member(kind, BodyKind::free, BodyKind::moving);
     stream.member(generation, 0, 0xFFFF);
@@ -147,7 +147,6 @@ void body_members(Stream& stream, std::int32_t most_places, const BodyTable<Real
     any_member(stream, conveyor);
     stream.member(no_slip, false, true);
     positive_member(stream, radius);
-    stream.member(moved, false, true);
     stream.member(open, false, true);
     stream.member(led, false, true);
     stream.member(leapt, false, true);

@@ -393,6 +393,22 @@ void happen(World<Real>& world, Dice& dice) {
     }
 }
 
+TEST(Regions, SnapshotDoesNotTellWhetherAnybodyLooked) {
+    Pools<float> pools;
+    pools.add_spinner();
+    pools.pour_left();
+    pools.rest_right();
+    if (testing::Test::HasFatalFailure()) {
+        return;
+    }
+    const std::vector<std::byte> before = saved(*pools, pools_def().capacity);
+    static_cast<void>(pools->pressure());
+    static_cast<void>(pools->density());
+    EXPECT_EQ(saved(*pools, pools_def().capacity), before);
+    expect_ok(pools->restore(before.data(), before.size()));
+    EXPECT_EQ(saved(*pools, pools_def().capacity), before);
+}
+
 constexpr std::int32_t kSteps = 300;
 
 /// Hashes of a world, and how many steps some but not all of it slept.

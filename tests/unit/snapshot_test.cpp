@@ -170,6 +170,44 @@ TEST(Snapshot, NamesOfBodiesHoldAcrossARollback) {
     EXPECT_EQ(world->body_in_slot(0, nullptr), Status::output_missing);
 }
 
+/// Equal worlds have equal snapshots, whatever stood where their bodies stand now.
+TEST(Snapshot, HoldsNothingOfABodyThatIsGone) {
+    WorldDef def = small_def();
+    def.capacity.vertices = 40;
+    def.capacity.wall_edges = 100;
+    const Ring hole = {{0.01F, 0.01F}, {0.03F, 0.01F}, {0.01F, 0.03F}};
+    const View<Vec2f> holes[] = {{hole.data(), 3}};
+    BodyDef before = body_of(kTriangle, {0.1F, 0.1F});
+    before.holes = {holes, 1};
+    for (const bool open : {false, true}) {
+        TestWorld<float> world(def);
+        const Bytes empty = saved(*world, def.capacity);
+        BodyDef after = body_of(kSquare4cm, {0.1F, 0.1F});
+        after.open = open;
+        BodyId id;
+        expect_ok(world->add_static_body(after, &id));
+        const Bytes expected = saved(*world, def.capacity);
+        expect_ok(world->restore(empty.data(), empty.size()));
+        expect_ok(world->add_static_body(before, &id));
+        expect_ok(world->restore(empty.data(), empty.size()));
+        expect_ok(world->add_static_body(after, &id));
+        EXPECT_EQ(saved(*world, def.capacity), expected);
+    }
+}
+
+/// A call that asks where solids are has the picture drawn, and may be refused.
+TEST(Snapshot, DoesNotTellWhetherBodiesWereDrawn) {
+    TestWorld<float> world(small_def());
+    BodyId id;
+    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id));
+    Motion motion = motion_of(*world, id);
+    motion.position_m = {0.2F, 0.2F};
+    expect_ok(world->set_motion(id, motion));
+    const Bytes before = saved(*world, small_def().capacity);
+    EXPECT_EQ(world->add_particle({0.2F, 0.2F}, {}), Status::particle_inside_solid);
+    EXPECT_EQ(saved(*world, small_def().capacity), before);
+}
+
 TEST(Snapshot, FullestWorldFitsItsRoom) {
     WorldDef def = small_def();
     def.capacity.second_liquid = true;
