@@ -3,6 +3,7 @@
 
 #include "pressure/excess_lanes.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "solid/thin_walls.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -200,6 +201,25 @@ inline void find_excess_by_words(const GridShape& s, const Walls<float>& walls,
 }
 #endif
 
+/// The same of cells that a thin wall is near.
+template <class Real>
+void find_excess_beside_thin_walls(const GridShape& s, const Walls<Real>& walls,
+                                   const Held<Real>& held, const Part& rows,
+                                   PressureFields<Real>& fields) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        const Part columns = s.columns(j);
+        const auto next = [&](std::int32_t i) {
+            return next_marked(walls.thin, s, j, j, i, columns.end, kNear);
+        };
+        for (std::int32_t i = next(columns.first); i < columns.end; i = next(i + 1)) {
+            const std::int32_t c = s.index(i, j);
+            if (is_positive(Real(fields.level[c]))) {
+                fields.divergence[c] = excess_beside_wall(s, walls, fields, held, c);
+            }
+        }
+    }
+}
+
 /// The same of the cells beside closed faces. Where it is dry there is none.
 template <class Real>
 void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
@@ -207,24 +227,26 @@ void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
     const Part rows = work.take(s.ny, s.nx);
     if constexpr (kHasLanes<Real>) {
         find_excess_by_words(s, walls, excess_limits(fields, held), rows, fields);
-        return;
+    } else {
+        const auto look = [&](std::int32_t i, std::int32_t j) {
+            const std::int32_t c = s.index(i, j);
+            if (is_positive(Real(fields.level[c]))) {
+                fields.divergence[c] = excess_beside_wall(s, walls, fields, held, c);
+            }
+        };
+        for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
+            look(i, j);
+            if (i > 0 && !is_near(walls, s, i - 1, j)) {
+                look(i - 1, j);
+            }
+            if (j > 0 && !is_near(walls, s, i, j - 1)) {
+                look(i, j - 1);
+            }
+        });
     }
-    const auto wet = [&](std::int32_t c) { return is_positive(Real(fields.level[c])); };
-    const auto look = [&](std::int32_t c) {
-        fields.divergence[c] = excess_beside_wall(s, walls, fields, held, c);
-    };
-    for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
-        const std::int32_t c = s.index(i, j);
-        if (wet(c)) {
-            look(c);
-        }
-        if (i > 0 && wet(c - 1) && !is_near(walls, s, i - 1, j)) {
-            look(c - 1);
-        }
-        if (j > 0 && wet(c - s.stride) && !is_near(walls, s, i, j - 1)) {
-            look(c - s.stride);
-        }
-    });
+    if (walls.thin != nullptr) {
+        find_excess_beside_thin_walls(s, walls, held, rows, fields);
+    }
 }
 
 }  // namespace weir
