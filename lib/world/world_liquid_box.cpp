@@ -8,16 +8,47 @@ namespace weir {
 
 namespace {
 
-/// Of the particles from that one on, visit(index) for each that is in the box.
-template <class Real, class Visit>
-void for_each_in(const BoxInCells<Real>& box, const Particles<Real>& particles, std::int32_t first,
-                 Visit visit) {
-    for (std::int32_t k = first; k < particles.count; ++k) {
-        if (box.holds(particles.position[k])) {
-            visit(k);
+/// Whether a call may go by that box and those liquids now.
+template <class Real>
+Status check_choice(const detail::WorldState<Real>* state, const Box& box_m, Liquids of) {
+    const Status valid = check_box_in(state, box_m);
+    if (valid != Status::ok || of == Liquids::all || of == Liquids::first) {
+        return valid;
+    }
+    if (of != Liquids::second) {
+        return Status::unknown_option;
+    }
+    return state->def.capacity.second_liquid ? Status::ok : Status::no_second_liquid;
+}
+
+/// What a call is about: the particles in a box that are of some liquids.
+template <class Real>
+class Chosen {
+public:
+    Chosen(const detail::WorldState<Real>& state, const Box& box_m, Liquids of)
+        : particles_(state.simulation.particles), box_(state, box_m),
+          one_alone_(of != Liquids::all && particles_.kind != nullptr),
+          kind_(of == Liquids::second ? Liquid::second : Liquid::first) {}
+
+    bool holds(std::int32_t k) const {
+        return box_.holds(particles_.position[k]) && !(one_alone_ && particles_.kind[k] != kind_);
+    }
+    /// Of the particles from that one on, visit(index) for each that is.
+    template <class Visit>
+    void for_each(std::int32_t first, Visit visit) const {
+        for (std::int32_t k = first; k < particles_.count; ++k) {
+            if (holds(k)) {
+                visit(k);
+            }
         }
     }
-}
+
+private:
+    const Particles<Real>& particles_;
+    BoxInCells<Real> box_;
+    bool one_alone_;
+    Liquid kind_;
+};
 
 /// A sum over many numbers of one kind, exact in fixed point, in double else.
 template <class Number>
@@ -79,16 +110,16 @@ private:
 }  // namespace
 
 template <class Real>
-Status World<Real>::drain(const Box& box_m, std::int32_t* removed) {
-    const Status valid = check_box_in(state_, box_m);
+Status World<Real>::drain(const Box& box_m, std::int32_t* removed, Liquids of) {
+    const Status valid = check_choice(state_, box_m, of);
     if (valid != Status::ok) {
         return valid;
     }
     Simulation<Real>& simulation = state_->simulation;
-    const BoxInCells<Real> box(*state_, box_m);
+    const Chosen<Real> chosen(*state_, box_m, of);
     const std::int32_t before = simulation.particles.count;
     for (std::int32_t k = before - 1; k >= 0; --k) {  // who takes a place was looked at
-        if (box.holds(simulation.particles.position[k])) {
+        if (chosen.holds(k)) {
             take_out(simulation, k);
         }
     }
@@ -103,8 +134,8 @@ Status World<Real>::drain(const Box& box_m, std::int32_t* removed) {
 }
 
 template <class Real>
-Status World<Real>::liquid_in(const Box& box_m, LiquidIn* found) const {
-    const Status valid = check_box_in(state_, box_m);
+Status World<Real>::liquid_in(const Box& box_m, LiquidIn* found, Liquids of) const {
+    const Status valid = check_choice(state_, box_m, of);
     if (valid != Status::ok) {
         return valid;
     }
@@ -112,11 +143,10 @@ Status World<Real>::liquid_in(const Box& box_m, LiquidIn* found) const {
         return Status::output_missing;
     }
     const Particles<Real>& particles = state_->simulation.particles;
-    const BoxInCells<Real> box(*state_, box_m);
     Mean<PositionOf<Real>> x, y;
     Mean<VelocityOf<Real>> u, v;
     *found = {};
-    for_each_in(box, particles, 0, [&](std::int32_t k) {
+    Chosen<Real>(*state_, box_m, of).for_each(0, [&](std::int32_t k) {
         ++found->particles;
         x.add(particles.position[k].x);
         y.add(particles.position[k].y);
@@ -136,8 +166,8 @@ Status World<Real>::liquid_in(const Box& box_m, LiquidIn* found) const {
 }
 
 template <class Real>
-Status World<Real>::stir(const Box& box_m, Vec2f velocity_mps, float share) {
-    const Status valid = check_box_in(state_, box_m);
+Status World<Real>::stir(const Box& box_m, Vec2f velocity_mps, float share, Liquids of) {
+    const Status valid = check_choice(state_, box_m, of);
     if (valid != Status::ok) {
         return valid;
     }
@@ -154,12 +184,11 @@ Status World<Real>::stir(const Box& box_m, Vec2f velocity_mps, float share) {
     Simulation<Real>& simulation = state_->simulation;
     const Particles<Real>& particles = simulation.particles;
     Regions<Real>* const regions = simulation.regions;
-    const BoxInCells<Real> box(*state_, box_m);
     const Vec2<Real> velocity = inner_velocity(*state_, velocity_mps);
     const Approach<Real> approach(velocity, share);
     const std::int32_t first = calms && regions != nullptr ? regions->asleep : 0;
     bool any = false;
-    for_each_in(box, particles, first, [&](std::int32_t k) {
+    Chosen<Real>(*state_, box_m, of).for_each(first, [&](std::int32_t k) {
         particles.velocity[k] = approach.from(particles.velocity[k]);
         any = true;
         if (!calms && regions != nullptr) {
@@ -174,8 +203,8 @@ Status World<Real>::stir(const Box& box_m, Vec2f velocity_mps, float share) {
 }
 
 template <class Real>
-Status World<Real>::tag(const Box& box_m, std::uint8_t tag) {
-    const Status valid = check_box_in(state_, box_m);
+Status World<Real>::tag(const Box& box_m, std::uint8_t tag, Liquids of) {
+    const Status valid = check_choice(state_, box_m, of);
     if (valid != Status::ok) {
         return valid;
     }
@@ -183,16 +212,15 @@ Status World<Real>::tag(const Box& box_m, std::uint8_t tag) {
     if (particles.tag == nullptr) {
         return Status::no_particle_tags;
     }
-    const BoxInCells<Real> box(*state_, box_m);
-    for_each_in(box, particles, 0, [&](std::int32_t k) { particles.tag[k] = tag; });
+    Chosen<Real>(*state_, box_m, of).for_each(0, [&](std::int32_t k) { particles.tag[k] = tag; });
     return Status::ok;
 }
 
-#define WEIR_INSTANTIATE(Real)                                           \
-    template Status World<Real>::tag(const Box&, std::uint8_t);          \
-    template Status World<Real>::drain(const Box&, std::int32_t*);       \
-    template Status World<Real>::liquid_in(const Box&, LiquidIn*) const; \
-    template Status World<Real>::stir(const Box&, Vec2f, float);
+#define WEIR_INSTANTIATE(Real)                                                    \
+    template Status World<Real>::tag(const Box&, std::uint8_t, Liquids);          \
+    template Status World<Real>::drain(const Box&, std::int32_t*, Liquids);       \
+    template Status World<Real>::liquid_in(const Box&, LiquidIn*, Liquids) const; \
+    template Status World<Real>::stir(const Box&, Vec2f, float, Liquids);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -240,6 +240,42 @@ TYPED_TEST(LiquidBox, OnlyWhoIsPushedWakes) {
     EXPECT_EQ(world->step(0.01F).particles_asleep, 0);
 }
 
+template <class Real>
+class OfOneLiquid : public testing::Test {};
+using ScalarsOfTwo = testing::Types<float, double, Fixed>;
+TYPED_TEST_SUITE(OfOneLiquid, ScalarsOfTwo);
+
+/// Mixed in every cell: each call finds its own.
+TYPED_TEST(OfOneLiquid, CallsLeaveTheOtherAlone) {
+    WorldDef def = tank();
+    def.capacity.second_liquid = true;
+    def.capacity.particle_tags = true;
+    TestWorld<TypeParam> world(def);
+    const Box all{{0.0F, 0.0F}, {kSide, kSide}};
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, 0.1F}}));
+    expect_ok(world->fill({{0.0F, 0.0F}, {kSide, 0.05F}}, nullptr, Liquid::second));
+    LiquidIn first;
+    LiquidIn second;
+    expect_ok(world->stir(all, {0.5F, 0.0F}, 1.0F, Liquids::second));
+    expect_ok(world->tag(all, 7, Liquids::first));
+    expect_ok(world->liquid_in(all, &first, Liquids::first));
+    expect_ok(world->liquid_in(all, &second, Liquids::second));
+    EXPECT_EQ(first.particles + second.particles, found_in(*world, all).particles);
+    EXPECT_NEAR(first.area_m2, 0.1F * kSide, 1e-6F);
+    EXPECT_NEAR(second.area_m2, 0.05F * kSide, 1e-6F);
+    EXPECT_NEAR(second.velocity_mps.x, 0.5F, 1e-3F);
+    EXPECT_EQ(first.velocity_mps.x, 0.0F);
+    for (std::int32_t k = 0; k < first.particles + second.particles; ++k) {
+        const bool is_first = world->particle_kinds()[k] == Liquid::first;
+        EXPECT_EQ(world->particle_tags()[k], is_first ? 7 : 0);
+    }
+    std::int32_t removed = 0;
+    expect_ok(world->drain(all, &removed, Liquids::second));
+    EXPECT_EQ(removed, second.particles);
+    EXPECT_EQ(found_in(*world, all).particles, first.particles);
+    EXPECT_EQ(world->drain(all, nullptr, static_cast<Liquids>(3)), Status::unknown_option);
+}
+
 TYPED_TEST(LiquidBox, RefusesAndChangesNothing) {
     TestWorld<TypeParam> world(tank());
     expect_ok(world->fill({{0.0F, 0.0F}, {kSide, kSide / 2}}));
@@ -254,6 +290,7 @@ TYPED_TEST(LiquidBox, RefusesAndChangesNothing) {
     EXPECT_EQ(world->stir(box, {0.1F, 0.0F}, 1.001F), Status::share_out_of_range);
     EXPECT_EQ(world->stir(box, {0.1F, 0.0F}, std::nanf("")), Status::share_out_of_range);
     EXPECT_EQ(world->stir({{0.0F, 0.0F}, {INFINITY, 1.0F}}, {}, 0.5F), Status::box_not_finite);
+    EXPECT_EQ(world->drain(box, nullptr, Liquids::second), Status::no_second_liquid);
     StepReport report;
     expect_ok(world->begin_step(0.01F, &report));
     EXPECT_EQ(world->drain(box), Status::step_in_progress);

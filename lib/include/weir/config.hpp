@@ -92,6 +92,8 @@ enum class Contour : std::uint8_t {
 
 /// Which of the two liquids of a tank a particle belongs to.
 enum class Liquid : std::uint8_t { first, second };
+/// Which liquids a call is about.
+enum class Liquids : std::uint8_t { all, first, second };
 
 /// A free-running counter, any unit, never decreasing. Null: the report's ticks stay 0.
 using TickFunction = std::uint64_t (*)();

@@ -121,19 +121,20 @@ public:
     /// Removes what is in a box: an outlet, a cup that is drunk from. Looks at each particle once.
     /// Of this box and those below what reaches beyond the tank is cut off.
     /// @param removed number of particles, may be null.
-    Status drain(const Box& box_m, std::int32_t* removed = nullptr);
+    /// @param of of one liquid alone, here and below: a skimmer that takes the oil.
+    Status drain(const Box& box_m, std::int32_t* removed = nullptr, Liquids of = Liquids::all);
     /// How much liquid is in a box, where, and how fast: a scale under a cup, a flow meter in a
     /// pipe, the current that carries a leaf. Looks at each particle once.
-    Status liquid_in(const Box& box_m, LiquidIn* found) const;
+    Status liquid_in(const Box& box_m, LiquidIn* found, Liquids of = Liquids::all) const;
     /// Brings what is in a box nearer to a velocity, by a share 0 … 1 of the difference: a kick
     /// (1), a fan or a finger (0.1 before each step). Velocity zero over the whole tank calms it,
     /// by a rate r with share r · dt, wakes nobody and keeps nobody awake. Looks at each particle
     /// once.
-    Status stir(const Box& box_m, Vec2f velocity_mps, float share);
+    Status stir(const Box& box_m, Vec2f velocity_mps, float share, Liquids of = Liquids::all);
     /// Gives what is in a box a number of the caller's, which stays with each particle wherever it
     /// goes in the tank and in the views: dye, whose it is, what the game says of it. 0 at first.
     /// It changes nothing else. Wants `capacity.particle_tags`. Looks at each particle once.
-    Status tag(const Box& box_m, std::uint8_t tag);
+    Status tag(const Box& box_m, std::uint8_t tag, Liquids of = Liquids::all);
     /// The same for the particle at that place in the views; the newest is the last one.
     Status tag_particle(std::int32_t index, std::uint8_t tag);
 
