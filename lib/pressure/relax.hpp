@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pressure/face_weights.hpp"
+#include "pressure/parting.hpp"
 #include "pressure/relax_fpu.hpp"
 #include "pressure/relax_lanes.hpp"
 
@@ -24,14 +25,21 @@ inline void relax_cell(Real& p, Real sum, Real divergence, Real inverse) {
     p += kRelaxation<Real> * (target - p);
 }
 
-/// A cell that a wall touches, or two liquids. Not inline: most are not.
+/// A cell that a wall touches, or two liquids. A wall does not pull at liquid that air can come to:
+/// it parts from the wall instead, and the flow out of its cell is not stopped (Batty, Bertails &
+/// Bridson 2007: p >= 0). Not inline: most cells are not such.
 template <bool Solids, bool Mixed, class Real>
 [[gnu::noinline]] void relax_weighted(const FaceWeights<Solids, Mixed, Real>& weights,
                                       std::int32_t c, PressureFields<Real>& fields) {
     const Real inverse = fields.inverse_diagonal[c];
     if (inverse != Real(0)) {
-        relax_cell<Real>(fields.pressure[c], weights.weighted(fields.pressure, c, inverse),
+        Real& p = fields.pressure[c];
+        relax_cell<Real>(p, weights.weighted(fields.pressure, c, inverse),
                          fields.divergence[c], Solids ? absolute(inverse) : inverse);
+        if (Solids && inverse < Real(0) && p < Real(0) && may_part(fields) &&
+            has_air_around(fields, weights.walls.full_density, weights.grid.shape, c)) {
+            p = Real(0);
+        }
     }
 }
 
@@ -88,8 +96,9 @@ template <bool Solids, bool Mixed, class Real>
     if constexpr (kHasLanes<Real> && !(Solids && Mixed)) {
         const float* on_u = Solids ? weights.walls.open_u : weights.grid.inverse_density_u;
         const float* on_v = Solids ? weights.walls.open_v : weights.grid.inverse_density_v;
+        const float* full = Solids && may_part(fields) ? weights.walls.full_density : nullptr;
         if (relax_in_lanes(
-                {fields, on_u, on_v, Mixed, kRelaxation<Real>, s.stride, c, end, rows})) {
+                {fields, on_u, on_v, full, s, Mixed, kRelaxation<Real>, s.stride, c, end, rows})) {
             return;
         }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/four_lanes.hpp"
+#include "pressure/parting.hpp"
 #include "pressure/wide_cells.hpp"
 
 namespace weir {
@@ -14,6 +15,8 @@ struct RelaxTask {
     const PressureFields<float>& fields;
     const float* open_u;  ///< open fractions, read beside cells whose inverse diagonal is negative;
     const float* open_v;  ///< elsewhere they are 1. Of two liquids 1/density, read everywhere
+    const float* full_density;  ///< null: no liquid may part from walls
+    const GridShape& shape;
     bool two_liquids;
     float omega;
     std::int32_t stride;
@@ -53,6 +56,20 @@ constexpr bool enough_alternate(std::int32_t c, std::int32_t end, std::int32_t l
 /// Which cells' neighbours are weighted: those at walls or, of two liquids, all.
 enum class Weighing { nowhere, at_walls, everywhere };
 
+/// No pull at walls where air can come in, as `relax_weighted` has it: of the cells of a group,
+/// whose lanes may be in any order. Not inline: few groups have a pull at a wall.
+template <class L>
+[[gnu::noinline]] void part_from_walls(const RelaxTask& task, std::int32_t c) {
+    const float* const inverse = task.fields.inverse_diagonal;
+    float* const p = task.fields.pressure;
+    for (const std::int32_t end = c + 2 * L::kLanes; c < end; c += 2) {
+        if (inverse[c] < 0.0F && p[c] < 0.0F &&
+            has_air_around(task.fields, task.full_density, task.shape, c)) {
+            p[c] = 0.0F;
+        }
+    }
+}
+
 /// Every other cell from c on, as many as there are lanes, of those that are asked for.
 template <class L, Weighing Where>
 [[gnu::always_inline]] inline typename L::Floats relax_group(const RelaxTask& task,
@@ -74,6 +91,7 @@ template <class L, Weighing Where>
     const auto lower = every_second(p + c - stride);
     const auto upper = every_second(p + c + stride);
     auto sum = (left + here.odd) + (lower + upper);
+    const auto at_wall = inverse < zero;
     if (Where == Weighing::everywhere ||
         (Where == Weighing::at_walls && L::any_negative(inverse))) {
         const auto u = L::load_alternate(task.open_u + c);
@@ -85,6 +103,12 @@ template <class L, Weighing Where>
     const auto target = (sum - every_second(fields.divergence + c)) * inverse;
     const auto relaxed = here.even + L::all(task.omega) * (target - here.even);
     L::store_alternate(p + c, wet ? relaxed : here.even, here.odd);
+    if constexpr (Where == Weighing::at_walls) {
+        const auto pulled = at_wall & wet & (relaxed < zero);
+        if (task.full_density != nullptr && L::any_true(pulled)) {
+            part_from_walls<L>(task, c);
+        }
+    }
     return here.odd;
 }
 

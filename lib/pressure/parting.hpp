@@ -1,0 +1,40 @@
+// Where liquid may part from a wall.
+#pragma once
+
+#include "pressure/pressure_fields.hpp"
+
+namespace weir {
+
+/// Air that may come between liquid and a wall is in a cell that shows so much of its full density
+/// when all around it is full: its centre is clear of the wall. Slivers without liquid do not
+/// count: they come and go under any film.
+template <class Real>
+inline constexpr Real kClear = Real(0.75);
+
+/// Whether there is air in one of the eight cells around a cell, as far as they are in the tank.
+template <class Real>
+[[gnu::always_inline]] inline bool has_air_around(const PressureFields<Real>& fields,
+                                                  const ShareOf<Real>* full_density,
+                                                  const GridShape& s, std::int32_t c) {
+    const std::int32_t from_first = c - s.index(0, 0);
+    const std::int32_t j = from_first / s.stride;
+    const std::int32_t i = from_first - j * s.stride;
+    for (std::int32_t y = j > 0 ? j - 1 : j; y <= j + 1 && y < s.ny; ++y) {
+        for (std::int32_t x = i > 0 ? i - 1 : i; x <= i + 1 && x < s.nx; ++x) {
+            const std::int32_t n = c + (y - j) * s.stride + (x - i);
+            if (!(Real(fields.level[n]) > Real(0)) &&
+                Real(full_density[n]) >= kClear<Real>) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Whether liquid may part from walls at all: with surface tension it clings to them.
+template <class Real>
+inline bool may_part(const PressureFields<Real>& fields) {
+    return !fields.on_surface;
+}
+
+}  // namespace weir
