@@ -217,6 +217,10 @@ struct EightLanes {
     static Ints sums_of_products(Ints a, Ints b, Shorts f) {
         return __builtin_ia32_pmaddwd256(__builtin_ia32_packssdw256(a, b), f);
     }
+    /// Which sum `sums_of_products` has in a lane.
+    static std::int32_t place_of_sum(std::int32_t lane) {
+        return (lane & 1) | (lane & 2) << 1 | (lane & 4) >> 1;
+    }
     struct Alternate {
         Floats even;  ///< 0, 2, 8, 10, 4, 6, 12, 14
         Floats odd;   ///< 1, 3, 9, 11, 5, 7, 13, 15

@@ -188,6 +188,8 @@ struct FourLanes {
                __builtin_shufflevector(a, b, 1, 3, 5, 7) * Ints{y, y, y, y};
 #endif
     }
+    /// Which of them it has in a lane.
+    static std::int32_t place_of_sum(std::int32_t lane) { return lane; }
     /// Every second of twice as many numbers, from the first one on and from the second one on, in
     /// an order of their own.
     struct Alternate {

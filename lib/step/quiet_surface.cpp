@@ -1,5 +1,6 @@
 #include "step/quiet_surface.hpp"
 
+#include "step/quiet_lanes.hpp"
 #include "step/quiet_packed.hpp"
 
 namespace weir {
@@ -126,7 +127,34 @@ struct Quieting {
                            its);
     }
 
+#if WEIR_HAS_LANES
+    /// Few particles have a share, and many are looked at in one.
+    void quiet_in_lanes(const Shares<float>& shares, const Particles<float>& particles) const {
+        const std::int32_t stride = grid.shape.stride;
+        const SharedCells cells{shares.of + stride + 1, stride, shares.first_row(),
+                                shares.end_row(), grid.shape.index(0, 0) - (stride + 1)};
+        std::int32_t number[kMostLooked];
+        for (std::int32_t k = 0; k < particles.count; k += kMostLooked) {
+            const std::int32_t count = minimum(kMostLooked, particles.count - k);
+            const Vec2<float>* position = particles.position + k;
+            const std::int32_t found = find_all_sharing(cells, &position->x, count, number);
+            for (std::int32_t n = 0; n < found; ++n) {
+                const Vec2<float>& x = position[number[n]];
+                const float its = cells.share[static_cast<std::int32_t>(x.y) * stride +
+                                              static_cast<std::int32_t>(x.x)];
+                quiet(its, x, particles.velocity[k + number[n]]);
+            }
+        }
+    }
+#endif
+
     void quiet_all(const Shares<Real>& shares, const Particles<Real>& particles) const {
+#if WEIR_HAS_LANES
+        if constexpr (kHasLanes<Real>) {
+            quiet_in_lanes(shares, particles);
+            return;
+        }
+#endif
         const auto first = bound_key(Real(shares.first_row()));
         const auto end = bound_key(Real(shares.end_row()));
         const VelocityOf<Real>* const first_share = shares.of + grid.shape.stride + 1;

@@ -2,6 +2,7 @@
 
 #include "math/eight_lanes.hpp"
 #include "step/extent_lanes.hpp"
+#include "step/quiet_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
 
@@ -30,6 +31,11 @@ void scatter_component_wide(const float* position, const float* velocity, std::i
 
 void find_extremes_wide(const float* position, std::int32_t particles, float* low, float* high) {
     find_extremes<EightLanes>(position, particles, low, high);
+}
+
+std::int32_t find_sharing_wide(const SharedCells& cells, const float* position,
+                               std::int32_t count, std::int32_t* number, std::int32_t& found) {
+    return find_sharing<EightLanes>(cells, position, count, number, found);
 }
 
 }  // namespace weir
