@@ -67,10 +67,19 @@ void mirror_field(const Walls<Real>& walls, const TwoFields<Real>& both, bool wa
 /// Rows further apart than this do not read each other: the mirror point of the deepest face is
 /// twice kDeepestMirror away, and its stencil begins a cell further on.
 constexpr std::int32_t kRowsHeld = 5;
+/// So many more rows later faces are computed that wait for others, to fill groups of lanes.
+constexpr std::int32_t kRowsWaiting = 2;
 /// Faces of rows that are computed and not yet written find room in scratch, by turns: three
-/// numbers each, in as many rows.
+/// numbers each, in as many rows. Low tanks have no room for any that wait.
 constexpr std::int32_t kTurns = kRowsHeld + 1;
-constexpr std::int32_t kRowsOfTurns = 3 * kTurns;
+constexpr std::int32_t kMostTurns = kTurns + kRowsWaiting;
+constexpr std::int32_t rows_of(std::int32_t turns) {
+    return 3 * turns;
+}
+template <class Real>
+constexpr std::int32_t turns_in(const GridShape& s) {
+    return kHasLanes<Real> && s.ny >= rows_of(kMostTurns) ? kMostTurns : kTurns;
+}
 
 /// One component of both fields, on the same faces.
 template <class Real>
@@ -79,25 +88,31 @@ struct BothFields {
     VelocityOf<Real>* now;
     VelocityOf<Real>* was;
     VelocityOf<Real>* scratch;
-    std::int32_t held[kTurns] = {};  ///< how many faces of a row
+    std::int32_t turns;
+    std::int32_t held[kMostTurns] = {};  ///< how many faces of a row
 
-    VelocityOf<Real>& number(std::int32_t j, std::int32_t which, std::int32_t k) const {
-        return scratch[axis.s.index(k, 3 * (j % kTurns) + which)];
+    /// Columns of a turn's faces; what they take stands in the two rows behind.
+    VelocityOf<Real>* columns(std::int32_t turn) const {
+        return scratch + axis.s.index(0, 3 * turn);
     }
     void hold(std::int32_t i, std::int32_t j, Real now_there, Real was_there) {
-        const std::int32_t k = held[j % kTurns]++;
-        number(j, 0, k) = static_cast<Real>(i);
-        number(j, 1, k) = now_there;
-        number(j, 2, k) = was_there;
+        const std::int32_t turn = j % turns;
+        VelocityOf<Real>* there = columns(turn) + held[turn]++;
+        there[0] = static_cast<Real>(i);
+        there[axis.s.stride] = now_there;
+        there[2 * axis.s.stride] = was_there;
     }
     void write(std::int32_t j) {
-        for (std::int32_t k = 0; k < held[j % kTurns]; ++k) {
-            const std::int32_t face =
-                axis.s.index(static_cast<std::int32_t>(Real(number(j, 0, k))), j);
-            now[face] = number(j, 1, k);
-            was[face] = number(j, 2, k);
+        const std::int32_t turn = j % turns;
+        const std::int32_t row = axis.s.index(0, j);
+        const std::int32_t up = axis.s.stride;
+        const VelocityOf<Real>* there = columns(turn);
+        for (std::int32_t left = held[turn]; left > 0; --left, ++there) {
+            const std::int32_t face = row + static_cast<std::int32_t>(Real(there[0]));
+            now[face] = there[up];
+            was[face] = there[2 * up];
         }
-        held[j % kTurns] = 0;
+        held[turn] = 0;
     }
 };
 
@@ -110,6 +125,10 @@ struct BothMirrors {
     Velocity<Real> was;
     BothFields<Real> u;
     BothFields<Real> v;
+#if WEIR_HAS_LANES
+    MirrorFaces waiting_u = {};
+    MirrorFaces waiting_v = {};
+#endif
 
     void face(BothFields<Real>& of, std::int32_t i, std::int32_t j) {
         if (wants_image(of.axis, fields, of.axis.s.index(i, j))) {
@@ -125,37 +144,36 @@ struct BothMirrors {
 
 #if WEIR_HAS_LANES
     template <bool OnU>
-    void find(const MirrorTask& task, const MirrorFaces& faces, std::int32_t j,
+    void find(const MirrorTask& task, const MirrorFaces& faces, std::int32_t count,
               Mirrors& found) const {
-        if (faces.count > 4) {
-            wide_faces()->find_mirrors(task, OnU, faces, j, found);
+        if (count > 4) {
+            wide_faces()->find_mirrors(task, OnU, faces, found);
         } else {
-            find_mirrors<FourLanes, OnU>(task, faces, j, found);
+            find_mirrors<FourLanes, OnU>(task, faces, found);
         }
         const FaceAxis<float>& axis = OnU ? u.axis : v.axis;
-        for (std::int32_t k = 0; walls.moving && k < faces.count; ++k) {
+        for (std::int32_t k = 0; walls.moving && k < count; ++k) {
             const std::int32_t face = faces.face[k];
             const Vec2<float> wall = wall_velocity(walls, face, face + axis.other_node(),
-                                                   axis.centre(faces.column[k], j));
+                                                   axis.centre(faces.column[k], faces.row[k]));
             found.wall_x[k] = wall.x;
             found.wall_y[k] = wall.y;
         }
     }
 
+    /// All that wait.
     template <bool OnU>
-    void in_lanes(const MirrorTask& task, MirrorFaces& faces, std::int32_t j) {
+    void in_lanes(const MirrorTask& task, MirrorFaces& faces) {
         BothFields<float>& of = OnU ? u : v;
-        for (std::int32_t k = faces.count; k < (faces.count > 4 ? 8 : 4); ++k) {
-            faces.face[k] = faces.face[0];
-            faces.column[k] = faces.column[0];
-        }
+        const std::int32_t count = faces.fill_up();
+        faces.count = 0;
         Mirrors mirrors;
-        find<OnU>(task, faces, j, mirrors);
-        std::uint32_t found = mirrors.wet & ((1U << faces.count) - 1U);
-        std::uint32_t dry = found ^ ((1U << faces.count) - 1U);
-        for (; dry != 0; dry &= dry - 1U) {
+        find<OnU>(task, faces, count, mirrors);
+        const std::uint32_t all = (1U << count) - 1U;
+        std::uint32_t found = mirrors.wet & all;
+        for (std::uint32_t dry = found ^ all; dry != 0; dry &= dry - 1U) {
             const std::int32_t k = __builtin_ctz(dry);
-            if (look_again(of.axis, faces.face[k], faces.column[k], j, mirrors, k)) {
+            if (look_again(of.axis, faces, mirrors, k)) {
                 found |= 1U << static_cast<std::uint32_t>(k);
             }
         }
@@ -163,24 +181,27 @@ struct BothMirrors {
             return;
         }
         MirrorChanges changes;
-        if (faces.count > 4) {
+        if (count > 4) {
             wide_faces()->mirror_faces(task, OnU, faces.face, mirrors, changes);
         } else {
             mirror_faces<FourLanes, OnU>(task, faces.face, mirrors, changes);
         }
         for (; found != 0; found &= found - 1U) {
             const std::int32_t k = __builtin_ctz(found);
-            of.hold(faces.column[k], j, changes.now[k], changes.was[k]);
+            of.hold(faces.column[k], faces.row[k], changes.now[k], changes.was[k]);
         }
     }
 
     /// A face whose mirror point lies in no liquid cell: whether one is near it. Else it may mirror
     /// the other side.
-    bool look_again(const FaceAxis<float>& axis, std::int32_t there, std::int32_t i, std::int32_t j,
-                    const Mirrors& mirrors, std::int32_t k) {
+    bool look_again(const FaceAxis<float>& axis, const MirrorFaces& faces, const Mirrors& mirrors,
+                    std::int32_t k) {
         if (near_liquid(axis.s, fields.level, mirrors.point(k))) {
             return true;
         }
+        const std::int32_t there = faces.face[k];
+        const std::int32_t i = faces.column[k];
+        const std::int32_t j = faces.row[k];
         const Edge<float> edge{axis.centre(i, j), there, there + axis.other_node()};
         Mirror<float> mirror;
         if (from_other_side(axis, edge, mirrors.normal(k), mirror)) {
@@ -190,20 +211,14 @@ struct BothMirrors {
     }
 
     template <bool OnU>
-    void add(const MirrorTask& task, MirrorFaces& faces, std::int32_t i, std::int32_t j) {
-        faces.face[faces.count] = task.s.index(i, j);
-        faces.column[faces.count] = i;
-        if (++faces.count == task.at_once) {
-            in_lanes<OnU>(task, faces, j);
-            faces.count = 0;
-        }
-    }
-
-    template <bool OnU>
-    void add_all(const MirrorTask& task, MirrorFaces& faces, std::int32_t from, std::uint32_t which,
-                 std::int32_t j) {
+    void add_all(const MirrorTask& task, std::int32_t from, std::uint32_t which, std::int32_t j) {
+        MirrorFaces& faces = OnU ? waiting_u : waiting_v;
         for (; which != 0; which &= which - 1U) {
-            add<OnU>(task, faces, from + __builtin_ctz(which), j);
+            const std::int32_t i = from + __builtin_ctz(which);
+            faces.add(task.s.index(i, j), i, j);
+            if (faces.count == task.at_once) {
+                in_lanes<OnU>(task, faces);
+            }
         }
     }
 
@@ -213,44 +228,56 @@ struct BothMirrors {
                                : faces_to_mirror<FourLanes>(task, first);
     }
 
+    MirrorTask mirror_task() const {
+        const GridShape& s = now.shape;
+        return {s,
+                walls.distance,
+                fields.level,
+                now.u,
+                now.v,
+                was.u,
+                was.v,
+                within_tank(s, Vec2<float>{-1.0F, -1.0F}),
+                within_tank(s, Vec2<float>{__builtin_inff(), __builtin_inff()}),
+                was.goes_along,
+                was.all_count,
+                mirrors_at_once(),
+                walls.open_u,
+                walls.open_v,
+                fields.density,
+                walls.thin != nullptr};
+    }
+
+    /// Eight cells of a row from i on of which some are marked.
+    void add_eight(const MirrorTask& task, std::int32_t i, std::uint32_t marked, std::int32_t j) {
+        // Some of those before once more, that none is beyond the row.
+        const std::int32_t from = minimum(i, task.s.nx - 8);
+        FacesToMirror faces = look_at_eight(task, task.s.index(from, j));
+        faces.u &= marked << (i - from);
+        faces.v &= marked << (i - from);
+        add_all<true>(task, from, i > 0 ? faces.u : faces.u & ~1U, j);
+        add_all<false>(task, from, j > 0 ? faces.v : 0U, j);
+    }
+
+    /// Those that have waited for rows enough, or all of them, wait no longer.
     void row_in_lanes(std::int32_t j) {
         const GridShape& s = now.shape;
-        const MirrorTask task{s,
-                              walls.distance,
-                              fields.level,
-                              now.u,
-                              now.v,
-                              was.u,
-                              was.v,
-                              within_tank(s, Vec2<float>{-1.0F, -1.0F}),
-                              within_tank(s, Vec2<float>{__builtin_inff(), __builtin_inff()}),
-                              was.goes_along,
-                              was.all_count,
-                              mirrors_at_once(),
-                              walls.open_u,
-                              walls.open_v,
-                              fields.density,
-                              walls.thin != nullptr};
-        MirrorFaces on_u;
-        MirrorFaces on_v;
+        const MirrorTask task = mirror_task();
         const std::uint32_t* near = first_near(s, walls, j);
-        for (std::int32_t i = 0; i < s.nx; i += 8) {
-            const std::uint32_t marked = near[i / 32] >> (i % 32) & 0xFFU;
-            if (marked != 0) {
-                // Some of those before once more, that none is beyond the row.
-                const std::int32_t from = minimum(i, s.nx - 8);
-                FacesToMirror faces = look_at_eight(task, s.index(from, j));
-                faces.u &= marked << (i - from);
-                faces.v &= marked << (i - from);
-                add_all<true>(task, on_u, from, i > 0 ? faces.u : faces.u & ~1U, j);
-                add_all<false>(task, on_v, from, j > 0 ? faces.v : 0U, j);
+        for (std::int32_t k = 0; 32 * k < s.nx; ++k) {
+            for (std::uint32_t left = near[k]; left != 0;) {
+                const std::uint32_t eight = static_cast<std::uint32_t>(__builtin_ctz(left)) & ~7U;
+                add_eight(task, 32 * k + static_cast<std::int32_t>(eight), left >> eight & 0xFFU,
+                          j);
+                left &= ~(0xFFU << eight);
             }
         }
-        if (on_u.count > 0) {
-            in_lanes<true>(task, on_u, j);
+        const std::int32_t waited = j + 1 < s.ny ? u.turns - kTurns : 0;
+        if (waiting_u.count > 0 && waiting_u.row[0] <= j - waited) {
+            in_lanes<true>(task, waiting_u);
         }
-        if (on_v.count > 0) {
-            in_lanes<false>(task, on_v, j);
+        if (waiting_v.count > 0 && waiting_v.row[0] <= j - waited) {
+            in_lanes<false>(task, waiting_v);
         }
     }
 #endif
@@ -280,20 +307,22 @@ template <class Real>
 void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
                      PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
+    const std::int32_t turns = turns_in<Real>(s);
     BothMirrors<Real> mirrors{
         walls,
         fields,
         both.now,
         both.was,
-        {{s, walls, true}, grid.u, grid.mass_u, fields.divergence},
-        {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal}};
-    for (std::int32_t front = 0; front < s.ny + kRowsHeld; ++front) {
+        {{s, walls, true}, grid.u, grid.mass_u, fields.divergence, turns},
+        {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal, turns}};
+    const std::int32_t held = turns - 1;
+    for (std::int32_t front = 0; front < s.ny + held; ++front) {
         if (front < s.ny) {
             mirrors.row(front);
         }
-        if (front >= kRowsHeld) {
-            mirrors.u.write(front - kRowsHeld);
-            mirrors.v.write(front - kRowsHeld);
+        if (front >= held) {
+            mirrors.u.write(front - held);
+            mirrors.v.write(front - held);
         }
     }
 }
@@ -311,7 +340,7 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     if (enough && rows.first == 0 && rows.end == s.ny && work.pieces(s.ny, s.nx, 1) <= 1) {
         if constexpr (Stored<Real>::coarse) {
             done = packed::BothMirrors(walls, both, fields, grid).mirror();
-        } else if (s.ny >= kRowsOfTurns) {
+        } else if (s.ny >= rows_of(kTurns)) {
             mirror_together(walls, both, fields, grid);
             done = true;
         }

@@ -41,9 +41,9 @@ struct FacesWith {
         return extrapolate_faces<L>(task) || extrapolate_faces<EightLanes>(task);
     }
     static void find(const MirrorTask& task, bool on_u, const MirrorFaces& faces,
-                     std::int32_t j, Mirrors& found) {
+                     Mirrors& found) {
         const auto look = on_u ? find_mirrors<EightLanes, true> : find_mirrors<EightLanes, false>;
-        look(task, faces, j, found);
+        look(task, faces, found);
     }
     static void mirror(const MirrorTask& task, bool on_u, const std::int32_t* face,
                        const Mirrors& mirrors, MirrorChanges& changes) {

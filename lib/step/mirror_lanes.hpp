@@ -63,12 +63,28 @@ inline FacesToMirror faces_to_mirror(const MirrorTask& task, std::int32_t first)
     return found;
 }
 
-/// Faces of a row that are to be mirrored together.
+/// Faces that are to be mirrored together, row by row.
 inline constexpr std::int32_t kMostMirrors = 8;
 struct MirrorFaces {
     std::int32_t count = 0;
     std::int32_t face[kMostMirrors];
     std::int32_t column[kMostMirrors];
+    std::int32_t row[kMostMirrors];
+
+    void add(std::int32_t at, std::int32_t i, std::int32_t j) {
+        face[count] = at;
+        column[count] = i;
+        row[count] = j;
+        ++count;
+    }
+    /// To groups of four or eight: with the first one. Returns how many there were.
+    std::int32_t fill_up() {
+        const std::int32_t there = count;
+        while (count % 4 != 0 || (there > 4 && count < kMostMirrors)) {
+            add(face[0], column[0], row[0]);
+        }
+        return there;
+    }
 };
 
 /// Where they take their velocities from.
@@ -220,8 +236,7 @@ inline void look_at_points(const MirrorTask& task, const std::int32_t* face,
 
 /// All but the walls' velocities.
 template <class L, bool OnU>
-inline void find_mirrors(const MirrorTask& task, const MirrorFaces& faces, std::int32_t j,
-                         Mirrors& found) {
+inline void find_mirrors(const MirrorTask& task, const MirrorFaces& faces, Mirrors& found) {
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
     const auto half = L::all(0.5F);
@@ -234,7 +249,7 @@ inline void find_mirrors(const MirrorTask& task, const MirrorFaces& faces, std::
     const auto depth = -L::minimum(at.distance, zero);
     const auto reach = L::maximum(depth, one);
     const auto x = L::floats(L::load_whole(faces.column) + task.s.i0);
-    const auto y = L::all(static_cast<float>(task.s.j0 + j));
+    const auto y = L::floats(L::load_whole(faces.row) + task.s.j0);
     const LaneVectors<L> way = normal.times(depth + reach);
     const LaneVectors<L> point{
         L::clamp((OnU ? x : x + half) + way.x, L::all(task.low.x), L::all(task.high.x)),

@@ -28,7 +28,7 @@ struct WideFaces {
     bool (*extrapolate_faces)(const ExtrapolateTask& task);
     FacesToMirror (*faces_to_mirror)(const MirrorTask& task, std::int32_t first);
     void (*find_mirrors)(const MirrorTask& task, bool on_u, const MirrorFaces& faces,
-                         std::int32_t j, Mirrors& found);
+                         Mirrors& found);
     void (*mirror_faces)(const MirrorTask& task, bool on_u, const std::int32_t* face,
                          const Mirrors& mirrors, MirrorChanges& changes);
     std::int32_t (*unpack_pairs)(const float* pairs, std::int32_t k, std::int32_t end,
