@@ -272,6 +272,10 @@ struct EightLanes {
         return {floats_at<4>(from - 1, n), floats_at<4>(from, n), floats_at<4>(from + 1, n)};
     }
     static Floats numbers_at(const float* from, Ints at) { return floats_at<4>(from, at); }
+    /// Two bytes more than the last one are read.
+    static Ints shorts_at(const std::uint16_t* from, Ints at) {
+        return whole_at<2>(reinterpret_cast<const std::int32_t*>(from), at) & 0xFFFF;
+    }
     template <class Number>
     static Ints load_whole(const Number* from) {
         Ints lanes;

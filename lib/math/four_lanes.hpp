@@ -145,6 +145,9 @@ struct FourLanes {
     static Floats numbers_at(const float* from, Ints at) {
         return Floats{from[at[0]], from[at[1]], from[at[2]], from[at[3]]};
     }
+    static Ints shorts_at(const std::uint16_t* from, Ints at) {
+        return Ints{from[at[0]], from[at[1]], from[at[2]], from[at[3]]};
+    }
     static Ints load_whole(const std::int32_t* from) {
         Ints lanes;
         __builtin_memcpy(&lanes, from, sizeof lanes);

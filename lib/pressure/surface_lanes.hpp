@@ -51,11 +51,15 @@ inline std::int32_t density_cells(const StaggeredGrid<float>& grid, const CutDen
         auto density = wet ? mass * L::all(per_face) : zero;
         if (cut.full != nullptr) {
             const auto full = L::load(cut.full + c);
-            const auto shown = full < L::all(cut.least) ? L::all(kNoRoom<float>) : density / full;
-            density = (wet & (full < L::all(1.0F))) ? shown : density;
-            if (L::any_true(wet & (full < L::all(cut.sliver)))) {
-                slivers.first = slivers.first == slivers.end ? c : slivers.first;
-                slivers.end = c + L::kLanes;
+            const auto partly = wet & (full < L::all(1.0F));
+            if (L::any_true(partly)) {
+                const auto shown =
+                    full < L::all(cut.least) ? L::all(kNoRoom<float>) : density / full;
+                density = partly ? shown : density;
+                if (L::any_true(wet & (full < L::all(cut.sliver)))) {
+                    slivers.first = slivers.first == slivers.end ? c : slivers.first;
+                    slivers.end = c + L::kLanes;
+                }
             }
         }
         L::store(fields.density + c, density);

@@ -1,37 +1,12 @@
 // What walls that move push into cells, some at a time: the plain loop's sums, and so its bits.
 #pragma once
 
-#include <cstddef>
-
 #include "pressure/plain_lanes.hpp"
+#include "solid/bodies_lanes.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
-
-/// The bodies at faces c … of one component.
-template <class L>
-struct BodiesAtFaces {
-    const float* body;
-    typename L::Ints at;   ///< of the body, in numbers of 32 bits
-    typename L::Ints any;  ///< a body is near
-
-    BodiesAtFaces(const Walls<float>& walls, std::int32_t c, std::int32_t to_other)
-        : body(&walls.body->position.x) {
-        const float* d = walls.distance + c;
-        const auto slot = L::load(d) < L::load(d + to_other)
-                              ? L::shorts(walls.nearest + c)
-                              : L::shorts(walls.nearest + c + to_other);
-        any = slot != static_cast<std::int32_t>(kNoBody);
-        at = (any ? slot : typename L::Ints{}) * static_cast<std::int32_t>(sizeof(Body<float>) / 4);
-    }
-
-    /// One of a body's numbers.
-    typename L::Floats number(std::size_t bytes_from_first) const {
-        return L::numbers_at(body + bytes_from_first / sizeof(float), at);
-    }
-};
-static_assert(sizeof(Body<float>) % sizeof(float) == 0 && offsetof(Body<float>, position) == 0);
 
 /// As `closed_u` and `closed_v` of `wall_flow`, where no wall is thin. `place`: of the faces, along
 /// the other axis.
@@ -44,7 +19,10 @@ inline typename L::Floats flows_at_faces(const Walls<float>& walls, std::int32_t
     if (!L::any_true(pushes)) {
         return zero;
     }
-    const BodiesAtFaces<L> bodies(walls, c, OnU ? stride : 1);
+    const std::int32_t other = c + (OnU ? stride : 1);
+    const auto nearer = L::load(walls.distance + c) < L::load(walls.distance + other);
+    const NearestBodies<L> bodies(
+        walls, nearer ? L::shorts(walls.nearest + c) : L::shorts(walls.nearest + other));
     constexpr std::size_t kY = sizeof(float);
     const auto spin = bodies.number(offsetof(Body<float>, spin));
     const auto velocity = bodies.number(offsetof(Body<float>, velocity) + (OnU ? 0 : kY));

@@ -91,19 +91,22 @@ struct BothFields {
     std::int32_t turns;
     std::int32_t held[kMostTurns] = {};  ///< how many faces of a row
 
+    std::int32_t turn_of(std::int32_t j) const {
+        return kHasLanes<Real> ? j % turns : j % kTurns;
+    }
     /// Columns of a turn's faces; what they take stands in the two rows behind.
     VelocityOf<Real>* columns(std::int32_t turn) const {
         return scratch + axis.s.index(0, 3 * turn);
     }
     void hold(std::int32_t i, std::int32_t j, Real now_there, Real was_there) {
-        const std::int32_t turn = j % turns;
+        const std::int32_t turn = turn_of(j);
         VelocityOf<Real>* there = columns(turn) + held[turn]++;
         there[0] = static_cast<Real>(i);
         there[axis.s.stride] = now_there;
         there[2 * axis.s.stride] = was_there;
     }
     void write(std::int32_t j) {
-        const std::int32_t turn = j % turns;
+        const std::int32_t turn = turn_of(j);
         const std::int32_t row = axis.s.index(0, j);
         const std::int32_t up = axis.s.stride;
         const VelocityOf<Real>* there = columns(turn);
@@ -144,20 +147,11 @@ struct BothMirrors {
 
 #if WEIR_HAS_LANES
     template <bool OnU>
-    void find(const MirrorTask& task, const MirrorFaces& faces, std::int32_t count,
-              Mirrors& found) const {
-        if (count > 4) {
+    static void find(const MirrorTask& task, const MirrorFaces& faces, Mirrors& found) {
+        if (faces.count > 4) {
             wide_faces()->find_mirrors(task, OnU, faces, found);
         } else {
             find_mirrors<FourLanes, OnU>(task, faces, found);
-        }
-        const FaceAxis<float>& axis = OnU ? u.axis : v.axis;
-        for (std::int32_t k = 0; walls.moving && k < count; ++k) {
-            const std::int32_t face = faces.face[k];
-            const Vec2<float> wall = wall_velocity(walls, face, face + axis.other_node(),
-                                                   axis.centre(faces.column[k], faces.row[k]));
-            found.wall_x[k] = wall.x;
-            found.wall_y[k] = wall.y;
         }
     }
 
@@ -166,9 +160,9 @@ struct BothMirrors {
     void in_lanes(const MirrorTask& task, MirrorFaces& faces) {
         BothFields<float>& of = OnU ? u : v;
         const std::int32_t count = faces.fill_up();
-        faces.count = 0;
         Mirrors mirrors;
-        find<OnU>(task, faces, count, mirrors);
+        find<OnU>(task, faces, mirrors);
+        faces.count = 0;
         const std::uint32_t all = (1U << count) - 1U;
         std::uint32_t found = mirrors.wet & all;
         for (std::uint32_t dry = found ^ all; dry != 0; dry &= dry - 1U) {
@@ -210,12 +204,14 @@ struct BothMirrors {
         return false;
     }
 
+    /// `first`: the face of column `from`.
     template <bool OnU>
-    void add_all(const MirrorTask& task, std::int32_t from, std::uint32_t which, std::int32_t j) {
+    void add_all(const MirrorTask& task, std::int32_t first, std::int32_t from,
+                 std::uint32_t which, std::int32_t j) {
         MirrorFaces& faces = OnU ? waiting_u : waiting_v;
         for (; which != 0; which &= which - 1U) {
-            const std::int32_t i = from + __builtin_ctz(which);
-            faces.add(task.s.index(i, j), i, j);
+            const std::int32_t k = __builtin_ctz(which);
+            faces.add(first + k, from + k, j);
             if (faces.count == task.at_once) {
                 in_lanes<OnU>(task, faces);
             }
@@ -245,18 +241,20 @@ struct BothMirrors {
                 walls.open_u,
                 walls.open_v,
                 fields.density,
-                walls.thin != nullptr};
+                walls.thin != nullptr,
+                walls.moving ? &walls : nullptr};
     }
 
     /// Eight cells of a row from i on of which some are marked.
     void add_eight(const MirrorTask& task, std::int32_t i, std::uint32_t marked, std::int32_t j) {
         // Some of those before once more, that none is beyond the row.
         const std::int32_t from = minimum(i, task.s.nx - 8);
-        FacesToMirror faces = look_at_eight(task, task.s.index(from, j));
+        const std::int32_t first = task.s.index(from, j);
+        FacesToMirror faces = look_at_eight(task, first);
         faces.u &= marked << (i - from);
         faces.v &= marked << (i - from);
-        add_all<true>(task, from, i > 0 ? faces.u : faces.u & ~1U, j);
-        add_all<false>(task, from, j > 0 ? faces.v : 0U, j);
+        add_all<true>(task, first, from, i > 0 ? faces.u : faces.u & ~1U, j);
+        add_all<false>(task, first, from, j > 0 ? faces.v : 0U, j);
     }
 
     /// Those that have waited for rows enough, or all of them, wait no longer.

@@ -3,7 +3,7 @@
 
 #include "grid/staggered_grid.hpp"
 #include "math/four_lanes.hpp"
-#include "solid/walls.hpp"
+#include "solid/bodies_lanes.hpp"
 #include "step/wide_faces.hpp"
 
 namespace weir {
@@ -28,6 +28,7 @@ struct MirrorTask {
     const float* open_v;
     const float* density;
     bool thin;  ///< there are thin walls, which hide who reads a face
+    const Walls<float>* moving;  ///< null: no wall does
 };
 
 /// Of eight cells, whose left and lower faces are to be mirrored: a bit each.
@@ -234,7 +235,26 @@ inline void look_at_points(const MirrorTask& task, const std::int32_t* face,
     found.wet = L::bits_of(inside & (level > L::all(0.0F)));
 }
 
-/// All but the walls' velocities.
+/// As `wall_velocity`, at the faces' middles.
+template <class L, bool OnU>
+inline void find_walls(const Walls<float>& walls, const MirrorFaces& faces, std::int32_t stride,
+                       const LaneVectors<L>& middle, Mirrors& found) {
+    const auto zero = L::all(0.0F);
+    const auto a = L::load_whole(faces.face);
+    const auto b = a + (OnU ? stride : 1);
+    const auto nearer = L::numbers_at(walls.distance, a) < L::numbers_at(walls.distance, b);
+    const NearestBodies<L> bodies(walls, L::shorts_at(walls.nearest, nearer ? a : b));
+    constexpr std::size_t kY = sizeof(float);
+    const LaneVectors<L> arm =
+        middle - LaneVectors<L>{bodies.number(offsetof(Body<float>, position)),
+                                bodies.number(offsetof(Body<float>, position) + kY)};
+    const auto spin = bodies.number(offsetof(Body<float>, spin));
+    const auto x = bodies.number(offsetof(Body<float>, velocity)) + -spin * arm.y;
+    const auto y = bodies.number(offsetof(Body<float>, velocity) + kY) + spin * arm.x;
+    L::store(found.wall_x, bodies.any ? x : zero);
+    L::store(found.wall_y, bodies.any ? y : zero);
+}
+
 template <class L, bool OnU>
 inline void find_mirrors(const MirrorTask& task, const MirrorFaces& faces, Mirrors& found) {
     const auto zero = L::all(0.0F);
@@ -250,10 +270,14 @@ inline void find_mirrors(const MirrorTask& task, const MirrorFaces& faces, Mirro
     const auto reach = L::maximum(depth, one);
     const auto x = L::floats(L::load_whole(faces.column) + task.s.i0);
     const auto y = L::floats(L::load_whole(faces.row) + task.s.j0);
+    const LaneVectors<L> middle{OnU ? x : x + half, OnU ? y + half : y};
+    if (task.moving != nullptr) {
+        find_walls<L, OnU>(*task.moving, faces, task.s.stride, middle, found);
+    }
     const LaneVectors<L> way = normal.times(depth + reach);
     const LaneVectors<L> point{
-        L::clamp((OnU ? x : x + half) + way.x, L::all(task.low.x), L::all(task.high.x)),
-        L::clamp((OnU ? y + half : y) + way.y, L::all(task.low.y), L::all(task.high.y))};
+        L::clamp(middle.x + way.x, L::all(task.low.x), L::all(task.high.x)),
+        L::clamp(middle.y + way.y, L::all(task.low.y), L::all(task.high.y))};
     look_at_points<L>(task, faces.face, point, found);
     L::store(found.normal_x, normal.x);
     L::store(found.normal_y, normal.y);
