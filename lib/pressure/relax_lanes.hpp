@@ -82,8 +82,19 @@ template <class L, Weighing Where>
     const auto zero = L::all(0.0F);
     const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
     auto inverse = every_second(fields.inverse_diagonal + c);
-    const auto wet = (inverse != zero) & asked;
     const auto here = L::load_alternate(p + c);
+    const auto relaxed = [&](typename L::Floats sum) {
+        const auto target = (sum - every_second(fields.divergence + c)) * inverse;
+        return here.even + L::all(task.omega) * (target - here.even);
+    };
+    // Nearly all are amid liquid: one question for them.
+    if (Where != Weighing::everywhere && L::all_true((inverse > zero) & asked)) {
+        const auto sum = (L::odd_before(before, here.odd) + here.odd) +
+                         (every_second(p + c - stride) + every_second(p + c + stride));
+        L::store_alternate(p + c, relaxed(sum), here.odd);
+        return here.odd;
+    }
+    const auto wet = (inverse != zero) & asked;
     if (!L::any_true(wet)) {
         return here.odd;
     }
@@ -100,11 +111,10 @@ template <class L, Weighing Where>
                every_second(task.open_v + c + stride) * upper);
         inverse = L::absolute(inverse);
     }
-    const auto target = (sum - every_second(fields.divergence + c)) * inverse;
-    const auto relaxed = here.even + L::all(task.omega) * (target - here.even);
-    L::store_alternate(p + c, wet ? relaxed : here.even, here.odd);
+    const auto after = relaxed(sum);
+    L::store_alternate(p + c, wet ? after : here.even, here.odd);
     if constexpr (Where == Weighing::at_walls) {
-        const auto pulled = at_wall & wet & (relaxed < zero);
+        const auto pulled = at_wall & wet & (after < zero);
         if (task.full_density != nullptr && L::any_true(pulled)) {
             part_from_walls<L>(task, c);
         }
