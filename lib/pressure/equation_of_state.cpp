@@ -133,15 +133,7 @@ void release_pressure(const GridShape& shape, PressureFields<Real>& fields, Work
     });
 }
 
-template <class Real>
-const detail::Elasticity<Real>& detail::elasticity() {
-    static constexpr Elasticity<Real> kStages{follow_sound<Real>, carry_pressure<Real>,
-                                              compress<Real>, release_pressure<Real>};
-    return kStages;
-}
-
 #define WEIR_INSTANTIATE(Real)                                                              \
-    template const detail::Elasticity<Real>& detail::elasticity<Real>();                    \
     template void follow_sound(Real, PressureFields<Real>&);                                \
     template void carry_pressure(const OpenWeights<Real>&, PressureFields<Real>&, Work);    \
     template void compress(const Borders<Real>&, const GridShape&, PressureFields<Real>&,   \

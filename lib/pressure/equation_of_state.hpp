@@ -46,6 +46,13 @@ struct detail::Elasticity {
     void (*compress)(const Borders<Real>& borders, const GridShape& shape,
                      PressureFields<Real>& fields, Work work);
     void (*release_pressure)(const GridShape& shape, PressureFields<Real>& fields, Work work);
+    /// The general loops, in packed worlds; in others, which have no others, null. What whole
+    /// numbers make of faces at gaps, of jets and of spray takes it that pressure stores nothing.
+    void (*push)(const Borders<Real>& borders, const Walls<Real>& walls, const Part& rows,
+                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid);
+    void (*extrapolate)(const Borders<Real>& borders, const Walls<Real>& walls,
+                        const PressureFields<Real>& fields, bool velocity_itself,
+                        StaggeredGrid<Real>& grid, Work work);
 };
 
 }  // namespace weir

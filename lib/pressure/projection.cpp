@@ -217,7 +217,11 @@ void solve_and_project(const Borders<Real>& borders, const Walls<Real>& walls,
     }
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         if constexpr (Stored<Real>::coarse) {
-            project_packed(weights, rows, fields, grid);
+            if (fields.elasticity != nullptr) {
+                fields.elasticity->push(borders, walls, rows, fields, grid);
+            } else {
+                project_packed(weights, rows, fields, grid);
+            }
         } else {
             project(weights, rows, fields, grid);
         }

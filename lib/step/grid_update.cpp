@@ -2,6 +2,7 @@
 
 #include "math/packed_arithmetic.hpp"
 #include "math/quotient_packed.hpp"
+#include "pressure/equation_of_state.hpp"
 #include "pressure/projection.hpp"
 #include "step/extrapolate_lanes.hpp"
 #include "step/extrapolate_packed.hpp"
@@ -263,11 +264,23 @@ template <class Real>
 void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
                  const PressureFields<Real>& fields, bool velocity_itself,
                  StaggeredGrid<Real>& grid, Work work) {
-    const GridShape& s = grid.shape;
     if constexpr (Stored<Real>::coarse) {
-        extrapolate_packed(borders, walls, fields, work.take(s.ny, s.nx), grid);
-        return;
+        if (fields.elasticity != nullptr) {
+            fields.elasticity->extrapolate(borders, walls, fields, velocity_itself, grid, work);
+        } else {
+            const GridShape& s = grid.shape;
+            extrapolate_packed(borders, walls, fields, work.take(s.ny, s.nx), grid);
+        }
+    } else {
+        extrapolate_by_face(borders, walls, fields, velocity_itself, grid, work);
     }
+}
+
+template <class Real>
+void extrapolate_by_face(const Borders<Real>& borders, const Walls<Real>& walls,
+                         const PressureFields<Real>& fields, bool velocity_itself,
+                         StaggeredGrid<Real>& grid, Work work) {
+    const GridShape& s = grid.shape;
     const ShareOf<Real>* open_u = walls.active ? walls.open_u : nullptr;
     const ShareOf<Real>* open_v = walls.active ? walls.open_v : nullptr;
     const Component<Real> u{grid.u, grid.inverse_density_u, open_u,    1, borders.wrap_x ? 0 : 1,
@@ -280,12 +293,15 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
     });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                   \
-    template void grid_update(const Borders<Real>&, Vec2<Real>,                  \
-                              const LevelOf<Real>*, StaggeredGrid<Real>&, Work); \
-    template void extrapolate(const Borders<Real>&, const Walls<Real>&,          \
-                              const PressureFields<Real>&, bool,                 \
-                              StaggeredGrid<Real>&, Work);
+#define WEIR_INSTANTIATE(Real)                                                           \
+    template void grid_update(const Borders<Real>&, Vec2<Real>, const LevelOf<Real>*,    \
+                              StaggeredGrid<Real>&, Work);                               \
+    template void extrapolate(const Borders<Real>&, const Walls<Real>&,                  \
+                              const PressureFields<Real>&, bool, StaggeredGrid<Real>&,   \
+                              Work);                                                     \
+    template void extrapolate_by_face(const Borders<Real>&, const Walls<Real>&,          \
+                                      const PressureFields<Real>&, bool,                 \
+                                      StaggeredGrid<Real>&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

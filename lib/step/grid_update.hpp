@@ -25,4 +25,11 @@ void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
                  const PressureFields<Real>& fields, bool velocity_itself,
                  StaggeredGrid<Real>& grid, Work work = {});
 
+/// The same, and all that a push on spray must not do: packed worlds do without, but not with an
+/// equation of state.
+template <class Real>
+void extrapolate_by_face(const Borders<Real>& borders, const Walls<Real>& walls,
+                         const PressureFields<Real>& fields, bool velocity_itself,
+                         StaggeredGrid<Real>& grid, Work work);
+
 }  // namespace weir

@@ -41,6 +41,13 @@ class EquationOfState : public testing::Test {};
 using Scalars = testing::Types<float, double, Fixed>;
 TYPED_TEST_SUITE(EquationOfState, Scalars, );
 
+template <class Real>
+class ElasticArithmetic : public testing::Test {};
+using FixedScalars = testing::Types<float, Fixed, SmallFixed>;
+TYPED_TEST_SUITE(ElasticArithmetic, FixedScalars, );
+
+constexpr float kBarAngle = 0.37F;
+
 TYPED_TEST(EquationOfState, HoldsUpAPoolWithoutLossOfVolume) {
     TestWorld<TypeParam> world{elastic_def(16, 20, 16 * 12 * 4)};
     expect_ok(world->fill({{0, 0}, {16 * kCell, 12 * kCell}}));
@@ -99,6 +106,38 @@ TYPED_TEST(EquationOfState, MovesWithTheLiquid) {
         shaking += (x * x + y * y) / v.size;
     }
     EXPECT_LT(std::sqrt(shaking), 0.1);
+}
+
+/// What a narrow gap lets through, jets along a bar and spray must not get more than the pressure
+/// has taken: packed worlds gained 3 %.
+TYPED_TEST(ElasticArithmetic, LosesEnergyThatFallsOntoABar) {
+    constexpr float kBarCell = 1.0F / 64.0F;
+    WorldDef def = elastic_def(24, 24, 320);
+    def.cell_m = kBarCell;
+    def.sound_speed_mps = 10.0F;
+    def.max_substeps = 32;
+    def.capacity.bodies = 1;
+    def.capacity.vertices = 4;
+    TestWorld<TypeParam> world{def};
+    const Vec2f bar[] = {{-6 * kBarCell, -0.2F * kBarCell},
+                         {6 * kBarCell, -0.2F * kBarCell},
+                         {6 * kBarCell, 0.2F * kBarCell},
+                         {-6 * kBarCell, 0.2F * kBarCell}};
+    BodyDef body;
+    body.polygon = {bar, 4};
+    body.motion.position_m = {12.03F * kBarCell, 7.4F * kBarCell};
+    body.motion.angle_rad = kBarAngle;
+    BodyId id;
+    expect_ok(world->add_static_body(body, &id));
+    expect_ok(world->fill({{8 * kBarCell, 13 * kBarCell}, {16 * kBarCell, 23 * kBarCell}}));
+    const double gravity = 9.81 / static_cast<double>(kBarCell);
+    const double start = energy_of(*world, gravity);
+    double most = 0.0;
+    for (int k = 0; k < 600; ++k) {
+        world->step(1.0F / 240.0F);
+        most = std::fmax(most, energy_of(*world, gravity));
+    }
+    EXPECT_LE(most, 1.001 * start);  // packed places are known to 1/256
 }
 
 }  // namespace
