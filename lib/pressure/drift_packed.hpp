@@ -46,7 +46,9 @@ inline constexpr std::int32_t kMostRefund = 76;
 /// to rest: what a body had stamped on would stay up to 12 % too dense for good.
 inline constexpr std::int32_t kCrowded = 20;
 
-inline bool is_crowded(std::int32_t mean) { return mean >= kCrowded && mean != kSolidPatch; }
+inline bool is_crowded(std::int32_t mean, std::int32_t least) {
+    return mean >= least && mean != kSolidPatch;
+}
 
 /// What a patch's drift does.
 struct Deeds {

@@ -106,10 +106,12 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
     }
+    // A column that sound is ten times as fast as is denser by a hundredth under its own weight.
+    const std::int32_t least = (fields.elasticity != nullptr ? 2 : 1) * packed::kCrowded;
     for_each_patch(s, big, work, [&](const Patch& patch) {
         const std::int32_t mean = packed::average<Solids>(s, walls, patch, fields, overfull);
         fields.coarse.correction[patch.q].raw = mean;
-        fields.crowded = fields.crowded || packed::is_crowded(mean);
+        fields.crowded = fields.crowded || packed::is_crowded(mean, least);
     });
     if (work.once(big.border())) {
         fields.drift_turn = static_cast<std::uint16_t>(minimum(overfull + 1, 0xFFFF));

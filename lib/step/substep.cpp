@@ -107,11 +107,11 @@ void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, W
 }
 
 /// As Fall::of says. Sound makes substeps so short that rounding always shows. Others owe only
-/// what is as little, and nothing while liquid is led to rest, which wants the same fall in each.
+/// what is as little, and none does while liquid is led to rest, which wants the same fall in each.
 template <class Real>
 Real most_owed(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
     const bool elastic = simulation.pressure.elasticity != nullptr;
-    return elastic ? Real(kMaxSpeedSmallFixed) : (plan.settling ? Real(0) : Real(0.25));
+    return plan.settling ? Real(0) : (elastic ? Real(kMaxSpeedSmallFixed) : Real(0.25));
 }
 
 template <class Real>

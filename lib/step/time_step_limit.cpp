@@ -118,9 +118,11 @@ SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real
     // Liquid that was just put there has not shown how fast it is. Where forces are counted, what
     // is lost so would have to be settled. Packed liquid cannot do without: it would creep on.
     const bool counts = !Stored<Real>::coarse && simulation.two_way != nullptr;
+    // Substeps that follow sound are so short that half of it has to do.
+    const Real pull = gravity * plan.dt_s;
     plan.settling = kSettles<Real> && !counts && !simulation.pressure.crowded &&
                     simulation.pressure.last_dt > Seconds<Real>{} &&
-                    speed <= kSettling<Real> && kSettling<Real> <= gravity * plan.dt_s;
+                    speed <= kSettling<Real> && kSettling<Real> <= (elastic ? pull + pull : pull);
     return plan;
 }
 

@@ -140,5 +140,23 @@ TYPED_TEST(ElasticArithmetic, LosesEnergyThatFallsOntoABar) {
     EXPECT_LE(most, 1.001 * start);  // packed places are known to 1/256
 }
 
+/// Half a box, in steps of four substeps, each of which gives less than a quarter of a cell/s.
+TEST(ElasticPacked, APoolStopsToTheBit) {
+    WorldDef def = elastic_def(16, 16, 512);
+    def.cell_m = 1.0F / 16.0F;
+    def.sound_speed_mps = 20.0F;
+    def.max_substeps = 32;
+    TestWorld<SmallFixed> world{def};
+    expect_ok(world->fill({{0, 0}, {16 * def.cell_m, 8 * def.cell_m}}));
+    for (int k = 0; k < 2000; ++k) {
+        world->step(1.0F / 240.0F);
+    }
+    const std::uint64_t before = world->state_hash();
+    for (int k = 0; k < 200; ++k) {
+        world->step(1.0F / 240.0F);
+    }
+    EXPECT_EQ(world->state_hash(), before);
+}
+
 }  // namespace
 }  // namespace weir
