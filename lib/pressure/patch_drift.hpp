@@ -4,6 +4,7 @@
 #include "grid/borders.hpp"
 #include "pressure/drift_weights.hpp"
 #include "pressure/patches.hpp"
+#include "pressure/projection.hpp"
 #include "pressure/volume_lanes.hpp"
 
 namespace weir {
@@ -246,11 +247,18 @@ template <bool Solids, class Real>
     }
 }
 
+/// By way of the table that worlds with two liquids have: others do not link it.
 template <bool Solids, class Real>
 inline void know_two_liquids(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid,
                              Weights<SumOf<Real>>& sums) {
-    if (grid.inverse_density_u != nullptr) {
-        lift_by_mass(drift, grid, sums);
+    const detail::SecondLiquid<Real>* const second = drift.fields.second_liquid;
+    if (second == nullptr) {
+        return;
+    }
+    if constexpr (Solids) {
+        second->lift_among_solids(drift, grid, sums);
+    } else {
+        second->lift_in_open(drift, grid, sums);
     }
 }
 

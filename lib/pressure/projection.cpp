@@ -3,6 +3,7 @@
 #include "pressure/build_packed.hpp"
 #include "pressure/coarse_correction.hpp"
 #include "pressure/equation_of_state.hpp"
+#include "pressure/patch_drift.hpp"
 #include "pressure/project.hpp"
 #include "pressure/project_packed.hpp"
 #include "pressure/relax.hpp"
@@ -237,6 +238,14 @@ constexpr typename detail::SecondLiquid<Real>::Solver two_liquids() {
         return solve_and_project<Solids, true, Real>;
     }
 }
+template <bool Solids, class Real>
+constexpr typename detail::SecondLiquid<Real>::template Lift<Solids> lift_of_two() {
+    if constexpr (Stored<Real>::shares_momentum) {
+        return nullptr;
+    } else {
+        return lift_by_mass<Solids, Real>;
+    }
+}
 
 template <bool Solids, class Real>
 void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
@@ -278,14 +287,16 @@ void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
 
 template <class Real>
 const detail::SecondLiquid<Real>& detail::second_liquid_in_open() {
-    static constexpr SecondLiquid<Real> kSolvers{two_liquids<false, Real>(), nullptr};
+    static constexpr SecondLiquid<Real> kSolvers{two_liquids<false, Real>(),
+                                                 lift_of_two<false, Real>()};
     return kSolvers;
 }
 
 template <class Real>
 const detail::SecondLiquid<Real>& detail::second_liquid_among_solids() {
-    static constexpr SecondLiquid<Real> kSolvers{two_liquids<false, Real>(),
-                                                 two_liquids<true, Real>()};
+    static constexpr SecondLiquid<Real> kSolvers{
+        two_liquids<false, Real>(), lift_of_two<false, Real>(), two_liquids<true, Real>(),
+        lift_of_two<true, Real>()};
     return kSolvers;
 }
 

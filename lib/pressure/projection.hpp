@@ -4,6 +4,7 @@
 #include "grid/borders.hpp"
 #include "math/packed_arithmetic.hpp"
 #include "math/quotient_packed.hpp"
+#include "pressure/drift_weights.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/free_body.hpp"
 #include "weir/features.hpp"
@@ -51,14 +52,24 @@ inline Real width_of(Real open) {
     return minimum(Real(1), Real(4) * open);
 }
 
+template <bool Solids, class Real>
+struct Drift;
+template <class Sum>
+struct Weights;
+
 /// The same with two liquids: a program whose definition has room for one links nothing of it.
 template <class Real>
 struct detail::SecondLiquid {
     using Solver = void (*)(const Borders<Real>& borders, const Walls<Real>& walls,
                             std::int32_t sweeps, const CoupledSolve<Real>* coupled,
                             StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work);
+    template <bool Solids>
+    using Lift = void (*)(const Drift<Solids, Real>&, const StaggeredGrid<Real>&,
+                          Weights<SumOf<Real>>&);
     Solver in_open;
-    Solver among_solids;  ///< null: there is room for none
+    Lift<false> lift_in_open;      ///< work of its drift (pressure/patch_drift.hpp)
+    Solver among_solids = nullptr;  ///< null: there is room for none
+    Lift<true> lift_among_solids = nullptr;
 };
 
 /// Way from a liquid cell's centre to the surface, over that to its air neighbour's centre. The
