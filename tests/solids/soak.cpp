@@ -35,6 +35,7 @@ Soak turned_box(int n) {
                          slab({low.x - 2.0, low.y - 3.0}, {low.x, high.y + 1.0}),
                          slab({high.x, low.y - 3.0}, {high.x + 1.5, high.y + 1.0}),
                          slab({low.x - 2.0, high.y}, {high.x + 1.5, high.y + 1.0})};
+    soak.vessel.wall_edges = 40 * n;  // for the lid: by nodes alone one of its jets' drops got through
     soak.vessel.liquid = [low, n](Vec p) {
         return p.x > low.x && p.x < low.x + 0.5 * n && p.y > low.y && p.y < low.y + 0.8 * n;
     };
