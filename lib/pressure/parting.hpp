@@ -9,7 +9,7 @@ namespace weir {
 /// when all around it is full: its centre is clear of the wall. Slivers without liquid do not
 /// count: they come and go under any film.
 template <class Real>
-inline constexpr Real kClear = Real(0.75);
+inline constexpr Real kRoomForAir = Real(0.75);
 
 /// Whether there is air in one of the eight cells around a cell, as far as they are in the tank.
 template <class Real>
@@ -23,7 +23,7 @@ template <class Real>
         for (std::int32_t x = i > 0 ? i - 1 : i; x <= i + 1 && x < s.nx; ++x) {
             const std::int32_t n = c + (y - j) * s.stride + (x - i);
             if (!(Real(fields.level[n]) > Real(0)) &&
-                Real(full_density[n]) >= kClear<Real>) {
+                Real(full_density[n]) >= kRoomForAir<Real>) {
                 return true;
             }
         }

@@ -56,18 +56,25 @@ constexpr bool enough_alternate(std::int32_t c, std::int32_t end, std::int32_t l
 /// Which cells' neighbours are weighted: those at walls or, of two liquids, all.
 enum class Weighing { nowhere, at_walls, everywhere };
 
-/// No pull at walls where air can come in, as `relax_weighted` has it: of the cells of a group,
-/// whose lanes may be in any order. Not inline: few groups have a pull at a wall.
+/// `has_air_around` of the cells of a group. Not inline: few groups have a pull at a wall.
 template <class L>
-[[gnu::noinline]] void part_from_walls(const RelaxTask& task, std::int32_t c) {
-    const float* const inverse = task.fields.inverse_diagonal;
-    float* const p = task.fields.pressure;
-    for (const std::int32_t end = c + 2 * L::kLanes; c < end; c += 2) {
-        if (inverse[c] < 0.0F && p[c] < 0.0F &&
-            has_air_around(task.fields, task.full_density, task.shape, c)) {
-            p[c] = 0.0F;
-        }
+[[gnu::noinline]] typename L::Ints air_around(const RelaxTask& task, std::int32_t c) {
+    const GridShape& s = task.shape;
+    const std::int32_t j = (c - s.index(0, 0)) / s.stride;
+    const std::int32_t i = c - s.index(0, j);
+    const auto in_tank = L::all(0.0F) == L::all(0.0F);
+    const auto left = L::alternate_from(i > 0 ? 0 : 1);
+    const auto right = in_tank & ~L::alternate_from((s.nx - i) / 2);
+    const auto is_air = [&](std::int32_t n) {
+        return (L::load_alternate(task.fields.level + n).even <= L::all(0.0F)) &
+               (L::load_alternate(task.full_density + n).even >= L::all(kRoomForAir<float>));
+    };
+    auto air = ~in_tank;
+    for (std::int32_t y = j > 0 ? -1 : 0; y <= (j + 1 < s.ny ? 1 : 0); ++y) {
+        const std::int32_t n = c + y * s.stride;
+        air |= (is_air(n - 1) & left) | is_air(n) | (is_air(n + 1) & right);
     }
+    return air;
 }
 
 /// Every other cell from c on, as many as there are lanes, of those that are asked for.
@@ -111,14 +118,15 @@ template <class L, Weighing Where>
                every_second(task.open_v + c + stride) * upper);
         inverse = L::absolute(inverse);
     }
-    const auto after = relaxed(sum);
-    L::store_alternate(p + c, wet ? after : here.even, here.odd);
+    auto after = relaxed(sum);
     if constexpr (Where == Weighing::at_walls) {
+        // No pull at walls where air can come in, as `relax_weighted` has it.
         const auto pulled = at_wall & wet & (after < zero);
         if (task.full_density != nullptr && L::any_true(pulled)) {
-            part_from_walls<L>(task, c);
+            after = (pulled & air_around<L>(task, c)) ? zero : after;
         }
     }
+    L::store_alternate(p + c, wet ? after : here.even, here.odd);
     return here.odd;
 }
 
