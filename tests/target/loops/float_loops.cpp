@@ -168,6 +168,7 @@ void project(bool solids) {
         walls.active = true;
         walls.open_u = g_fields.open_u;
         walls.open_v = g_fields.open_v;
+        walls.full_density = g_fields.open_u;  // as good as any
         weir::projection<float>({}, walls, 0.01F, sweeps, to, fields);
     } else {
         weir::projection_in_open<float>({}, walls, 0.01F, sweeps, to, fields, {});
