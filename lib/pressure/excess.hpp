@@ -201,6 +201,16 @@ inline void find_excess_by_words(const GridShape& s, const Walls<float>& walls,
 }
 #endif
 
+/// The same of a cell beside closed faces. Where it is dry there is none.
+template <class Real>
+inline void find_excess_beside_wall(const GridShape& s, const Walls<Real>& walls,
+                                    const Held<Real>& held, std::int32_t c,
+                                    PressureFields<Real>& fields) {
+    if (is_positive(Real(fields.level[c]))) {
+        fields.divergence[c] = excess_beside_wall(s, walls, fields, held, c);
+    }
+}
+
 /// The same of cells that a thin wall is near.
 template <class Real>
 void find_excess_beside_thin_walls(const GridShape& s, const Walls<Real>& walls,
@@ -212,15 +222,12 @@ void find_excess_beside_thin_walls(const GridShape& s, const Walls<Real>& walls,
             return next_marked(walls.thin, s, j, j, i, columns.end, kNear);
         };
         for (std::int32_t i = next(columns.first); i < columns.end; i = next(i + 1)) {
-            const std::int32_t c = s.index(i, j);
-            if (is_positive(Real(fields.level[c]))) {
-                fields.divergence[c] = excess_beside_wall(s, walls, fields, held, c);
-            }
+            find_excess_beside_wall(s, walls, held, s.index(i, j), fields);
         }
     }
 }
 
-/// The same of the cells beside closed faces. Where it is dry there is none.
+/// The same of all cells beside closed faces.
 template <class Real>
 void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
                               const Held<Real>& held, PressureFields<Real>& fields, Work work) {
@@ -229,10 +236,7 @@ void find_excess_beside_walls(const GridShape& s, const Walls<Real>& walls,
         find_excess_by_words(s, walls, excess_limits(fields, held), rows, fields);
     } else {
         const auto look = [&](std::int32_t i, std::int32_t j) {
-            const std::int32_t c = s.index(i, j);
-            if (is_positive(Real(fields.level[c]))) {
-                fields.divergence[c] = excess_beside_wall(s, walls, fields, held, c);
-            }
+            find_excess_beside_wall(s, walls, held, s.index(i, j), fields);
         };
         for_each_near(s, walls, rows, [&](std::int32_t i, std::int32_t j) {
             look(i, j);

@@ -231,20 +231,17 @@ void solve_and_project(const Borders<Real>& borders, const Walls<Real>& walls,
 
 /// Packed worlds have one liquid.
 template <bool Solids, class Real>
-constexpr typename detail::SecondLiquid<Real>::Solver two_liquids() {
-    if constexpr (Stored<Real>::shares_momentum) {
-        return nullptr;
-    } else {
-        return solve_and_project<Solids, true, Real>;
+constexpr detail::SecondLiquid<Real> stages_of_two() {
+    detail::SecondLiquid<Real> stages{};
+    if constexpr (!Stored<Real>::shares_momentum) {
+        stages.in_open = solve_and_project<false, true, Real>;
+        stages.lift_in_open = lift_by_mass<false, Real>;
+        if constexpr (Solids) {
+            stages.among_solids = solve_and_project<true, true, Real>;
+            stages.lift_among_solids = lift_by_mass<true, Real>;
+        }
     }
-}
-template <bool Solids, class Real>
-constexpr typename detail::SecondLiquid<Real>::template Lift<Solids> lift_of_two() {
-    if constexpr (Stored<Real>::shares_momentum) {
-        return nullptr;
-    } else {
-        return lift_by_mass<Solids, Real>;
-    }
+    return stages;
 }
 
 template <bool Solids, class Real>
@@ -287,17 +284,14 @@ void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
 
 template <class Real>
 const detail::SecondLiquid<Real>& detail::second_liquid_in_open() {
-    static constexpr SecondLiquid<Real> kSolvers{two_liquids<false, Real>(),
-                                                 lift_of_two<false, Real>()};
-    return kSolvers;
+    static constexpr SecondLiquid<Real> kStages = stages_of_two<false, Real>();
+    return kStages;
 }
 
 template <class Real>
 const detail::SecondLiquid<Real>& detail::second_liquid_among_solids() {
-    static constexpr SecondLiquid<Real> kSolvers{
-        two_liquids<false, Real>(), lift_of_two<false, Real>(), two_liquids<true, Real>(),
-        lift_of_two<true, Real>()};
-    return kSolvers;
+    static constexpr SecondLiquid<Real> kStages = stages_of_two<true, Real>();
+    return kStages;
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                \

@@ -62,14 +62,13 @@ template <class L>
     const GridShape& s = task.shape;
     const std::int32_t j = (c - s.index(0, 0)) / s.stride;
     const std::int32_t i = c - s.index(0, j);
-    const auto in_tank = L::all(0.0F) == L::all(0.0F);
     const auto left = L::alternate_from(i > 0 ? 0 : 1);
-    const auto right = in_tank & ~L::alternate_from((s.nx - i) / 2);
+    const auto right = ~L::alternate_from((s.nx - i) / 2);
     const auto is_air = [&](std::int32_t n) {
         return (L::load_alternate(task.fields.level + n).even <= L::all(0.0F)) &
                (L::load_alternate(task.full_density + n).even >= L::all(kRoomForAir<float>));
     };
-    auto air = ~in_tank;
+    typename L::Ints air{};
     for (std::int32_t y = j > 0 ? -1 : 0; y <= (j + 1 < s.ny ? 1 : 0); ++y) {
         const std::int32_t n = c + y * s.stride;
         air |= (is_air(n - 1) & left) | is_air(n) | (is_air(n + 1) & right);
