@@ -13,6 +13,12 @@
     defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
 #error "weir needs strict floating point: remove -ffast-math, -Ofast or their like for it"
 #endif
+// No macro tells whether g++ fuses a*b+c, which it does unasked: who turns that off says so.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__FP_FAST_FMAF) && !defined(WEIR_FP_CONTRACT_OFF)
+#error "weir rounds a*b+c twice: compile with -ffp-contract=off -DWEIR_FP_CONTRACT_OFF"
+#endif
 #if __FLT_EVAL_METHOD__ == 2
 #error "weir needs floats that are rounded as floats: -msse2 -mfpmath=sse on 32-bit x86"
 #endif
