@@ -71,19 +71,50 @@ void fold_across(Mass* mass, Real* momentum, const Line& low, const Line& high, 
     fold_across(momentum, low, high, wrap);
 }
 
-/// `cell`: from a face on the wall to the cell that it belongs to; `inward`: from there to the
-/// next one away from the wall. The first and last entry of the line are ghosts.
-template <class Velocity, class Level>
-void close(Velocity* velocity, const Line& wall, const Level* level, std::int32_t cell,
-           std::int32_t inward) {
-    const auto wet = [&](std::int32_t at) {
-        return level[at] > Level(0) || level[at + inward] > Level(0);
-    };
+/// Cells at a wall of the tank, beside a face and one further from it.
+template <class Real>
+struct CellsAtWall {
+    const LevelOf<Real>* level;
+    const Real* pressure;  ///< null: liquid does not part from this wall
+    Real hold;             ///< less pressure holds nothing
+    std::int32_t inward;   ///< from a cell at the wall to the next one
+    bool wet = false;
+    bool airy = false;
+    bool pressed = false;
+    Real light = Real(1);  ///< 1 / density of the liquid at the face
+
+    void look(std::int32_t cell) {
+        const bool liquid = level[cell] > LevelOf<Real>(0);
+        wet = wet || liquid;
+        airy = airy || !liquid;
+        pressed = pressed || (liquid && pressure != nullptr && light * pressure[cell] > hold);
+    }
+    /// Whether liquid with that velocity through the wall goes from it, and nothing holds it there.
+    bool parts(VelocityOf<Real> velocity) const {
+        const bool away = inward > 0 ? velocity > VelocityOf<Real>(0)
+                                     : velocity < VelocityOf<Real>(0);
+        return pressure != nullptr && away && airy && !pressed;
+    }
+};
+
+/// `cell`: from a face on the wall to the cell that it belongs to. The first and last entry of the
+/// line are ghosts.
+template <class Real>
+void close(VelocityOf<Real>* velocity, const VelocityOf<Real>* light, const Line& wall,
+           std::int32_t cell, const CellsAtWall<Real>& cells) {
+    const LevelOf<Real>* level = cells.level;
     for (std::int32_t k = 1; k + 1 < wall.count; ++k) {
         const std::int32_t face = wall.first + k * wall.step;
-        const std::int32_t at = face + cell;
-        if (wet(at) || wet(at - wall.step) || wet(at + wall.step)) {
-            velocity[face] = Velocity(0);
+        CellsAtWall<Real> around = cells;
+        around.light = light != nullptr ? Real(light[face]) : Real(1);
+        for (std::int32_t n = k > 1 ? -1 : 0; n <= (k + 2 < wall.count ? 1 : 0); ++n) {
+            const std::int32_t at = face + cell + n * wall.step;
+            around.look(at);
+            around.look(at + cells.inward);
+        }
+        const bool own = level[face + cell] > LevelOf<Real>(0);
+        if (around.wet && !(own && around.parts(velocity[face]))) {
+            velocity[face] = VelocityOf<Real>(0);
         }
     }
 }
@@ -169,15 +200,22 @@ void extend_velocity(const Borders<Real>& b, const GridShape& s, VelocityOf<Real
 }
 
 template <class Real>
-void close_walls(const Borders<Real>& b, const LevelOf<Real>* level, StaggeredGrid<Real>& grid) {
+void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* level,
+                 const Real* pressure, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
+    const Real hold = kHold<Real> * maximum(absolute(fall.x), absolute(fall.y));
+    const auto at = [&](std::int32_t inward, Real off) {
+        return CellsAtWall<Real>{level, off > Real(0) ? pressure : nullptr, hold, inward};
+    };
     if (!b.wrap_x) {
-        close(grid.u, column(s, 0), level, 0, 1);
-        close(grid.u, column(s, s.nx), level, -1, -1);
+        close(grid.u, grid.inverse_density_u, column(s, 0), 0, at(1, fall.x));
+        close(grid.u, grid.inverse_density_u, column(s, s.nx), -1, at(-1, -fall.x));
     }
     if (!b.wrap_y) {
-        close(grid.v, row(s, 0), level, 0, s.stride);
-        close(grid.v, row(s, s.ny), level, -s.stride, -s.stride);
+        close(grid.v, grid.inverse_density_v, row(s, 0), 0,
+              at(s.stride, fall.y));
+        close(grid.v, grid.inverse_density_v, row(s, s.ny), -s.stride,
+              at(-s.stride, -fall.y));
     }
 }
 
@@ -187,8 +225,8 @@ void close_walls(const Borders<Real>& b, const LevelOf<Real>* level, StaggeredGr
                               VelocityOf<Real>*);                                        \
     template void extend_velocity(const Borders<Real>&, const GridShape&,                \
                                   VelocityOf<Real>*, VelocityOf<Real>*);                 \
-    template void close_walls(const Borders<Real>&, const LevelOf<Real>*,                \
-                              StaggeredGrid<Real>&);
+    template void close_walls(const Borders<Real>&, Vec2<Real>, const LevelOf<Real>*,    \
+                              const Real*, StaggeredGrid<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -46,10 +46,17 @@ inline void mirror_cells(const Borders<Real>& b, const GridShape& s, Field* fiel
     fill_ghosts(field, sizeof(Field), s, b.wrap_x, b.wrap_y, false);
 }
 
-/// Velocity through the walls is 0 where liquid (level > 0) is at or beside the face's cell. Drops
-/// keep theirs: they meet the wall one by one, and bounce as told.
+/// Pressure below so much of what lies under a cell of still liquid is what a solve leaves of none.
 template <class Real>
-void close_walls(const Borders<Real>& borders, const LevelOf<Real>* level,
-                 StaggeredGrid<Real>& grid);
+inline constexpr Real kHold = Real(0.125);
+
+/// Velocity through the walls is 0 where liquid (level > 0) is at or beside the face's cell. Drops
+/// keep theirs: they meet the wall one by one, and bounce as told. Liquid keeps its, too, that
+/// gravity takes from a wall, where there is air that may come between and no pressure holds it.
+/// @param fall     what gravity gave, cells/s.
+/// @param pressure that the last substep found; null: liquid parts from no wall.
+template <class Real>
+void close_walls(const Borders<Real>& borders, Vec2<Real> fall, const LevelOf<Real>* level,
+                 const Real* pressure, StaggeredGrid<Real>& grid);
 
 }  // namespace weir

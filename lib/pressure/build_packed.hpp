@@ -37,8 +37,8 @@ template <bool Solids, class Weights, class Fields>
     const auto look = [&](bool inside, const ShareOf<Real>* open, std::int32_t face,
                           std::int32_t velocity, std::int32_t step) {
         const std::int32_t weight = Solids ? static_cast<std::int32_t>(open[face].raw) : 128;
+        outwards += weight * velocity;
         if (inside && weight != 0) {
-            outwards += weight * velocity;
             const std::int32_t there = level[step].raw;
             diagonal += there > 0 ? weight
                                   : packed_coefficient(weight, weight, level[0].raw, there);
@@ -77,9 +77,9 @@ template <class Fields>
     std::int32_t diagonal = 0;
     std::int32_t flow = 0;
     const auto look = [&](std::int32_t side, std::int32_t step, std::int32_t velocity) {
+        flow += velocity;
         if ((sides & side) != 0) {
             const std::int32_t there = level[step].raw;
-            flow += velocity;
             diagonal += there > 0 ? 128 : packed_coefficient(128, 128, level[0].raw, there);
         }
     };

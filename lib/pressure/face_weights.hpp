@@ -44,15 +44,13 @@ struct FaceWeights {
     bool has_lower(std::int32_t j) const { return j > 0 || borders.wrap_y; }
     bool has_upper(std::int32_t j) const { return j + 1 < grid.shape.ny || borders.wrap_y; }
 
-    /// What flows out of a cell through the open parts of its faces, cells/s.
+    /// What flows out of a cell through the open parts of its faces, cells/s. Through those on the
+    /// tank's walls that is 0 but where liquid parts from them: as if the wall went along.
     Real outflow(std::int32_t i, std::int32_t j) const {
         const std::int32_t c = grid.shape.index(i, j);
         const std::int32_t up = c + grid.shape.stride;
-        const Real left = (has_left(i) ? open_u(c) : Real(0)) * grid.u[c];
-        const Real right = (has_right(i) ? open_u(c + 1) : Real(0)) * grid.u[c + 1];
-        const Real lower = (has_lower(j) ? open_v(c) : Real(0)) * grid.v[c];
-        const Real upper = (has_upper(j) ? open_v(up) : Real(0)) * grid.v[up];
-        return (right - left) + (upper - lower);
+        return (open_u(c + 1) * grid.u[c + 1] - open_u(c) * grid.u[c]) +
+               (open_v(up) * grid.v[up] - open_v(c) * grid.v[c]);
     }
 
     /// Sum over the four neighbours of a liquid cell, each with its face. Beyond the tank and in

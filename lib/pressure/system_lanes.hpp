@@ -51,11 +51,15 @@ inline bool build_any(RowTask& task, std::int32_t c) {
     Floats lower = task.has_lower ? one : zero;
     Floats upper = task.has_upper ? one : zero;
     auto wide = one == one;
+    Floats open_left = one;
+    Floats open_right = one;
+    Floats open_lower = one;
+    Floats open_upper = one;
     if (task.walls != nullptr) {
-        const auto open_left = L::load(task.walls->open_u + c);
-        const auto open_right = L::load(task.walls->open_u + c + 1);
-        const auto open_lower = L::load(task.walls->open_v + c);
-        const auto open_upper = L::load(task.walls->open_v + up);
+        open_left = L::load(task.walls->open_u + c);
+        open_right = L::load(task.walls->open_u + c + 1);
+        open_lower = L::load(task.walls->open_v + c);
+        open_upper = L::load(task.walls->open_v + up);
         wide = L::minimum(L::minimum(open_left, open_right),
                           L::minimum(open_lower, open_upper)) == one;
         left = left * open_left;
@@ -77,8 +81,9 @@ inline bool build_any(RowTask& task, std::int32_t c) {
     if (!L::all_true((L::absolute(scaled) < L::all(__builtin_inff())) | ~wet)) {
         return false;
     }
-    Floats divergence = (right * L::load(grid.u + c + 1) - left * L::load(grid.u + c)) +
-                        (upper * L::load(grid.v + up) - lower * L::load(grid.v + c));
+    Floats divergence =
+        (open_right * L::load(grid.u + c + 1) - open_left * L::load(grid.u + c)) +
+        (open_upper * L::load(grid.v + up) - open_lower * L::load(grid.v + c));
     const auto straight =
         (lowest_around<L>(fields.level, stride, c) > zero) &
         (L::minimum(L::minimum(left, right), L::minimum(lower, upper)) == one);

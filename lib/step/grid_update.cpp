@@ -228,8 +228,8 @@ void extrapolate_component(const Component<Real>& component, const PressureField
 }  // namespace
 
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> fall, const LevelOf<Real>* level,
-                 StaggeredGrid<Real>& grid, Work work) {
+void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
+                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
     // One component after the other: packed velocities take the place of momenta.
     const auto component = [&](const Real* momentum, VelocityOf<Real>* mass,
@@ -256,7 +256,8 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> fall, const LevelOf<Re
     component(grid.momentum_u(), grid.mass_u, grid.inverse_density_u, fall.x, grid.u);
     component(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, fall.y, grid.v);
     if (work.once(s.border())) {
-        close_walls(borders, level, grid);
+        const Real* pressure = may_part(fields) ? fields.pressure : nullptr;
+        close_walls(borders, fall, fields.level, pressure, grid);
     }
 }
 
@@ -294,8 +295,8 @@ void extrapolate_by_face(const Borders<Real>& borders, const Walls<Real>& walls,
 }
 
 #define WEIR_INSTANTIATE(Real)                                                           \
-    template void grid_update(const Borders<Real>&, Vec2<Real>, const LevelOf<Real>*,    \
-                              StaggeredGrid<Real>&, Work);                               \
+    template void grid_update(const Borders<Real>&, Vec2<Real>,                          \
+                              const PressureFields<Real>&, StaggeredGrid<Real>&, Work);  \
     template void extrapolate(const Borders<Real>&, const Walls<Real>&,                  \
                               const PressureFields<Real>&, bool, StaggeredGrid<Real>&,   \
                               Work);                                                     \

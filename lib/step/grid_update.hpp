@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid/borders.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/parting.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -10,10 +10,10 @@ namespace weir {
 /// velocity = momentum / mass on every face that has mass, then `fall` on top: what gravity gives,
 /// cells/s. Where the mass was stands the velocity before gravity from now on: grid-to-particle
 /// needs the change (FLIP). With two liquids the mass gives way to the inverse density.
-/// Normal velocity on the tank's walls is 0. Order: by row. Cost: one division a face.
+/// Normal velocity on the tank's walls is 0 but where liquid parts from them. Order: by row. Cost: one division a face.
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> fall, const LevelOf<Real>* level,
-                 StaggeredGrid<Real>& grid, Work work = {});
+void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
+                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work = {});
 
 /// Faces in air beside the liquid take from the pressure what the liquid's open faces next to them
 /// do on average: particles at the surface read both. It is the acceleration that goes on smoothly

@@ -119,7 +119,7 @@ void update_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
     const Vec2<Real> exact = plan.dt_s * simulation.settings.gravity;
     const Real most = most_owed(simulation, plan);
     grid_update(simulation.settings.borders, simulation.fall.of(exact, most),
-                simulation.pressure.level, simulation.grid, work);
+                simulation.pressure, simulation.grid, work);
     if (work.once(1)) {
         simulation.fall.give(exact, most);
     }

@@ -90,7 +90,7 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     }
     scatter_all(simulation);
     find_levels(simulation);
-    grid_update(simulation.settings.borders, Vec2<Real>{}, simulation.pressure.level,
+    grid_update(simulation.settings.borders, Vec2<Real>{}, simulation.pressure,
                 simulation.grid);
     sum_cells(simulation, cell_m, *diagnostics);
     diagnostics->divergence_per_s *= per_s;

@@ -137,7 +137,7 @@ TEST(Transfer, UniformVelocityIsReturnedExactly) {
         std::fill(bench.w.begin(), bench.w.end(), Vec2<float>{2.0F, -3.0F});
         const std::vector<Vec2<float>> start = bench.x;
         bench.scatter();
-        grid_update(bench.borders, {0, 0}, bench.fields.level, bench.grid);
+        grid_update(bench.borders, {0, 0}, bench.fields, bench.grid);
         blend_change(bench.borders, flip, bench.fields, bench.grid);
         Particles<float> particles = bench.particles();
         const TransferResult<float> result =
@@ -259,7 +259,7 @@ double divergence_left(std::int32_t sweeps) {
     }
     bench.scatter();
     surface_level(bench.grid, bench.borders, bench.walls, 4.0, bench.fields);
-    grid_update(bench.borders, {0, 0}, bench.fields.level, bench.grid);
+    grid_update(bench.borders, {0, 0}, bench.fields, bench.grid);
     bench.mass_u.assign(bench.mass_u.size(), 0.0);  // at rest before: no divergence is asked for
     bench.mass_v.assign(bench.mass_v.size(), 0.0);
     const double before = divergence_of(bench);
@@ -279,7 +279,7 @@ TEST(Projection, APoolAtRestGetsHydrostaticPressure) {
     bench.lattice(0, 0, 8, 10, 2);
     bench.scatter();
     surface_level(bench.grid, bench.borders, bench.walls, 4.0, bench.fields);
-    grid_update(bench.borders, {0, -4.9}, bench.fields.level, bench.grid);
+    grid_update(bench.borders, {0, -4.9}, bench.fields, bench.grid);
     projection(bench.borders, bench.walls, 0.01, 1000, bench.grid, bench.fields);
     // The level of a 2 × 2 lattice is a little off the drawn surface: 5 % of a cell.
     for (std::int32_t j = 0; j < 10; ++j) {
