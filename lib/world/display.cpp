@@ -205,7 +205,8 @@ template <class Real>
 ChangedRows draw(const World<Real>& world, const Display& display) {
     const bool can_be = display.pixels != nullptr && within(display.width, 1, kMostPixels) &&
                         within(display.height, 1, kMostPixels) &&
-                        display.liquid <= kMostShade && display.solid <= kMostShade;
+                        display.liquid >= 1 && display.liquid <= kMostShade &&
+                        display.solid <= kMostShade;
     const Box& shown = display.shown_m;
     const std::int32_t columns = world.cells_x();
     const std::int32_t rows = world.cells_y();

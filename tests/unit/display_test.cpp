@@ -41,6 +41,12 @@ TEST(Display, WhatCannotBeIsLeftAsItIs) {
             EXPECT_EQ(draw(*world, display).last, -1) << none;
         }
     }
+    Display unseen;
+    unseen.width = 16;
+    unseen.height = 16;
+    unseen.pixels = pixels.data();
+    unseen.liquid = 0;  // air's
+    EXPECT_EQ(draw(*world, unseen).last, -1);
     EXPECT_EQ(pixels, before);
     EXPECT_TRUE(changed(16, 16, pixels.data()));
     EXPECT_NE(pixels, before);

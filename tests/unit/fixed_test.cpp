@@ -154,6 +154,7 @@ TEST(FixedPoint, FloatsConvertToTheNearestAndSaturate) {
     EXPECT_EQ(Fixed(-HUGE_VALF).raw, kLeastRaw);
     EXPECT_EQ(Fixed(1 << 20).raw, kMostRaw);
     EXPECT_EQ(Fixed(-(1 << 20)).raw, kLeastRaw);
+    EXPECT_EQ(Fixed(~std::uint64_t{0}).raw, kMostRaw) << "no number of 64 bits with a sign";
     EXPECT_EQ(static_cast<std::int32_t>(Fixed(-1.75)), -1);
     EXPECT_EQ(floor_to_int(Fixed(-1.75)), -2);
     EXPECT_EQ(ceil_to_int(Fixed(-1.75)), -1);

@@ -45,7 +45,8 @@ struct Capacity {
     std::int32_t cells_x = 32;      ///< kMinCells … kMaxCells; the tank is cells_x × cells_y cells
     std::int32_t cells_y = 32;      ///< kMinCells … kMaxCells
     std::int32_t bodies = 0;        ///< 0 … kMaxBodies, static and moving together
-    bool moving_bodies = true;      ///< false: static ones only, and 4 to 6 bytes less a cell
+    /// false: static ones only, and 6 bytes less a cell (double: 10, SmallFixed: 3, of one body 2).
+    bool moving_bodies = true;
     std::int32_t vertices = 0;      ///< 0 … kMaxVertices, of all bodies; and 3 a hole
     /// Walls thinner than 1.5 cells: room for their edges, 0 … kMaxWallEdges, about 3 for each cell
     /// of their length and 6 for each edge. 0: none, and polygons that thin are not tight. Near

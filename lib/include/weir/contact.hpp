@@ -16,7 +16,7 @@ enum class ContactWith : std::uint8_t {
 /// All blows on one body within a step, of one that it met. Pressure is no blow: liquid at rest on
 /// a body presses on it, and its particles touch it now and then with next to no impulse. What lies
 /// on something meets it in each step, with the impulse that carries it: of a mass m (`BodyMass`)
-/// about m·g·dt, a fall of height h √(2 g h) m.
+/// about m·g·dt, a fall of height h √(2 g h) m, in the step in which it lands and the next one.
 struct Contact {
     BodyId body;
     BodyId other;                ///< the body that it met, or none (`BodyId{}`)

@@ -31,7 +31,9 @@ struct FixedPoint {
 
     template <class Whole, std::enable_if_t<std::is_integral<Whole>::value, int> = 0>
     [[gnu::always_inline]] constexpr explicit FixedPoint(Whole value)
-        : raw(of_whole(static_cast<std::int64_t>(value))) {}
+        : raw(std::is_unsigned<Whole>::value && static_cast<std::uint64_t>(value) >> 63U != 0U
+                  ? most().raw
+                  : of_whole(static_cast<std::int64_t>(value))) {}
 
     /// Meant for constants: costs double arithmetic where the compiler cannot fold it.
     [[gnu::always_inline]] constexpr explicit FixedPoint(double value) {
