@@ -10,7 +10,7 @@ from shapely.geometry import box
 
 from scene_geometry import (clean_polygons, finished_rings, polygon_of, thin_wall_edges, to_float32,
                             united)
-from scene_motion import (NUMBER, Motion, body_key, fractions_of, guide_ids, motion_of,
+from scene_motion import (NUMBER, Motion, body_key, fractions_of, guide_ids, length_of, motion_of,
                           role_and_depth)
 from svg_outline import area_on_page, has_dashes, has_paint, is_line, is_shown
 from svg_reader import DrawingError
@@ -22,6 +22,8 @@ LEAST_CELLS = 4
 CELL_RANGE_M = (1e-6, 1e3)
 MAX_GRAVITY = 1000.0
 MAX_STEP_S = 1.0
+MAX_SPIN = 1e4
+MAX_SPEED_CELLS = 1e6
 PARTICLES_PER_CELL = (1, 4, 9, 16)
 MAX_WALL_EDGES = 65000
 BACKGROUND_SHARE = 0.99  # a filling that covers this share of the page is paper, not a solid
@@ -211,8 +213,7 @@ class Builder:
 
     def finished(self, polygons, origin=(0.0, 0.0)):
         """The rings of each polygon."""
-        finished = [finished_rings(p, self.cell, origin) for p in polygons]
-        finished = [rings for rings in finished if rings]
+        finished = [rings for p in polygons for rings in finished_rings(p, self.cell, origin)]
         for rings in finished:
             if sum(map(len, rings)) + 3 * (len(rings) - 1) > MAX_BODY_VERTICES:
                 raise DrawingError(f"a polygon has more than {MAX_BODY_VERTICES} vertices: raise "
@@ -233,6 +234,7 @@ class Builder:
         polygons, slivers = clean_polygons(whole, self.cell, 0.5 * self.tolerance)
         motion = motion_of(shape, self.drawing, self.to_metres,
                            0.5 * self.tolerance / self.drawing.metres_per_px)
+        self.check_speed(shape, motion)
         pivot = motion.pivot or (whole.centroid.x, whole.centroid.y)
         # Rounded once: ring + position must be the place it was drawn at.
         pivot = (to_float32(pivot[0]), to_float32(pivot[1]))
@@ -243,6 +245,15 @@ class Builder:
         for rings in self.finished(polygons, pivot):
             self.scene.moving.append(Body(rings, motion, start, fractions))
         return slivers
+
+    def check_speed(self, shape, motion):
+        """Refuses what the library refuses."""
+        fastest = max(map(abs, motion.velocity))
+        if motion.path:
+            fastest = length_of(motion.path) / motion.period
+        if fastest > MAX_SPEED_CELLS * self.cell or abs(motion.spin) > MAX_SPIN:
+            raise DrawingError(f"{shape.label()!r} is too fast: at most {MAX_SPEED_CELLS:g} cells "
+                               f"(of {self.cell:.4g} m) and {MAX_SPIN:g} rad a second")
 
     def add_wall_edges(self):
         """What keeps strokes and plates tight that are thinner than the grid shows."""

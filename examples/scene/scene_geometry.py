@@ -99,6 +99,18 @@ def polygon_of(rings):
     return Polygon(rings[0], rings[1:])
 
 
+def tidied(raw, cell):
+    """Vertex lists in single precision, rid of what says nothing; None if edges cross then."""
+    for strength in (1.0, 0.1, 0.01):  # removing vertices can make edges cross: then remove less
+        limits = strength * MIN_EDGE_CELLS * cell, strength * COLLINEAR_CELLS * cell
+        rings = [[(to_float32(x), to_float32(y)) for x, y in tidy_ring(ring, *limits)]
+                 for ring in raw]
+        tidy = polygon_of(rings)
+        if tidy.is_valid and tidy.area > 0.0:
+            return rings
+    return None
+
+
 def finished_rings(polygon, cell, origin=(0.0, 0.0)):
     """The vertices that go into the header.
 
@@ -107,23 +119,26 @@ def finished_rings(polygon, cell, origin=(0.0, 0.0)):
         cell: cell size in metres.
         origin: subtracted from every vertex (the pivot of a moving body).
     Returns:
-        The rings, lists of (x, y) in single precision: the outer one, counter-clockwise, then the
-        holes, clockwise; or None if nothing is left.
+        For each polygon its rings, lists of (x, y) in single precision: the outer one,
+        counter-clockwise, then the holes, clockwise. Several where single precision parts what
+        hangs together by less, as the halves of an eight do; none if nothing is left.
     """
     raw = [[(x - origin[0], y - origin[1]) for x, y in ring] for ring in rings_of(polygon)]
-    for strength in (1.0, 0.1, 0.01):  # removing vertices can make edges cross: then remove less
-        limits = strength * MIN_EDGE_CELLS * cell, strength * COLLINEAR_CELLS * cell
-        rings = [[(to_float32(x), to_float32(y)) for x, y in tidy_ring(ring, *limits)]
-                 for ring in raw]
-        tidy = polygon_of(rings)
-        if tidy.is_valid and tidy.area > 0.0:
-            return rings
-    # Rounding makes edges cross: keep the largest part, with its thinnest features cut off.
-    part = max(polygons_of(make_valid(polygon_of(raw))), key=lambda p: p.area, default=None)
-    if part is None:
-        return None
-    part = without_hairlines(part, 10.0 * cell)
-    part = max(polygons_of(part), key=lambda p: p.area, default=None)
+    whole = tidied(raw, cell)
+    if whole:
+        return [whole]
+    rounded = polygon_of([[(to_float32(x), to_float32(y)) for x, y in ring] for ring in raw])
+    parts, _ = without_slivers(make_valid(rounded), cell)
+    return [rings for part in parts if (rings := tidied_part(part, cell))]
+
+
+def tidied_part(part, cell):
+    """Rings of a part; if its edges cross, of the largest of what its thinnest features leave."""
+    rings = tidied(rings_of(part), cell)
+    if rings:
+        return rings
+    part = max(polygons_of(without_hairlines(part, 10.0 * cell)), key=lambda p: p.area,
+               default=None)
     if part is None:
         return None
     rings = [[(to_float32(x), to_float32(y)) for x, y in ring] for ring in rings_of(part)]

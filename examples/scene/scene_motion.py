@@ -96,6 +96,11 @@ def on_page(drawing, x, y):
     return m.a * x + m.c * y + m.e, m.b * x + m.d * y + m.f
 
 
+def length_of(path):
+    """Of a closed loop."""
+    return sum(math.dist(p, path[(i + 1) % len(path)]) for i, p in enumerate(path))
+
+
 def fractions_of(path):
     """Share of the loop's length at which each point is reached."""
     lengths = [math.dist(p, path[(i + 1) % len(path)]) for i, p in enumerate(path)]

@@ -114,9 +114,11 @@ def main(arguments=None):
         else:
             with open(args.header, "w", encoding="ascii") as file:
                 file.write(text)
-    except (DrawingError, OSError) as error:
+    except (DrawingError, OSError, RecursionError) as error:
         for notice in drawing.notices if drawing else []:  # may be why: it is all text, say
             print(f"notice: {notice}", file=sys.stderr)
+        if isinstance(error, RecursionError):
+            error = f"{args.drawing} has groups too deep in each other"
         print(f"svg_to_scene: {error}", file=sys.stderr)
         return 2
     for notice in scene.notices:

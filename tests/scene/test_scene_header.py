@@ -91,7 +91,9 @@ class MovingTest(SceneTest):
         for bad in ('data-velocity="1"', 'data-spin="fast"', 'data-path="1,1 2,2"',
                     'data-path="#gone" data-period="1"', 'data-pivot="1 2 3"',
                     'data-path="1,1 2,2" data-period="0"', 'data-path="1,1" data-period="1"',
-                    'data-velocity="1 1" data-path="1,1 2,2" data-period="1"'):
+                    'data-velocity="1 1" data-path="1,1 2,2" data-period="1"',
+                    'data-spin="-10001"', 'data-velocity="0 20001"',  # what the library refuses
+                    'data-path="1,1 99,99" data-period="1e-4"'):
             with self.assertRaises(DrawingError, msg=bad):
                 self.scene(f'<g id="moving">{self.BAR.format(bad)}</g>')
 
@@ -126,6 +128,13 @@ class ToolTest(SceneTest):
         result = self.run_tool(self.write("", page='width="1000" height="20"'), "-")
         self.assertEqual(result.returncode, 2)
         self.assertIn("96 x 2 cells", result.stderr)
+
+    def test_groups_too_deep_for_the_reader_exit_2(self):
+        deep = "<g>" * 2000 + '<rect width="9" height="9"/>' + "</g>" * 2000
+        result = self.run_tool(self.write(deep), "-")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("too deep", result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
 
     def test_what_was_left_out_is_said_of_an_empty_drawing_too(self):
         result = self.run_tool(self.write("<text y='50'>WEIR</text>", liquid=""), "-")
