@@ -129,8 +129,9 @@ const char* content_text(Status status) {
         case Status::polygon_outside_domain:
             return "polygon lies wholly outside the tank: move it in";
         case Status::position_out_of_range:
-            return "position: at most 1e5 cells from the tank's origin";
-        case Status::motion_not_finite: return "motion has a NaN or infinite number";
+            return "position: at most 1e5 cells from the tank's origin, in fixed point 16000";
+        case Status::motion_not_finite:
+            return "motion has a NaN or infinite number, or no time to take";
         case Status::motion_out_of_range:
             return "motion: at most 1e6 cells/s (in Fixed 16000, in SmallFixed 255 or what "
                    "top_speed_mps asks for), 1e4 rad and rad/s";

@@ -122,7 +122,8 @@ template <class Real>
         }
     }
     place(table, body);
-    if (box_of(state.simulation, body).empty()) {
+    const bool comes_in = kind != BodyKind::fixed && set_free == nullptr;  // as it is told to
+    if (!comes_in && box_of(state.simulation, body).empty()) {
         table.vertices_used -= body.room;
         return Status::polygon_outside_domain;
     }

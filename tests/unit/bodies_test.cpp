@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "brute_distance.hpp"
@@ -358,6 +359,41 @@ TEST(Motion, ABodyMayLeaveTheTankAndComeBack) {
         world->step(kFrame);
         expect_field(*world, {placed(kSquare4cm, def.motion)});
     }
+}
+
+template <class Real>
+void check_comes_in() {
+    const WorldDef def = field_def(2, 8);
+    TestWorld<Real> world(def), led(def);
+    BodyDef paddle = body_of(kSquare4cm, {-0.1F, 0.1F});
+    paddle.motion.velocity_mps = {0.5F, 0.0F};
+    BodyId id;
+    EXPECT_EQ(world->add_static_body(paddle, &id), Status::polygon_outside_domain);
+    ASSERT_EQ(world->add_moving_body(paddle, &id), Status::ok);
+    const Motion begins = paddle.motion;
+    paddle.motion.position_m = {0.3F, 0.3F};
+    BodyId led_id;
+    ASSERT_EQ(led->add_moving_body(paddle, &led_id), Status::ok);
+    ASSERT_EQ(led->set_motion(led_id, begins), Status::ok);
+    std::vector<std::byte> kept(snapshot_bytes<Real>(def.capacity));
+    ASSERT_EQ(world->save(kept.data(), kept.size()), Status::ok);
+    ASSERT_EQ(world->restore(kept.data(), kept.size()), Status::ok);
+    for (int step = 0; step < 24; ++step) {
+        world->step(kFrame);
+        led->step(kFrame);
+        ASSERT_EQ(world->state_hash(), led->state_hash()) << step;
+    }
+    Motion now;
+    ASSERT_EQ(world->motion(id, &now), Status::ok);
+    EXPECT_NEAR(now.position_m.x, 0.1F, 1.0e-4F);
+    if constexpr (std::is_same_v<Real, float>) {
+        expect_field(*world, {placed(kSquare4cm, now)});
+    }
+}
+
+TEST(Motion, ABodyMayComeInFromOutside) {
+    check_comes_in<float>();
+    check_comes_in<Fixed>();
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ struct Box {
 };
 
 /// A body's name: a slot in the body table and the generation that the slot had when the body was
-/// added, so that the name of a removed body is refused and never reaches its successor; and the
-/// world's own tag, so that one world refuses another's names.
+/// added, so that the name of a removed body is refused and does not reach its successors, but for
+/// each 65,536th; and the world's own tag, so that one world refuses another's names.
 struct BodyId {
     std::uint16_t slot = 0xFFFF;
     std::uint16_t generation = 0;

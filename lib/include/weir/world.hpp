@@ -49,7 +49,8 @@ public:
 
     /// A solid that never moves; it is rasterized once. Liquid found inside it is pushed out.
     Status add_static_body(const BodyDef& def, BodyId* id);
-    /// A solid that moves as told; it is rasterized again in each step in which it moved.
+    /// A solid that moves as told; it is rasterized again in each step in which it moved. It may
+    /// come in from outside the tank, where other bodies are refused.
     Status add_moving_body(const BodyDef& def, BodyId* id);
     /// A solid that gravity and the liquid move, and that meets the tank's walls, bodies of all
     /// kinds and its like; otherwise a moving body. Where two surfaces meet the larger restitution
@@ -99,6 +100,7 @@ public:
     /// `SmallFixed` keep it in whole numbers, of which none is lost, and tell them rounded; what
     /// would be nobody's there is the tank's.
     Status tank_force(BodyForce* force) const;
+    /// What a body weighs. Wants `capacity.two_way`.
     Status mass(BodyId id, BodyMass* mass) const;
 
     /// Fills a box with particles on a lattice, leaving out what is inside solids.
