@@ -68,9 +68,9 @@ void mirror_field(const Walls<Real>& walls, const TwoFields<Real>& both, bool wa
 /// twice kDeepestMirror away, and its stencil begins a cell further on.
 constexpr std::int32_t kRowsHeld = 5;
 /// So many more rows later faces are computed that wait for others, to fill groups of lanes.
-constexpr std::int32_t kRowsWaiting = 2;
+constexpr std::int32_t kRowsWaiting = 6;
 /// Faces of rows that are computed and not yet written find room in scratch, by turns: three
-/// numbers each, in as many rows. Low tanks have no room for any that wait.
+/// numbers each, in as many rows. In low tanks fewer wait.
 constexpr std::int32_t kTurns = kRowsHeld + 1;
 constexpr std::int32_t kMostTurns = kTurns + kRowsWaiting;
 constexpr std::int32_t rows_of(std::int32_t turns) {
@@ -78,7 +78,7 @@ constexpr std::int32_t rows_of(std::int32_t turns) {
 }
 template <class Real>
 constexpr std::int32_t turns_in(const GridShape& s) {
-    return kHasLanes<Real> && s.ny >= rows_of(kMostTurns) ? kMostTurns : kTurns;
+    return kHasLanes<Real> ? clamp(s.ny / rows_of(1), kTurns, kMostTurns) : kTurns;
 }
 
 /// One component of both fields, on the same faces.
@@ -258,9 +258,8 @@ struct BothMirrors {
     }
 
     /// Those that have waited for rows enough, or all of them, wait no longer.
-    void row_in_lanes(std::int32_t j) {
+    void row_in_lanes(const MirrorTask& task, std::int32_t j) {
         const GridShape& s = now.shape;
-        const MirrorTask task = mirror_task();
         const std::uint32_t* near = first_near(s, walls, j);
         for (std::int32_t k = 0; 32 * k < s.nx; ++k) {
             for (std::uint32_t left = near[k]; left != 0;) {
@@ -281,14 +280,6 @@ struct BothMirrors {
 #endif
 
     void row(std::int32_t j) {
-#if WEIR_HAS_LANES
-        if constexpr (kHasLanes<Real>) {
-            if (!walls.sticking && now.shape.nx >= 8) {
-                row_in_lanes(j);
-                return;
-            }
-        }
-#endif
         for_each_near(now.shape, walls, {j, j + 1}, [&](std::int32_t i, std::int32_t) {
             if (i > 0) {
                 face(u, i, j);
@@ -300,7 +291,21 @@ struct BothMirrors {
     }
 };
 
-/// What is computed is written as soon as no other row reads what stood there.
+/// What row(j) computes is written as soon as no other row reads what stood there.
+template <class Real, class Row>
+void mirror_rows(std::int32_t rows, BothMirrors<Real>& mirrors, const Row& row) {
+    const std::int32_t held = mirrors.u.turns - 1;
+    for (std::int32_t front = 0; front < rows + held; ++front) {
+        if (front < rows) {
+            row(front);
+        }
+        if (front >= held) {
+            mirrors.u.write(front - held);
+            mirrors.v.write(front - held);
+        }
+    }
+}
+
 template <class Real>
 void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
                      PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
@@ -313,16 +318,16 @@ void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
         both.was,
         {{s, walls, true}, grid.u, grid.mass_u, fields.divergence, turns},
         {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal, turns}};
-    const std::int32_t held = turns - 1;
-    for (std::int32_t front = 0; front < s.ny + held; ++front) {
-        if (front < s.ny) {
-            mirrors.row(front);
-        }
-        if (front >= held) {
-            mirrors.u.write(front - held);
-            mirrors.v.write(front - held);
+#if WEIR_HAS_LANES
+    if constexpr (kHasLanes<Real>) {
+        if (!walls.sticking && s.nx >= 8) {
+            const MirrorTask task = mirrors.mirror_task();
+            mirror_rows(s.ny, mirrors, [&](std::int32_t j) { mirrors.row_in_lanes(task, j); });
+            return;
         }
     }
+#endif
+    mirror_rows(s.ny, mirrors, [&](std::int32_t j) { mirrors.row(j); });
 }
 
 }  // namespace
