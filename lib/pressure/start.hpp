@@ -110,7 +110,12 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     for (std::int32_t at = scaled.first; at < scaled.end; ++at) {
         const std::int32_t j = solve.first_row + at;
         const Part columns = s.columns(j);
-        for (std::int32_t c = s.index(columns.first, j); c < s.index(columns.end, j); ++c) {
+        const std::int32_t end = s.index(columns.end, j);
+        std::int32_t c = s.index(columns.first, j);
+        if constexpr (kHasLanes<Real>) {
+            c = scale_lanes(p, solve.share, c, end);
+        }
+        for (; c < end; ++c) {
             p[c] = solve.share * p[c];
         }
     }
