@@ -28,6 +28,12 @@ constexpr std::int32_t kMostWalls = 4;
 template <class Real>
 constexpr Real kOtherSide = Real(0.0625);
 
+/// A particle that is in the open again has come through a solid if it ends further than this behind
+/// the line where it went in, or began so behind that where it came out, cells. Less is a corner
+/// that it cuts.
+template <class Real>
+constexpr Real kThrough = Real(0.25);
+
 /// A pressed particle may go this far around what presses it, cells.
 constexpr std::int32_t kSlip = 1;
 
@@ -48,12 +54,31 @@ template <class Real>
            !is_inside(scene.shape, scene.walls, from);
 }
 
+/// Whether a way between two places in the open leads through a solid.
+template <class Real>
+[[gnu::noinline, gnu::cold]] bool leads_through(const Scene<Real>& scene, Vec2<Real> from,
+                                                Vec2<Real> to) {
+    if (!in_tank(scene.shape, from) || is_inside(scene.shape, scene.walls, from)) {
+        return false;
+    }
+    const auto enters = [&](Vec2<Real> begin, Vec2<Real> end, bool& found) {
+        const Entry<Real> entry = first_entry(scene.shape, scene.walls, begin, end);
+        found = entry.found;
+        return found && Real(dot(entry.place - end, line_normal(scene.shape, scene.walls,
+                                                                entry.behind))) > kThrough<Real>;
+    };
+    bool found = false;
+    return enters(from, to, found) || (found && enters(to, from, found));
+}
+
 /// Sets a particle back to the line of its cell, and to that of the cell where it gets. False, and
 /// nothing has happened: it is too deep, or comes out on another side than it came from.
 template <class Real>
 [[gnu::noinline]] bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at,
-                                Vec2<Real> before) {
+                                Vec2<Real> before, bool further) {
     const Vec2<Real> x = scene.particles.position[k];
+    const bool saddle = at.which == 5 || at.which == 10;
+    const Body<Real>& touched = scene.walls.body[at.slot];
     const bool binary = scene.walls.binary;
     Vec2<Real> to = x;
     Blows<Real> blows;
@@ -69,14 +94,15 @@ template <class Real>
         const Vec2<Real> wall = to + minimum(way, kFastestWayOut<Real>) * normal;
         const Body<Real>& body = scene.walls.body[at.slot];
         const Real beyond = binary ? Real(0) : Real(0) - kBeyond<Real> * at.hit.distance;
-        to = within_tank(scene.shape, wall + beyond * normal);
+        to = as_kept(within_tank(scene.shape, wall + beyond * normal));
         at = standing(scene.shape, scene.walls, to);
         if (!binary && !at.inside &&
             on_other_side(scene, wall, normal, carried(scene, body, before))) {
             return false;
         }
     }
-    if (at.inside && !binary) {
+    if (!binary && (at.inside || ((further || saddle || blows.count > 1) &&
+                                  leads_through(scene, carried(scene, touched, before), to)))) {
         return false;
     }
     scene.particles.position[k] = to;
@@ -186,24 +212,28 @@ template <class Real>
 /// A particle near the contour of a solid, to which it stands so. False: it has no way out.
 template <class Real>
 [[gnu::always_inline]] inline bool meet_at(Scene<Real>& scene, std::int32_t k,
-                                           const Standing<Real>& at, Vec2<Real> before, bool far) {
+                                           const Standing<Real>& at, Vec2<Real> before,
+                                           Went went) {
     if (scene.walls.binary) {
         scene.result.reflected += at.inside ? 1 : 0;
-        return !at.inside || set_back(scene, k, at, before);
+        return !at.inside || set_back(scene, k, at, before, false);
     }
-    if (at.inside && !far && set_back(scene, k, at, before)) {
+    const bool far = went == Went::far;
+    if (at.inside && !far && set_back(scene, k, at, before, went != Went::near)) {
         ++scene.result.reflected;
         return true;
     }
-    return ((at.inside || far) && stop_on_path(scene, k, at.slot, before, far)) || !at.inside ||
+    const bool swept =
+        at.inside || far || (went == Went::further && leads_through(scene, before, Vec2<Real>(scene.particles.position[k])));
+    return (swept && stop_on_path(scene, k, at.slot, before, far)) || !at.inside ||
            lead_out(scene, k, at.slot, before);
 }
 
 template <class Real>
-bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far) {
+bool meet_contour(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, Went went) {
     const Standing<Real> at = standing<Real>(scene.shape, scene.walls, scene.particles.position[k]);
     scene.result.tested += at.which != kCellOutside ? 1 : 0;
-    return meet_at(scene, k, at, before, far);
+    return meet_at(scene, k, at, before, went);
 }
 
 template <class Real>
@@ -248,19 +278,19 @@ bool meet_thin(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool follo
 
 /// Thin walls first, then the contour, and who is set back from there keeps its side, too.
 template <class Real>
-bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, bool far, bool thin) {
+bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, Went went, bool thin) {
     if (!thin) {
-        return meet_contour(scene, k, before, far);
+        return meet_contour(scene, k, before, went);
     }
     ++scene.result.tested;
     if (!meet_thin(scene, k, before, true)) {
         return false;
     }
     const Vec2<Real> kept = scene.particles.position[k];
-    if (case_at(scene.shape, scene.walls, kept) == kCellOutside && !far) {
+    if (case_at(scene.shape, scene.walls, kept) == kCellOutside && went == Went::near) {
         return true;
     }
-    if (!meet_contour(scene, k, before, far)) {
+    if (!meet_contour(scene, k, before, went)) {
         return false;
     }
     const Vec2<Real> x = scene.particles.position[k];
@@ -285,27 +315,31 @@ bool any_near_thin(const GridShape& s, const ThinWalls<float>& thin, const Vec2<
     return (marks & kNear) != 0;
 }
 
-/// A block of which nobody went far, and without thin walls. Most particles are clearly outside.
+/// A block without thin walls, all of whose cells are stored. Most particles are clearly outside.
 void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
                       std::int32_t count) {
     const GridShape& s = scene.shape;
     const Vec2<float>* position = scene.particles.position + first;
+    const BlockTask block{s, scene.walls.cell_case, flight.before, position};
     const ClearTask task{scene.walls.cell_case + s.index(0, 0),
                          scene.walls.distance + s.index(0, 0), s.stride, &position->x,
                          kClear<float>};
     std::int32_t numbers[kBlock<float> + 8];
     std::uint32_t cells[kBlock<float> + 8];
     NearWall near{0, numbers, cells};
-    find_near_wall(task.cell_case, s.stride, position, count, near);
+    find_near_wall(block, count, near);
     for (std::int32_t next = 0; next < near.count; next += 8) {
         const std::uint32_t all = (1U << minimum(8, near.count - next)) - 1U;
-        for (std::uint32_t left = all & ~clear_of_eight(task, near, next); left != 0;
+        const std::uint32_t past = near.past ? block.past_of(near.n + next) : 0U;
+        for (std::uint32_t left = all & (past | ~clear_of_eight(task, near, next)); left != 0;
              left &= left - 1U) {
             const std::int32_t n = near.n[next + __builtin_ctz(left)];
             const Vec2<float> before(flight.before[n]);
             const Standing<float> at = standing_near(s, scene.walls, position[n]);
-            note(scene, first + n, meet_at(scene, first + n, at, before, false), before,
-                 flight.mark_removed);
+            scene.result.tested -= at.which == kCellOutside ? 1 : 0;
+            note(scene, first + n,
+                 meet_at(scene, first + n, at, before, went(before, Vec2<float>(position[n]))),
+                 before, flight.mark_removed);
         }
     }
     scene.result.tested += near.count;
@@ -317,12 +351,12 @@ inline void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& f
                            std::int32_t first, std::int32_t count) {
     for (std::int32_t n = count; n > 0;) {
         const packed::Found found = packed::next_at_wall(
-            scene.shape, scene.walls, scene.particles.position + first,
-            flight.far ? flight.before : nullptr, n, scene.result.tested);
+            scene.shape, scene.walls, scene.particles.position + first, flight.before, n,
+            scene.result.tested);
         n = found.n;
         if (n >= 0) {
             const Vec2<SmallFixed> before(flight.before[n]);
-            note(scene, first + n, meet_contour(scene, first + n, before, found.far), before,
+            note(scene, first + n, meet_contour(scene, first + n, before, found.went), before,
                  flight.mark_removed);
         }
     }
@@ -338,17 +372,16 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
     const bool one_by_one = walls.thin != nullptr || flight.beyond ||
                             (flight.far && !all_stored(walls));
     for (std::int32_t n = count; n > 0;) {
-        n = one_by_one   ? n - 1
-            : flight.far ? last_past_wall(s, walls.cell_case, flight.before, position, n)
-                         : last_near_wall(s, walls.cell_case, position, n);
+        n = one_by_one ? n - 1
+                       : last_past_wall(s, walls.cell_case, flight.before, position, n);
         if (n < 0) {
             return;
         }
         const Vec2<Real> x = position[n];
         const Vec2<Real> before = flight.before[n];
-        const bool far = flight.far && is_far(before, x);
-        const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, far);
-        if (case_at(s, walls, x) != kCellOutside || far || thin) {
+        const Went far = went(before, x);
+        const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, far == Went::far);
+        if (case_at(s, walls, x) != kCellOutside || far != Went::near || thin) {
             note(scene, first + n, meet(scene, first + n, before, far, thin), before,
                  flight.mark_removed);
         }
@@ -368,8 +401,9 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
             const Vec2<float>* position = particles.position + first;
-            if (!flight.far && !flight.beyond && maximum(shape.stride, shape.ny) < 0x8000 &&
-                (walls.thin == nullptr || !any_near_thin(shape, *walls.thin, position, count))) {
+            if ((!flight.far || all_stored(walls)) && !flight.beyond && maximum(shape.stride, shape.ny) < 0x8000 &&
+                (walls.thin == nullptr ||
+                 (!flight.far && !any_near_thin(shape, *walls.thin, position, count)))) {
                 collide_in_lanes(scene, flight, first, count);
                 return;
             }

@@ -6,9 +6,8 @@
 
 namespace weir {
 
-std::int32_t find_near_wall_wide(const std::uint8_t* cell_case, std::int32_t stride,
-                                 const float* position, std::int32_t count, NearWall& found) {
-    return find_near_wall<EightLanes>(cell_case, stride, position, count, found);
+std::int32_t find_near_wall_wide(const BlockTask& task, std::int32_t count, NearWall& found) {
+    return find_near_wall<EightLanes>(task, count, found);
 }
 
 std::uint32_t clear_of_eight_wide(const ClearTask& task, const NearWall& near, std::int32_t next) {

@@ -5,10 +5,27 @@
 
 namespace weir {
 
-/// Who goes that far may have passed a wall that is not in its cell.
+/// How far a particle went along an axis.
+enum class Went : std::uint8_t {
+    near,     ///< at most half a cell: no wall of a cell is passed so, as the nodes show it
+    further,  ///< it may have passed a wall
+    far,      ///< further than a cell: also one that is in neither of its ends' cells
+};
+
+/// As nodes show it a wall of one cell is half a cell thick in places.
 template <class Real>
-bool is_far(Vec2<Real> before, Vec2<Real> x) {
-    return absolute(x.x - before.x) > Real(1) || absolute(x.y - before.y) > Real(1);
+inline constexpr Real kThinnestShown = Real(0.5);
+
+template <class Real>
+bool goes_further(Vec2<Real> before, Vec2<Real> x, Real than) {
+    return absolute(x.x - before.x) > than || absolute(x.y - before.y) > than;
+}
+
+template <class Real>
+Went went(Vec2<Real> before, Vec2<Real> x) {
+    return !goes_further(before, x, kThinnestShown<Real>) ? Went::near
+           : goes_further(before, x, Real(1))             ? Went::far
+                                                          : Went::further;
 }
 
 /// Whether all cells that a path can touch are without solid: those between its ends, as
@@ -32,8 +49,7 @@ bool is_path_open(const GridShape& s, const std::uint8_t* cell_case, Vec2<Real> 
     return true;
 }
 
-/// The last of some particles, some of which went far, that is in a cell with solid or may have
-/// passed one, or −1.
+/// The last of some particles that is in a cell with solid or may have passed a wall, or −1.
 template <class Real>
 [[gnu::noinline]] std::int32_t last_past_wall(const GridShape& s, const std::uint8_t* cell_case,
                                               const Vec2<PositionOf<Real>>* before,
@@ -44,7 +60,7 @@ template <class Real>
         const Vec2<Real> x = position[count];
         if (origin[static_cast<std::int32_t>(x.y) * s.stride + static_cast<std::int32_t>(x.x)] !=
                 kCellOutside ||
-            (is_far(from, x) && !is_path_open(s, cell_case, from, x))) {
+            (goes_further(from, x, kThinnestShown<Real>) && !is_path_open(s, cell_case, from, x))) {
             break;
         }
     }
@@ -59,6 +75,12 @@ struct Entry {
     Vec2<Real> behind;
 };
 
+/// As a particle there would be kept. Rounded past a line it would be taken for one from behind.
+template <class Real>
+Vec2<Real> as_kept(Vec2<Real> place) {
+    return Vec2<Real>(Vec2<PositionOf<Real>>(place));
+}
+
 template <class Real>
 Entry<Real> first_entry(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> from,
                         Vec2<Real> to) {
@@ -70,20 +92,21 @@ Entry<Real> first_entry(const GridShape& shape, const Walls<Real>& walls, Vec2<R
     const std::int32_t samples = longest * kSamples < static_cast<Real>(kMostSamples)
                                      ? ceil_to_int(longest * kSamples)
                                      : kMostSamples;
+    const auto at = [&](Real share) { return as_kept(from + share * way); };
     Entry<Real> entry;
     Real outside = Real(0);
     Real inside = Real(0);
     for (std::int32_t k = 1; k <= samples && !entry.found; ++k) {
         outside = inside;
         inside = ratio_of<Real>(k, samples);
-        entry.found = is_inside(shape, walls, from + inside * way);
+        entry.found = is_inside(shape, walls, at(inside));
     }
     for (std::int32_t k = 0; k < kHalvings && entry.found; ++k) {
         const Real middle = Real(0.5) * (outside + inside);
-        (is_inside(shape, walls, from + middle * way) ? inside : outside) = middle;
+        (is_inside(shape, walls, at(middle)) ? inside : outside) = middle;
     }
-    entry.place = from + outside * way;
-    entry.behind = from + inside * way;
+    entry.place = at(outside);
+    entry.behind = at(inside);
     return entry;
 }
 

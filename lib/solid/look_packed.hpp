@@ -23,16 +23,26 @@ struct CasesAt {
 
 using PlaceOfParticle = Vec2<PositionOf<SmallFixed>>;
 
-/// `weir::last_near_wall`. By itself, so that its loop has all registers.
-[[gnu::noinline]] inline std::int32_t last_near_wall(const CasesAt& at,
-                                                     const PlaceOfParticle* places,
-                                                     std::int32_t count) {
+/// Whether a particle went further than half a cell, up or right half less 1/256: both axes at once.
+[[gnu::always_inline]] inline bool goes_further(std::uint32_t from, std::uint32_t to) {
+    return ((to - from + 0x00800080U) & 0xFF00FF00U) != 0;
+}
+
+/// The last of some particles that is in a cell with solid, or went further than half a cell, or −1.
+/// By itself, so that its loop has all registers.
+[[gnu::noinline]] inline std::int32_t last_to_ask(const CasesAt& at, const PlaceOfParticle* places,
+                                                  const PlaceOfParticle* before,
+                                                  std::int32_t count) {
     const std::uint8_t* const cases = at.cases;
     const std::int32_t stride = at.stride;
+    const std::ptrdiff_t to_before = whole(reinterpret_cast<const char*>(before) -
+                                           reinterpret_cast<const char*>(places));
     for (const PlaceOfParticle* one = places + count; one != places;) {
         one = whole(one - 1);
         const std::uint32_t place = word_at(one);
-        if (cases[CasesAt::row(place) * stride + CasesAt::column(place)] != kCellOutside) {
+        const std::uint32_t from = word_at(reinterpret_cast<const char*>(one) + to_before);
+        if (goes_further(from, place) ||
+            cases[CasesAt::row(place) * stride + CasesAt::column(place)] != kCellOutside) {
             return static_cast<std::int32_t>(one - places);
         }
     }
@@ -54,77 +64,54 @@ inline bool is_path_open(const CasesAt& at, std::uint32_t from, std::uint32_t to
     return true;
 }
 
-/// `weir::is_far`, told from words.
-[[gnu::always_inline]] inline bool goes_far(std::uint32_t from, std::uint32_t to) {
+/// Whether it went further than a cell.
+inline bool goes_far(std::uint32_t from, std::uint32_t to) {
     const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
     const std::uint32_t along_y = (to >> 16U) - (from >> 16U);
     return along_x + 256U > 512U || along_y + 256U > 512U;
 }
 
-/// The same, or the last one that went far.
-[[gnu::noinline]] inline std::int32_t last_near_wall_or_far(const CasesAt& at,
-                                                            const PlaceOfParticle* places,
-                                                            const PlaceOfParticle* before,
-                                                            std::int32_t count) {
-    for (std::int32_t n = count - 1; n >= 0; --n) {
-        const std::uint32_t place = word_at(places + n);
-        if (at.cases[at.cell(place)] != kCellOutside || goes_far(word_at(before + n), place)) {
-            return n;
-        }
-    }
-    return -1;
-}
-
-/// What a particle's place says by itself: clearly in the open, or to be asked, or that the way
-/// there has to be asked, too.
-enum class Look : std::uint8_t { open, near, far };
-
-/// `before`: null: it did not go further than a cell. `tested` counts those that are in the open.
-[[gnu::noinline]] inline Look look_at(const CasesAt& at, const PlaceOfParticle* place,
-                                      const PlaceOfParticle* before, std::int32_t& tested) {
-    const std::uint32_t to = word_at(place);
-    const std::int32_t cell = at.cell(to);
-    const std::uint8_t which = at.cases[cell];
-    if (before != nullptr && goes_far(word_at(before), to) &&
-        !is_path_open(at, word_at(before), to)) {
-        return Look::far;
-    }
-    if (which == kCellOutside) {
-        return Look::open;
-    }
-    const auto* low = at.distance + cell;
+/// Whether a place is clearly in front of the contour of its cell.
+inline bool is_clear(const CasesAt& at, std::uint32_t place, std::uint8_t which) {
+    const auto* low = at.distance + at.cell(place);
     const auto* high = low + at.stride;
-    if (side_of_line(which, {{low[0].raw, low[1].raw, high[1].raw, high[0].raw},
-                             4 * low_byte(to), 4 * low_byte(to >> 16U)}) > 0) {
-        ++tested;
-        return Look::open;
-    }
-    return Look::near;
+    return side_of_line(which, {{low[0].raw, low[1].raw, high[1].raw, high[0].raw},
+                                4 * low_byte(place), 4 * low_byte(place >> 16U)}) > 0;
 }
 
 struct Found {
     std::int32_t n;  ///< −1: none
-    bool far;
+    Went went;       ///< near also if there is no solid on its way
 };
 
-/// The last of `count` particles that is not clearly in the open. `before`: null: none of them went
-/// further than a cell. By itself: what it needs is off the stack when a contour is asked.
+/// The last of `count` particles that is not clearly in the open, or may have passed a wall.
+/// `tested` counts those in cells with solid that are in the open. By itself: what it needs is off
+/// the stack when a contour is asked.
 [[gnu::noinline]] inline Found next_at_wall(const GridShape& s, const Walls<SmallFixed>& walls,
                                             const PlaceOfParticle* places,
                                             const PlaceOfParticle* before, std::int32_t count,
                                             std::int32_t& tested) {
     const CasesAt at(s, walls);
     for (std::int32_t n = count; n > 0;) {
-        n = before != nullptr ? last_near_wall_or_far(at, places, before, n)
-                              : last_near_wall(at, places, n);
-        const Look look = n < 0 ? Look::open
-                                : look_at(at, places + n, before != nullptr ? before + n : nullptr,
-                                          tested);
-        if (look != Look::open) {
-            return {n, look == Look::far};
+        n = last_to_ask(at, places, before, n);
+        if (n < 0) {
+            break;
         }
+        const std::uint32_t from = word_at(before + n);
+        const std::uint32_t to = word_at(places + n);
+        if (goes_further(from, to) && !is_path_open(at, from, to)) {
+            return {n, goes_far(from, to) ? Went::far : Went::further};
+        }
+        const std::uint8_t which = at.cases[at.cell(to)];
+        if (which == kCellOutside) {
+            continue;
+        }
+        if (!is_clear(at, to, which)) {
+            return {n, Went::near};
+        }
+        ++tested;
     }
-    return {-1, false};
+    return {-1, Went::near};
 }
 
 }  // namespace weir::packed

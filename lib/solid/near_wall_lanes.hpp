@@ -4,16 +4,49 @@
 #include "math/four_lanes.hpp"
 #include "math/vec2.hpp"
 #include "math/wide_lanes.hpp"
+#include "solid/first_entry.hpp"
 
 namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// Particles of a block in whose cells there is solid, from the last one on.
+/// Particles of a block in whose cells there is solid, or that may have passed a wall, from the last
+/// one on.
 struct NearWall {
     std::int32_t count = 0;
     std::int32_t* n;      ///< number in the block; room for seven more than there are
     std::uint32_t* cell;  ///< from the tank's first one on
+    bool past = false;    ///< one of them may have passed a wall
+};
+
+/// Where the particles of a block are, and came from; the cases of the tank's cells.
+struct BlockTask {
+    const GridShape& shape;
+    const std::uint8_t* cell_case;
+    const Vec2<float>* before;
+    const Vec2<float>* position;
+
+    const std::uint8_t* origin() const { return cell_case + shape.index(0, 0); }
+    bool is_past(std::int32_t n) const {
+        return goes_further(before[n], position[n], kThinnestShown<float>) &&
+               !is_path_open(shape, cell_case, before[n], position[n]);
+    }
+    /// A bit for each of eight that went further than half a cell. Such blocks are few.
+    [[gnu::noinline]] std::uint32_t past_of(const std::int32_t* n) const {
+        std::uint32_t set = 0;
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            set |= goes_further(before[n[k]], position[n[k]], kThinnestShown<float>) ? 1U << k : 0U;
+        }
+        return set;
+    }
+    /// A bit for each of `count` from the first on. Seldom asked.
+    [[gnu::noinline, gnu::cold]] std::uint32_t past(std::int32_t first, std::int32_t count) const {
+        std::uint32_t set = 0;
+        for (std::int32_t k = 0; k < count; ++k) {
+            set |= is_past(first + k) ? 1U << static_cast<std::uint32_t>(k) : 0U;
+        }
+        return set;
+    }
 };
 
 /// To groups of eight: with the first one.
@@ -25,17 +58,29 @@ inline void fill_up(const NearWall& near) {
 }
 
 /// Looks at the last particles of a block, as long as there are enough left. Returns how many are
-/// left. `cell_case`: of the tank's first cell, in a grid of less than 2¹⁵ along both axes.
+/// left. In a grid of less than 2¹⁵ along both axes.
 template <class L>
-inline std::int32_t find_near_wall(const std::uint8_t* cell_case, std::int32_t stride,
-                                   const float* position, std::int32_t count, NearWall& found) {
-    const auto factors = L::pairs_of_shorts(1, stride);
+inline std::int32_t find_near_wall(const BlockTask& task, std::int32_t count, NearWall& found) {
+    const auto factors = L::pairs_of_shorts(1, task.shape.stride);
+    const std::uint8_t* cell_case = task.origin();
+    const float* position = &task.position->x;
+    const float* before = &task.before->x;
+    const auto thin = L::all(kThinnestShown<float>);
     NearWall near = found;
     for (; count >= L::kLanes; count -= L::kLanes) {
-        const float* x = position + 2 * (count - L::kLanes);
-        const auto cells = L::sums_of_products(L::whole(L::load(x)),
-                                               L::whole(L::load(x + L::kLanes)), factors);
-        const std::uint32_t set = L::set_bytes(cell_case, cells);
+        const std::int32_t first = 2 * (count - L::kLanes);
+        const auto low = L::load(position + first);
+        const auto high = L::load(position + first + L::kLanes);
+        const auto cells = L::sums_of_products(L::whole(low), L::whole(high), factors);
+        const auto way = L::maximum(
+            L::absolute(low - L::load(before + first)),
+            L::absolute(high - L::load(before + first + L::kLanes)));
+        std::uint32_t set = L::set_bytes(cell_case, cells);
+        if (L::any_true(way > thin)) {
+            const std::uint32_t past = task.past(count - L::kLanes, L::kLanes);
+            near.past = near.past || past != 0;
+            set |= past;
+        }
         if (set == 0) {
             continue;
         }
@@ -43,29 +88,30 @@ inline std::int32_t find_near_wall(const std::uint8_t* cell_case, std::int32_t s
                                 near.cell + near.count);
     }
     found.count = near.count;
+    found.past = near.past;
     return count;
 }
 
 #if WEIR_HAS_WIDE_LANES
-std::int32_t find_near_wall_wide(const std::uint8_t* cell_case, std::int32_t stride,
-                                 const float* position, std::int32_t count, NearWall& found);
+std::int32_t find_near_wall_wide(const BlockTask& task, std::int32_t count, NearWall& found);
 #endif
 
-inline void find_near_wall(const std::uint8_t* cell_case, std::int32_t stride,
-                           const Vec2<float>* position, std::int32_t count, NearWall& found) {
+inline void find_near_wall(const BlockTask& task, std::int32_t count, NearWall& found) {
 #if WEIR_HAS_WIDE_LANES
     if (has_wide_lanes()) {
-        count = find_near_wall_wide(cell_case, stride, &position->x, count, found);
+        count = find_near_wall_wide(task, count, found);
     }
 #endif
-    count = find_near_wall<FourLanes>(cell_case, stride, &position->x, count, found);
+    count = find_near_wall<FourLanes>(task, count, found);
     while (--count >= 0) {
-        const Vec2<float> x = position[count];
-        const auto cell = static_cast<std::uint32_t>(static_cast<std::int32_t>(x.y) * stride +
-                                                     static_cast<std::int32_t>(x.x));
+        const Vec2<float> x = task.position[count];
+        const auto cell = static_cast<std::uint32_t>(
+            static_cast<std::int32_t>(x.y) * task.shape.stride + static_cast<std::int32_t>(x.x));
+        const bool past = task.is_past(count);
         found.n[found.count] = count;
         found.cell[found.count] = cell;
-        found.count += cell_case[cell] != 0 ? 1 : 0;
+        found.count += past || task.origin()[cell] != 0 ? 1 : 0;
+        found.past = found.past || past;
     }
     fill_up(found);
 }

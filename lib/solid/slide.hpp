@@ -29,7 +29,7 @@ template <class Real>
     const Vec2<Real> normal = line_normal(shape, walls, entry.behind);
     const Vec2<Real> rest = to - entry.place;
     const Vec2<Real> along = rest + (kClearance<Real> - Real(dot(rest, normal))) * normal;
-    const Vec2<Real> end = within_tank(shape, entry.place + along);
+    const Vec2<Real> end = as_kept(within_tank(shape, entry.place + along));
     const Entry<Real> next = first_entry(shape, walls, entry.place, end);
     return next.found ? next.place : end;
 }
