@@ -18,6 +18,7 @@ struct Scene {
     CollideResult<Real>& result;
     Seconds<Real> dt_s;
     bool beyond;  ///< where no picture is stored, and a search for a way out would draw a thousand
+    const BodyTable<Real>* bodies;
 };
 
 /// Where a place of the liquid would be if it had moved with the body in this substep.

@@ -3,7 +3,7 @@
 #include "solid/blow.hpp"
 #include "solid/look_packed.hpp"
 #include "solid/near_wall_lanes.hpp"
-#include "solid/slide.hpp"
+#include "solid/set_back.hpp"
 #include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
 
@@ -11,106 +11,8 @@ namespace weir {
 
 namespace {
 
-/// What is found inside goes out at this speed at most, cells per substep.
-template <class Real>
-constexpr Real kFastestWayOut = Real(1);
-
-/// Set to the contour itself, all that come to a corner, or that a body pushes along, would meet in
-/// one place, and never part again: so much of their way back they go further.
-template <class Real>
-constexpr Real kBeyond = Real(0.5);
-
-/// In a corner a particle that is set back to one wall may be behind the next: so often.
-constexpr std::int32_t kMostWalls = 4;
-
-/// A particle that ends further than this behind the plane that it is set back to has come through
-/// the solid from its other side, cells. Less is the bend of a surface.
-template <class Real>
-constexpr Real kOtherSide = Real(0.0625);
-
-/// A particle that is in the open again has come through a solid if it ends further than this behind
-/// the line where it went in, or began so behind that where it came out, cells. Less is a corner
-/// that it cuts.
-template <class Real>
-constexpr Real kThrough = Real(0.25);
-
 /// A pressed particle may go this far around what presses it, cells.
 constexpr std::int32_t kSlip = 1;
-
-/// Blows that are to be answered once it is clear that the particle can stay where they put it.
-template <class Real>
-struct Blows {
-    std::uint16_t slot[kMostWalls] = {};
-    Vec2<Real> normal[kMostWalls];
-    std::int32_t count = 0;
-};
-
-/// Whether a place in front of a wall lies on another side of it than a particle came from.
-template <class Real>
-[[gnu::noinline, gnu::cold]] bool on_other_side(const Scene<Real>& scene, Vec2<Real> to,
-                                                Vec2<Real> normal, Vec2<Real> from) {
-    const Real depth = dot(to - from, normal);
-    return depth > kOtherSide<Real> && in_tank(scene.shape, from) &&
-           !is_inside(scene.shape, scene.walls, from);
-}
-
-/// Whether a way between two places in the open leads through a solid.
-template <class Real>
-[[gnu::noinline, gnu::cold]] bool leads_through(const Scene<Real>& scene, Vec2<Real> from,
-                                                Vec2<Real> to) {
-    if (!in_tank(scene.shape, from) || is_inside(scene.shape, scene.walls, from)) {
-        return false;
-    }
-    const auto enters = [&](Vec2<Real> begin, Vec2<Real> end, bool& found) {
-        const Entry<Real> entry = first_entry(scene.shape, scene.walls, begin, end);
-        found = entry.found;
-        return found && Real(dot(entry.place - end, line_normal(scene.shape, scene.walls,
-                                                                entry.behind))) > kThrough<Real>;
-    };
-    bool found = false;
-    return enters(from, to, found) || (found && enters(to, from, found));
-}
-
-/// Sets a particle back to the line of its cell, and to that of the cell where it gets. False, and
-/// nothing has happened: it is too deep, or comes out on another side than it came from.
-template <class Real>
-[[gnu::noinline]] bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at,
-                                Vec2<Real> before, bool further) {
-    const Vec2<Real> x = scene.particles.position[k];
-    const bool saddle = at.which == 5 || at.which == 10;
-    const Body<Real>& touched = scene.walls.body[at.slot];
-    const bool binary = scene.walls.binary;
-    Vec2<Real> to = x;
-    Blows<Real> blows;
-    while (at.inside && blows.count < (binary ? 1 : kMostWalls)) {
-        const Real way = kClearance<Real> - at.hit.distance;
-        if (way > kFastestWayOut<Real> && !binary) {
-            return false;
-        }
-        const Vec2<Real> normal = at.hit.normal;
-        blows.slot[blows.count] = at.slot;
-        blows.normal[blows.count] = normal;
-        ++blows.count;
-        const Vec2<Real> wall = to + minimum(way, kFastestWayOut<Real>) * normal;
-        const Body<Real>& body = scene.walls.body[at.slot];
-        const Real beyond = binary ? Real(0) : Real(0) - kBeyond<Real> * at.hit.distance;
-        to = as_kept(within_tank(scene.shape, wall + beyond * normal));
-        at = standing(scene.shape, scene.walls, to);
-        if (!binary && !at.inside &&
-            on_other_side(scene, wall, normal, carried(scene, body, before))) {
-            return false;
-        }
-    }
-    if (!binary && (at.inside || ((further || saddle || blows.count > 1) &&
-                                  leads_through(scene, carried(scene, touched, before), to)))) {
-        return false;
-    }
-    scene.particles.position[k] = to;
-    for (std::int32_t blow = 0; blow < blows.count; ++blow) {
-        answer(scene, k, blows.slot[blow], x, blows.normal[blow]);
-    }
-    return true;
-}
 
 /// In a notch the velocity that a blow leaves may lead into the solid again, or the particle is
 /// `wedged`. Then there is no way on, and what is left of it goes, too: it would grow for ever.
@@ -141,7 +43,7 @@ template <class Real>
     Entry<Real> entry;
     Standing<Real> at;
     for (std::int32_t look = 0; look < 2; ++look) {
-        from = slot == kNoBody ? before : carried(scene, scene.walls.body[slot], before);
+        from = origin(scene, slot, before);
         if (!in_tank(scene.shape, from) || is_inside(scene.shape, scene.walls, from)) {
             return false;
         }
@@ -209,6 +111,21 @@ template <class Real>
     return true;
 }
 
+/// A particle that is in the open, and may have come there through a solid, which then stops it. It
+/// stays: true.
+template <class Real>
+[[gnu::noinline, gnu::cold]] bool pass(Scene<Real>& scene, std::int32_t k, Vec2<Real> before,
+                                       Went went) {
+    const Vec2<Real> x = scene.particles.position[k];
+    const std::uint16_t slot =
+        scene.walls.moving ? body_on_way(scene, before, x) : std::uint16_t{kNoBody};
+    const bool far = went == Went::far;
+    if (far || leads_through(scene, origin(scene, slot, before), x)) {
+        stop_on_path(scene, k, slot, before, far);
+    }
+    return true;
+}
+
 /// A particle near the contour of a solid, to which it stands so. False: it has no way out.
 template <class Real>
 [[gnu::always_inline]] inline bool meet_at(Scene<Real>& scene, std::int32_t k,
@@ -218,14 +135,14 @@ template <class Real>
         scene.result.reflected += at.inside ? 1 : 0;
         return !at.inside || set_back(scene, k, at, before, false);
     }
-    const bool far = went == Went::far;
-    if (at.inside && !far && set_back(scene, k, at, before, went != Went::near)) {
+    if (!at.inside) {
+        return went == Went::near || pass(scene, k, before, went);
+    }
+    if (went != Went::far && set_back(scene, k, at, before, went != Went::near)) {
         ++scene.result.reflected;
         return true;
     }
-    const bool swept =
-        at.inside || far || (went == Went::further && leads_through(scene, before, Vec2<Real>(scene.particles.position[k])));
-    return (swept && stop_on_path(scene, k, at.slot, before, far)) || !at.inside ||
+    return stop_on_path(scene, k, at.slot, before, went == Went::far) ||
            lead_out(scene, k, at.slot, before);
 }
 
@@ -337,9 +254,9 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
             const Vec2<float> before(flight.before[n]);
             const Standing<float> at = standing_near(s, scene.walls, position[n]);
             scene.result.tested -= at.which == kCellOutside ? 1 : 0;
-            note(scene, first + n,
-                 meet_at(scene, first + n, at, before, went(before, Vec2<float>(position[n]))),
-                 before, flight.mark_removed);
+            const Went far = went(before, position[n]);
+            note(scene, first + n, meet_at(scene, first + n, at, before, far), before,
+                 flight.mark_removed);
         }
     }
     scene.result.tested += near.count;
@@ -394,14 +311,16 @@ template <class Real>
 void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real>& flight,
              std::int32_t first, std::int32_t count, Particles<Real>& particles,
              Contacts<Real>& contacts, CollideResult<Real>& result) {
-    Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s, flight.beyond};
+    Scene<Real> scene{shape, walls, particles, contacts, result, flight.dt_s, flight.beyond,
+                      flight.bodies};
     if constexpr (Stored<Real>::coarse) {  // those have no thin walls, and no windows
         collide_packed(scene, flight, first, count);
     } else {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
             const Vec2<float>* position = particles.position + first;
-            if ((!flight.far || all_stored(walls)) && !flight.beyond && maximum(shape.stride, shape.ny) < 0x8000 &&
+            if ((!flight.far || all_stored(walls)) && !flight.beyond &&
+                maximum(shape.stride, shape.ny) < 0x8000 &&
                 (walls.thin == nullptr ||
                  (!flight.far && !any_near_thin(shape, *walls.thin, position, count)))) {
                 collide_in_lanes(scene, flight, first, count);

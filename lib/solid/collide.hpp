@@ -24,6 +24,7 @@ struct Flight {
     bool mark_removed = false;  ///< who is removed stays, marked, until `Particles::remove_marked`
     /// They are where no picture of the solids is stored. Who is inside there stays inside.
     bool beyond = false;
+    const BodyTable<Real>* bodies = nullptr;  ///< whose outlines tell sides of what is thin
 };
 
 template <class Real>
@@ -38,15 +39,15 @@ struct CollideResult {
 
 /// Tests each particle of a block against the contour line of its cell. One that is behind it is
 /// set back to the line, and its velocity is answered by the surface (`reflect`). One that moved
-/// further than a cell, or would be set back to another side than it came from, is swept: it stops
-/// where its path, seen from the body, first meets a solid. One that was inside before it moved
-/// goes to the nearest place outside, at most one cell a substep, so within kLongestWayOut + 1
-/// substeps; if there is none, or if a moving body presses it against another or the tank, it is
-/// removed, and the pool's last particle takes its place.
-/// Contour::mid_edge has neither sweep nor way out: what a cell without a gradient holds, stays.
-/// Blocks go from the pool's end to its begin, so that who takes a place has been answered.
-/// Cost: one table look-up a particle, about 60 operations near walls; those few that are swept
-/// 16 inside tests, those few that are stuck a search.
+/// further than a cell, or further than half a cell and through a solid, or would be set back to
+/// another side than it came from, is swept: it stops where its path, seen from the body, first
+/// meets a solid. One that was inside before it moved goes to the nearest place outside, at most
+/// one cell a substep, so within kLongestWayOut + 1 substeps; if there is none, or if a moving body
+/// presses it against another or the tank, it is removed, and the pool's last particle takes its
+/// place. Contour::mid_edge has neither sweep nor way out: what a cell without a gradient holds,
+/// stays. Blocks go from the pool's end to its begin, so that who takes a place has been answered.
+/// Cost: a table look-up and the length of its way a particle, about 60 operations near walls;
+/// those few that are swept 16 inside tests, those few that are stuck a search.
 template <class Real>
 void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real>& flight,
              std::int32_t first, std::int32_t count, Particles<Real>& particles,

@@ -23,13 +23,13 @@ struct CasesAt {
 
 using PlaceOfParticle = Vec2<PositionOf<SmallFixed>>;
 
-/// Whether a particle went further than half a cell, up or right half less 1/256: both axes at once.
+/// Whether a particle went further than half a cell, or as far up or right: both axes at once.
 [[gnu::always_inline]] inline bool goes_further(std::uint32_t from, std::uint32_t to) {
     return ((to - from + 0x00800080U) & 0xFF00FF00U) != 0;
 }
 
-/// The last of some particles that is in a cell with solid, or went further than half a cell, or −1.
-/// By itself, so that its loop has all registers.
+/// The last of some particles that is in a cell with solid, or went further than half a cell; −1:
+/// none. By itself, so that its loop has all registers.
 [[gnu::noinline]] inline std::int32_t last_to_ask(const CasesAt& at, const PlaceOfParticle* places,
                                                   const PlaceOfParticle* before,
                                                   std::int32_t count) {

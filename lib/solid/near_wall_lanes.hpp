@@ -10,8 +10,8 @@ namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// Particles of a block in whose cells there is solid, or that may have passed a wall, from the last
-/// one on.
+/// Particles of a block in whose cells there is solid, or that may have passed a wall, the last one
+/// first.
 struct NearWall {
     std::int32_t count = 0;
     std::int32_t* n;      ///< number in the block; room for seven more than there are
@@ -39,11 +39,16 @@ struct BlockTask {
         }
         return set;
     }
-    /// A bit for each of `count` from the first on. Seldom asked.
-    [[gnu::noinline, gnu::cold]] std::uint32_t past(std::int32_t first, std::int32_t count) const {
+    /// A bit for each of `count` from the first on. `lanes`: components of which one is too long,
+    /// in the first half of them or in the second.
+    [[gnu::noinline]] std::uint32_t past(std::int32_t first, std::int32_t count,
+                                         std::uint32_t lanes) const {
         std::uint32_t set = 0;
-        for (std::int32_t k = 0; k < count; ++k) {
-            set |= is_past(first + k) ? 1U << static_cast<std::uint32_t>(k) : 0U;
+        for (lanes = (lanes | lanes >> 1U) & 0x5555U; lanes != 0; lanes &= lanes - 1U) {
+            const std::int32_t low = __builtin_ctz(lanes) / 2;
+            for (std::int32_t k = low; k < count; k += count / 2) {
+                set |= is_past(first + k) ? 1U << static_cast<std::uint32_t>(k) : 0U;
+            }
         }
         return set;
     }
@@ -76,8 +81,8 @@ inline std::int32_t find_near_wall(const BlockTask& task, std::int32_t count, Ne
             L::absolute(low - L::load(before + first)),
             L::absolute(high - L::load(before + first + L::kLanes)));
         std::uint32_t set = L::set_bytes(cell_case, cells);
-        if (L::any_true(way > thin)) {
-            const std::uint32_t past = task.past(count - L::kLanes, L::kLanes);
+        if (const std::uint32_t lanes = L::bits_of(way > thin); lanes != 0) {
+            const std::uint32_t past = task.past(count - L::kLanes, L::kLanes, lanes);
             near.past = near.past || past != 0;
             set |= past;
         }

@@ -151,7 +151,8 @@ void gather_block(Simulation<Real>& simulation, Transfer<Real>& transfer, const 
         clock->charge(Stage::grid_to_particle);
     }
     collide(simulation.grid.shape, walls,
-            {before, moved.far > 0, simulation.walls_moved_s, mark_removed},
+            {before, moved.far > 0, simulation.walls_moved_s, mark_removed, false,
+             &simulation.bodies},
             first, count, particles, simulation.contacts, collisions);
     if (clock != nullptr) {
         clock->charge(Stage::collide);

@@ -58,6 +58,89 @@ TEST(Tightness, AWallOfTwoCellsStopsWhatCrossesItInASubstep) {
     }
 }
 
+/// A plate from wall to wall, without room for its edges: on which side of it is who.
+template <class Real>
+class Divided {
+public:
+    Divided(const WorldDef& def, float thickness, Vec2f at, float angle, float spin)
+        : world_(def), half_(0.5F * thickness) {
+        const Ring wall = rectangle(thickness * kCell, 120 * kCell);
+        BodyDef plate = body_of(wall, kCell * at, angle);
+        plate.motion.spin_radps = spin;
+        expect_ok(spin != 0 ? world_->add_moving_body(plate, &id_)
+                            : world_->add_static_body(plate, &id_));
+    }
+
+    /// Liquid on one side, thrown at the plate at two cells a frame.
+    void pour() {
+        const float angle = motion_of(*world_, id_).angle_rad;
+        const Vec2f velocity = (2 * kCell / kFrame) * Vec2f{std::cos(angle), std::sin(angle)};
+        for (float y = 0.25F; y < 32; y += 0.5F) {
+            for (float x = 0.25F; x < 32; x += 0.5F) {
+                const float place = beyond({x, y});
+                if (place < -half_ - 0.02F && place > -10) {
+                    expect_ok(world_->add_particle(kCell * Vec2f{x, y}, velocity));
+                }
+            }
+        }
+    }
+
+    /// How many are on the other side after some steps, gravity going round.
+    std::int32_t passed(std::int32_t steps) {
+        for (std::int32_t step = 0; step < steps; ++step) {
+            const auto turn = static_cast<float>(step / 6);
+            expect_ok(world_->set_gravity({30 * std::cos(turn), 30 * std::sin(turn)}));
+            EXPECT_EQ(world_->step(kFrame).particles_removed_stuck, 0);
+        }
+        std::int32_t count = 0;
+        for (const auto x : world_->particle_positions()) {
+            count += beyond(convert<float>(x)) > half_ + 0.02F ? 1 : 0;
+        }
+        return count;
+    }
+
+private:
+    float beyond(Vec2f x) const {
+        const Motion motion = motion_of(*world_, id_);
+        return std::cos(motion.angle_rad) * (x.x - motion.position_m.x / kCell) +
+               std::sin(motion.angle_rad) * (x.y - motion.position_m.y / kCell);
+    }
+
+    TestWorld<Real> world_;
+    float half_;
+    BodyId id_;
+};
+
+/// As nodes show it, it is half a cell thick in places.
+template <class Real>
+void throw_at_walls_of_a_cell() {
+    WorldDef def = free_flight();
+    def.flip_ratio = 0.97F;
+    for (const float angle : some_of({0.785F, 1.99F, -0.915F, 0.04F})) {
+        Divided<Real> tank(def, 1.05F, {16.2F, 15.7F}, angle, 0.0F);
+        tank.pour();
+        EXPECT_EQ(tank.passed(24), 0) << angle;
+    }
+}
+
+TEST(Tightness, AWallOfACellHoldsAtAnyAngle) {
+    throw_at_walls_of_a_cell<float>();
+    throw_at_walls_of_a_cell<double>();
+    throw_at_walls_of_a_cell<Fixed>();
+    throw_at_walls_of_a_cell<SmallFixed>();
+}
+
+/// And elsewhere each time it is drawn.
+TEST(Tightness, AThinPlateThatTurnsHasASideForEachParticle) {
+    WorldDef def = free_flight();
+    def.flip_ratio = 0.97F;
+    for (const float spin : some_of({3.0F, -5.0F})) {
+        Divided<float> tank(def, 1.2F, {16.2F, 15.7F}, 0.4F, spin);
+        tank.pour();
+        EXPECT_EQ(tank.passed(60), 0) << spin;
+    }
+}
+
 TEST(Tightness, AFastWallTakesAlongWhatItMeets) {
     for (const float speed : {0.9F, 1.9F, 3.0F}) {
         TestWorld<float> world(free_flight());

@@ -1,0 +1,104 @@
+// A particle behind the line of its cell is set back to it, if that is the side that it came from.
+#pragma once
+
+#include "solid/own_side.hpp"
+
+namespace weir {
+
+/// What is found inside goes out at this speed at most, cells per substep.
+template <class Real>
+inline constexpr Real kFastestWayOut = Real(1);
+
+/// Set to the contour itself, all that come to a corner, or that a body pushes along, would meet in
+/// one place, and never part again: so much of their way back they go further.
+template <class Real>
+inline constexpr Real kBeyond = Real(0.5);
+
+/// In a corner a particle that is set back to one wall may be behind the next: so often.
+inline constexpr std::int32_t kMostWalls = 4;
+
+/// A particle that ends further than this behind the plane that it is set back to has come through
+/// the solid from its other side, cells. Less is the bend of a surface.
+template <class Real>
+inline constexpr Real kOtherSide = Real(0.0625);
+
+/// A way from open to open leads through a solid if it ends further than this behind the line where
+/// it goes in, or begins so behind that where it comes out, cells. Less cuts a corner.
+template <class Real>
+inline constexpr Real kThrough = Real(0.25);
+
+/// Blows that are to be answered once it is clear that the particle can stay where they put it.
+template <class Real>
+struct Blows {
+    std::uint16_t slot[kMostWalls] = {};
+    Vec2<Real> normal[kMostWalls];
+    std::int32_t count = 0;
+};
+
+/// Whether a place in front of a wall lies on another side of it than a particle came from.
+template <class Real>
+[[gnu::noinline, gnu::cold]] bool on_other_side(const Scene<Real>& scene, Vec2<Real> to,
+                                                Vec2<Real> normal, Vec2<Real> from) {
+    const Real depth = dot(to - from, normal);
+    return depth > kOtherSide<Real> && in_tank(scene.shape, from) &&
+           !is_inside(scene.shape, scene.walls, from);
+}
+
+/// Whether a way between two places in the open leads through a solid.
+template <class Real>
+[[gnu::noinline, gnu::cold]] bool leads_through(const Scene<Real>& scene, Vec2<Real> from,
+                                                Vec2<Real> to) {
+    if (!in_tank(scene.shape, from) || is_inside(scene.shape, scene.walls, from)) {
+        return false;
+    }
+    const auto enters = [&](Vec2<Real> begin, Vec2<Real> end, bool& found) {
+        const Entry<Real> entry = first_entry(scene.shape, scene.walls, begin, end);
+        found = entry.found;
+        return found && Real(dot(entry.place - end, line_normal(scene.shape, scene.walls,
+                                                                entry.behind))) > kThrough<Real>;
+    };
+    bool found = false;
+    return enters(from, to, found) || (found && enters(to, from, found));
+}
+
+/// Sets a particle back to the line of its cell, and to that of the cell where it gets. False, and
+/// nothing has happened: it is too deep, or comes out on another side than it came from.
+template <class Real>
+[[gnu::noinline]] bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at,
+                                Vec2<Real> before, bool further) {
+    const Vec2<Real> x = scene.particles.position[k];
+    const bool saddle = at.which == 5 || at.which == 10;
+    const Vec2<Real> from = scene.walls.binary ? before : origin(scene, at.slot, before);
+    const bool binary = scene.walls.binary;
+    Vec2<Real> to = x;
+    Blows<Real> blows;
+    while (at.inside && blows.count < (binary ? 1 : kMostWalls)) {
+        const Real way = kClearance<Real> - at.hit.distance;
+        if (way > kFastestWayOut<Real> && !binary) {
+            return false;
+        }
+        const Vec2<Real> normal = at.hit.normal;
+        blows.slot[blows.count] = at.slot;
+        blows.normal[blows.count] = normal;
+        ++blows.count;
+        const Vec2<Real> wall = to + minimum(way, kFastestWayOut<Real>) * normal;
+        const Real beyond = binary ? Real(0) : Real(0) - kBeyond<Real> * at.hit.distance;
+        to = as_kept(within_tank(scene.shape, wall + beyond * normal));
+        at = standing(scene.shape, scene.walls, to);
+        if (!binary && !at.inside &&
+            on_other_side(scene, wall, normal, from)) {
+            return false;
+        }
+    }
+    if (!binary && (at.inside || ((further || saddle || blows.count > 1) &&
+                                  leads_through(scene, from, to)))) {
+        return false;
+    }
+    scene.particles.position[k] = to;
+    for (std::int32_t blow = 0; blow < blows.count; ++blow) {
+        answer(scene, k, blows.slot[blow], x, blows.normal[blow]);
+    }
+    return true;
+}
+
+}  // namespace weir
