@@ -204,7 +204,8 @@ bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, Went went, bool
         return false;
     }
     const Vec2<Real> kept = scene.particles.position[k];
-    if (case_at(scene.shape, scene.walls, kept) == kCellOutside && went == Went::near) {
+    if (case_at(scene.shape, scene.walls, kept) == kCellOutside &&
+        !goes_further(before, kept, kPastCorner<Real>)) {
         return true;
     }
     if (!meet_contour(scene, k, before, went)) {
@@ -237,18 +238,17 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
                       std::int32_t count) {
     const GridShape& s = scene.shape;
     const Vec2<float>* position = scene.particles.position + first;
-    const BlockTask block{s, scene.walls.cell_case, flight.before, position};
+    const BlockTask block{s, scene.walls.cell_case, flight.before, position, flight.far};
     const ClearTask task{scene.walls.cell_case + s.index(0, 0),
                          scene.walls.distance + s.index(0, 0), s.stride, &position->x,
-                         kClear<float>};
+                         &flight.before->x, kClear<float>};
     std::int32_t numbers[kBlock<float> + 8];
     std::uint32_t cells[kBlock<float> + 8];
     NearWall near{0, numbers, cells};
     find_near_wall(block, count, near);
     for (std::int32_t next = 0; next < near.count; next += 8) {
         const std::uint32_t all = (1U << minimum(8, near.count - next)) - 1U;
-        const std::uint32_t past = near.past ? block.past_of(near.n + next) : 0U;
-        for (std::uint32_t left = all & (past | ~clear_of_eight(task, near, next)); left != 0;
+        for (std::uint32_t left = all & ~clear_of_eight(task, near, next); left != 0;
              left &= left - 1U) {
             const std::int32_t n = near.n[next + __builtin_ctz(left)];
             const Vec2<float> before(flight.before[n]);
@@ -289,8 +289,9 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
     const bool one_by_one = walls.thin != nullptr || flight.beyond ||
                             (flight.far && !all_stored(walls));
     for (std::int32_t n = count; n > 0;) {
-        n = one_by_one ? n - 1
-                       : last_past_wall(s, walls.cell_case, flight.before, position, n);
+        n = one_by_one   ? n - 1
+            : flight.far ? last_past_wall(s, walls.cell_case, flight.before, position, n)
+                         : last_near_wall(s, walls.cell_case, position, n);
         if (n < 0) {
             return;
         }
@@ -298,7 +299,8 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
         const Vec2<Real> before = flight.before[n];
         const Went far = went(before, x);
         const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, far == Went::far);
-        if (case_at(s, walls, x) != kCellOutside || far != Went::near || thin) {
+        if (case_at(s, walls, x) != kCellOutside || goes_further(before, x, kPastCorner<Real>) ||
+            thin) {
             note(scene, first + n, meet(scene, first + n, before, far, thin), before,
                  flight.mark_removed);
         }

@@ -14,12 +14,17 @@ namespace weir {
 template <class Real>
 inline constexpr std::int32_t kBlock = kHasLanes<Real> ? 512 : (Stored<Real>::coarse ? 16 : 32);
 
+/// Who goes no further along an axis has passed no wall that is not in its cell, cells: less than
+/// kPastCorner by more than rounding.
+template <class Real>
+inline constexpr Real kLongWay = Real(0.625);
+
 /// Where the particles of a block come from.
 template <class Real>
 struct Flight {
     /// Their places at the beginning of the substep.
     const Vec2<PositionOf<Real>>* before = nullptr;
-    bool far = false;                    ///< one of them moved further than a cell along an axis
+    bool far = false;           ///< one of them moved further than kLongWay along an axis
     Seconds<Real> dt_s{};       ///< for which bodies moved
     bool mark_removed = false;  ///< who is removed stays, marked, until `Particles::remove_marked`
     /// They are where no picture of the solids is stored. Who is inside there stays inside.

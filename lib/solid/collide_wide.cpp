@@ -7,7 +7,8 @@
 namespace weir {
 
 std::int32_t find_near_wall_wide(const BlockTask& task, std::int32_t count, NearWall& found) {
-    return find_near_wall<EightLanes>(task, count, found);
+    return task.far ? find_near_wall<EightLanes, true>(task, count, found)
+                    : find_near_wall<EightLanes, false>(task, count, found);
 }
 
 std::uint32_t clear_of_eight_wide(const ClearTask& task, const NearWall& near, std::int32_t next) {

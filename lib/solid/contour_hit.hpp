@@ -113,6 +113,21 @@ std::uint8_t case_at(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x)
     return case_of(s, walls, static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y));
 }
 
+/// The last of `count` particles whose cell has solid in it, or −1.
+template <class Real>
+std::int32_t last_near_wall(const GridShape& shape, const std::uint8_t* cell_case,
+                            const Vec2<Real>* position, std::int32_t count) {
+    const std::uint8_t* origin = cell_case + shape.index(0, 0);
+    while (--count >= 0) {
+        const Vec2<Real> x = position[count];
+        if (origin[static_cast<std::int32_t>(x.y) * shape.stride +
+                   static_cast<std::int32_t>(x.x)] != kCellOutside) {
+            break;
+        }
+    }
+    return count;
+}
+
 /// The body at the node of the cell that is deepest inside.
 template <class Real>
 std::uint16_t touched_body(const GridShape& s, const Walls<Real>& walls, std::int32_t node) {

@@ -16,6 +16,11 @@ enum class Went : std::uint8_t {
 template <class Real>
 inline constexpr Real kThinnestShown = Real(0.5);
 
+/// Who ends in a cell without solid, and has come through what is drawn as one, went further than
+/// two thirds of a cell: past a corner of a saddle whose solids are joined.
+template <class Real>
+inline constexpr Real kPastCorner = Real(21.0 / 32.0);
+
 template <class Real>
 bool goes_further(Vec2<Real> before, Vec2<Real> x, Real than) {
     return absolute(x.x - before.x) > than || absolute(x.y - before.y) > than;
@@ -49,6 +54,12 @@ bool is_path_open(const GridShape& s, const std::uint8_t* cell_case, Vec2<Real> 
     return true;
 }
 
+/// Whether who is in a cell without solid may have passed a wall.
+template <class Real>
+bool may_pass(const GridShape& s, const std::uint8_t* cell_case, Vec2<Real> from, Vec2<Real> x) {
+    return goes_further(from, x, kPastCorner<Real>) && !is_path_open(s, cell_case, from, x);
+}
+
 /// The last of some particles that is in a cell with solid or may have passed a wall, or −1.
 template <class Real>
 [[gnu::noinline]] std::int32_t last_past_wall(const GridShape& s, const std::uint8_t* cell_case,
@@ -60,7 +71,7 @@ template <class Real>
         const Vec2<Real> x = position[count];
         if (origin[static_cast<std::int32_t>(x.y) * s.stride + static_cast<std::int32_t>(x.x)] !=
                 kCellOutside ||
-            (goes_further(from, x, kThinnestShown<Real>) && !is_path_open(s, cell_case, from, x))) {
+            may_pass(s, cell_case, from, x)) {
             break;
         }
     }

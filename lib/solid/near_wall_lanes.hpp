@@ -16,7 +16,6 @@ struct NearWall {
     std::int32_t count = 0;
     std::int32_t* n;      ///< number in the block; room for seven more than there are
     std::uint32_t* cell;  ///< from the tank's first one on
-    bool past = false;    ///< one of them may have passed a wall
 };
 
 /// Where the particles of a block are, and came from; the cases of the tank's cells.
@@ -25,19 +24,11 @@ struct BlockTask {
     const std::uint8_t* cell_case;
     const Vec2<float>* before;
     const Vec2<float>* position;
+    bool far;  ///< one of them may have passed a wall that is not in its cell
 
     const std::uint8_t* origin() const { return cell_case + shape.index(0, 0); }
     bool is_past(std::int32_t n) const {
-        return goes_further(before[n], position[n], kThinnestShown<float>) &&
-               !is_path_open(shape, cell_case, before[n], position[n]);
-    }
-    /// A bit for each of eight that went further than half a cell. Such blocks are few.
-    [[gnu::noinline]] std::uint32_t past_of(const std::int32_t* n) const {
-        std::uint32_t set = 0;
-        for (std::uint32_t k = 0; k < 8; ++k) {
-            set |= goes_further(before[n[k]], position[n[k]], kThinnestShown<float>) ? 1U << k : 0U;
-        }
-        return set;
+        return may_pass(shape, cell_case, before[n], position[n]);
     }
     /// A bit for each of `count` from the first on. `lanes`: components of which one is too long,
     /// in the first half of them or in the second.
@@ -63,28 +54,26 @@ inline void fill_up(const NearWall& near) {
 }
 
 /// Looks at the last particles of a block, as long as there are enough left. Returns how many are
-/// left. In a grid of less than 2¹⁵ along both axes.
-template <class L>
+/// left. In a grid of less than 2¹⁵ along both axes. `Far`: some may have passed a wall.
+template <class L, bool Far>
 inline std::int32_t find_near_wall(const BlockTask& task, std::int32_t count, NearWall& found) {
     const auto factors = L::pairs_of_shorts(1, task.shape.stride);
     const std::uint8_t* cell_case = task.origin();
     const float* position = &task.position->x;
-    const float* before = &task.before->x;
-    const auto thin = L::all(kThinnestShown<float>);
+    [[maybe_unused]] const float* before = &task.before->x;
     NearWall near = found;
     for (; count >= L::kLanes; count -= L::kLanes) {
         const std::int32_t first = 2 * (count - L::kLanes);
         const auto low = L::load(position + first);
         const auto high = L::load(position + first + L::kLanes);
         const auto cells = L::sums_of_products(L::whole(low), L::whole(high), factors);
-        const auto way = L::maximum(
-            L::absolute(low - L::load(before + first)),
-            L::absolute(high - L::load(before + first + L::kLanes)));
         std::uint32_t set = L::set_bytes(cell_case, cells);
-        if (const std::uint32_t lanes = L::bits_of(way > thin); lanes != 0) {
-            const std::uint32_t past = task.past(count - L::kLanes, L::kLanes, lanes);
-            near.past = near.past || past != 0;
-            set |= past;
+        if constexpr (Far) {
+            const auto way = L::maximum(
+                L::absolute(low - L::load(before + first)),
+                L::absolute(high - L::load(before + first + L::kLanes)));
+            const std::uint32_t lanes = L::bits_of(way > L::all(kPastCorner<float>));
+            set |= lanes != 0 ? task.past(count - L::kLanes, L::kLanes, lanes) : 0U;
         }
         if (set == 0) {
             continue;
@@ -93,7 +82,6 @@ inline std::int32_t find_near_wall(const BlockTask& task, std::int32_t count, Ne
                                 near.cell + near.count);
     }
     found.count = near.count;
-    found.past = near.past;
     return count;
 }
 
@@ -107,16 +95,15 @@ inline void find_near_wall(const BlockTask& task, std::int32_t count, NearWall& 
         count = find_near_wall_wide(task, count, found);
     }
 #endif
-    count = find_near_wall<FourLanes>(task, count, found);
+    count = task.far ? find_near_wall<FourLanes, true>(task, count, found)
+                     : find_near_wall<FourLanes, false>(task, count, found);
     while (--count >= 0) {
         const Vec2<float> x = task.position[count];
         const auto cell = static_cast<std::uint32_t>(
             static_cast<std::int32_t>(x.y) * task.shape.stride + static_cast<std::int32_t>(x.x));
-        const bool past = task.is_past(count);
         found.n[found.count] = count;
         found.cell[found.count] = cell;
-        found.count += past || task.origin()[cell] != 0 ? 1 : 0;
-        found.past = found.past || past;
+        found.count += task.origin()[cell] != 0 || (task.far && task.is_past(count)) ? 1 : 0;
     }
     fill_up(found);
 }
@@ -142,10 +129,12 @@ struct ClearTask {
     const float* distance;
     std::int32_t stride;
     const float* position;  ///< of the block
+    const float* before;
     float clear_by;
 };
 
-/// `clearly_outside` of as many as there are lanes: a bit each.
+/// Of as many as there are lanes a bit each: `clearly_outside`, and did not go so far as to have
+/// come there through a wall.
 template <class L>
 inline std::uint32_t clear_of_group(const ClearTask& task, const NearWall& near,
                                     std::int32_t next) {
@@ -157,6 +146,9 @@ inline std::uint32_t clear_of_group(const ClearTask& task, const NearWall& near,
     const Floats one = L::all(1.0F);
     const Floats clear = L::all(task.clear_by);
     const auto place = L::places_at(task.position, near.n + next);
+    const auto from = L::places_at(task.before, near.n + next);
+    const auto is_near = L::maximum(L::absolute(place.x - from.x), L::absolute(place.y - from.y)) <=
+                         L::all(kThinnestShown<float>);
     const Floats x = place.x - L::floats(L::whole(place.x));
     const Floats y = place.y - L::floats(L::whole(place.y));
     // Across a corner.
@@ -179,7 +171,7 @@ inline std::uint32_t clear_of_group(const ClearTask& task, const NearWall& near,
     const Floats last = end / (end - d.high_right);
     const Floats height = (upright ? x : y) - (first + (last - first) * (upright ? y : x));
     const auto past_line = has(kBehind) ? height < -clear : height > clear;
-    return L::bits_of((has(kCorner) ? past_corner : past_line) & ~has(kUnknown));
+    return L::bits_of((has(kCorner) ? past_corner : past_line) & ~has(kUnknown) & is_near);
 }
 
 #if WEIR_HAS_WIDE_LANES

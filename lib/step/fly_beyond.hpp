@@ -24,7 +24,7 @@ void fly(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, const Part
     const GridShape& tank = simulation.layers.shape;
     Particles<Real>& particles = simulation.particles;
     Transfer<Real> transfer = transfer_of(settings, plan.dt_s);
-    transfer.near = Real(1) / plan.dt_s;
+    transfer.near = kLongWay<Real> / plan.dt_s;
     const Vec2<Real> size{static_cast<Real>(tank.nx), static_cast<Real>(tank.ny)};
     TransferResult<Real> moved;
     CollideResult<Real> collisions;

@@ -239,7 +239,7 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
         return;
     }
     if constexpr (Solids) {
-        transfer.near = Real(1) / dt_s;
+        transfer.near = kLongWay<Real> / dt_s;
         transfer.keeps_places = true;
         ThinWalls<Real>& thin = simulation.layers.thin;
         if (simulation.layers.walls.thin != nullptr &&
