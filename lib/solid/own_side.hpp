@@ -11,7 +11,12 @@ namespace weir {
 /// Bodies that have nodes deeper than this near a place are thick: the way out of them leads to the
 /// side from which a particle came. Cells.
 template <class Real>
-inline constexpr Real kThick = Real(1);
+inline constexpr Real kThick = Real(0.75);
+
+template <class Real>
+bool is_stored_at(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
+    return is_stored(walls, s, static_cast<std::int32_t>(x.x), static_cast<std::int32_t>(x.y));
+}
 
 /// Whether a body is thin around the cell of a place, as nodes tell.
 template <class Real>
@@ -60,9 +65,11 @@ template <class Real>
     const Walls<Real>& walls = scene.walls;
     const Vec2<Real> seen = carried(scene, body, before);
     const Vec2<Real> from = within_tank(s, seen);
-    const bool inside = all_stored(walls) && is_inside(s, walls, from);
-    if (!all_stored(walls) || scene.bodies == nullptr || (!inside && in_tank(s, seen)) ||
-        !is_thin_at(s, walls, from)) {
+    if (scene.bodies == nullptr || !is_stored_at(s, walls, from)) {
+        return seen;
+    }
+    const bool inside = is_inside(s, walls, from);
+    if ((!inside && in_tank(s, seen)) || !is_thin_at(s, walls, from)) {
         return seen;
     }
     if (!inside) {
@@ -81,11 +88,11 @@ template <class Real>
 /// A body whose surface is on a particle's way, or kNoBody.
 template <class Real>
 std::uint16_t body_on_way(const Scene<Real>& scene, Vec2<Real> before, Vec2<Real> x) {
-    if (!all_stored(scene.walls)) {
-        return kNoBody;
-    }
     for (std::int32_t half = 0; half <= 2; ++half) {
         const Vec2<Real> at = x + ratio_of<Real>(half, 2) * (before - x);
+        if (!is_stored_at(scene.shape, scene.walls, at)) {
+            continue;
+        }
         const std::uint16_t slot =
             touched_body(scene.shape, scene.walls,
                          scene.shape.index(static_cast<std::int32_t>(at.x),
