@@ -71,5 +71,43 @@ TYPED_TEST(Parting, PlatesOffTheGridsLinesTakeAJetsMomentum) {
     }
 }
 
+/// How far a film of a cell under the ceiling has fallen after 0.3 s, over what gravity gives.
+template <class Real>
+double fall_from_ceiling(Pressure pressure) {
+    WorldDef def;
+    def.cell_m = 1.0F / 16.0F;
+    def.capacity.cells_x = 64;
+    def.capacity.cells_y = 32;
+    def.capacity.particles = 100;
+    def.pressure = pressure;
+    def.sound_speed_mps = pressure == Pressure::equation_of_state ? 20.0F : 0.0F;
+    TestWorld<Real> world{def};
+    expect_ok(world->fill({{20 * def.cell_m, 31 * def.cell_m}, {30 * def.cell_m, 2.0F}}));
+    const auto height = [&] {
+        double sum = 0.0;
+        for (const auto& at : world->particle_positions()) {
+            sum += static_cast<double>(at.y) / world->particle_positions().size;
+        }
+        return sum;
+    };
+    const double before = height();
+    float time = 0.0F;
+    while (time < 0.3F) {
+        time += world->step(1.0F / 60.0F).dt_s;
+    }
+    const double fall = 0.5 * 9.81 * static_cast<double>(time * time / def.cell_m);
+    return (before - height()) / fall;
+}
+
+template <class Real>
+class Ceiling : public ::testing::Test {};
+using AllScalars = ::testing::Types<float, double, Fixed, SmallFixed>;
+TYPED_TEST_SUITE(Ceiling, AllScalars);
+
+TYPED_TEST(Ceiling, HoldsNoFilm) {
+    EXPECT_GT(fall_from_ceiling<TypeParam>(Pressure::projection), 0.9);
+    EXPECT_GT(fall_from_ceiling<TypeParam>(Pressure::equation_of_state), 0.5);
+}
+
 }  // namespace
 }  // namespace weir
