@@ -1,6 +1,7 @@
 // Where liquid may part from a wall.
 #pragma once
 
+#include "grid/borders.hpp"
 #include "pressure/pressure_fields.hpp"
 
 namespace weir {
@@ -29,6 +30,13 @@ template <class Real>
         }
     }
     return false;
+}
+
+/// Whether the pressure in a cell neither holds liquid to a wall nor pulls at it: there is none but
+/// for what a solve leaves.
+template <class Real>
+inline bool is_slack(const PressureFields<Real>& fields, Real pressure) {
+    return absolute(pressure) <= kHold<Real> * fields.cell_weight;
 }
 
 /// Whether liquid may part from walls at all: with surface tension it clings to them.

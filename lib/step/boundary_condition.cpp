@@ -229,6 +229,8 @@ struct BothMirrors {
         return {s,
                 walls.distance,
                 fields.level,
+                fields.pressure,
+                may_part(fields) ? kHold<float> * fields.cell_weight : -1.0F,
                 now.u,
                 now.v,
                 was.u,

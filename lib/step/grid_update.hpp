@@ -10,7 +10,8 @@ namespace weir {
 /// velocity = momentum / mass on every face that has mass, then `fall` on top: what gravity gives,
 /// cells/s. Where the mass was stands the velocity before gravity from now on: grid-to-particle
 /// needs the change (FLIP). With two liquids the mass gives way to the inverse density.
-/// Normal velocity on the tank's walls is 0 but where liquid parts from them. Order: by row. Cost: one division a face.
+/// Normal velocity on the tank's walls is 0 but where liquid parts from them.
+/// Order: by row. Cost: one division a face.
 template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
                  const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work = {});

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fluid/particles.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/parting.hpp"
 #include "solid/face_axis.hpp"
 
 namespace weir {
@@ -53,6 +53,7 @@ struct Mirror {
     Real ratio = Real(0);  ///< depth of the face over distance of the mirror point
     bool sticks = false;   ///< the wall's own velocity on the wall, not slip
     bool open = false;     ///< the face: what it has along the normal is the liquid's
+    bool slack = false;    ///< nothing keeps the liquid there: it may go from the wall
 };
 
 /// A face between two nodes.
@@ -191,14 +192,26 @@ Vec2<Real> stuck(const Mirror<Real>& mirror, Vec2<Real> liquid, Real towards) {
     return (mirror.wall - mirror.ratio * along) + towards * mirror.normal;
 }
 
+/// Whether the pressure at a point in the part of the tank that is looked at is slack.
+template <class Real>
+bool is_slack_at(const GridShape& s, const PressureFields<Real>& fields, Vec2<Real> point) {
+    const std::int32_t i = static_cast<std::int32_t>(point.x) - s.i0;
+    const std::int32_t j = static_cast<std::int32_t>(point.y) - s.j0;
+    return i < s.nx && j < s.ny && may_part(fields) &&
+           is_slack(fields, fields.pressure[s.index(i, j)]);
+}
+
 /// Velocity that a face in a solid takes: mirrored about the wall, in the wall's frame.
 template <class Real>
 Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const Vec2<Real> liquid = at_mirror(grid, mirror);
-    const Real normal_part = dot(liquid - mirror.wall, mirror.normal);
+    Real normal_part = dot(liquid - mirror.wall, mirror.normal);
     if (mirror.sticks) {
         return stuck(mirror, liquid, mirror.open ? own_towards(grid, mirror)
                                                        : -mirror.ratio * normal_part);
+    }
+    if (mirror.slack && normal_part > Real(0)) {
+        normal_part = Real(0);  // it takes the face along
     }
     return liquid - (normal_part * (Real(1) + mirror.ratio)) * mirror.normal;
 }
@@ -295,6 +308,7 @@ bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
         return false;
     }
     mirror.open = axis.open()[face] > Real(0);
+    mirror.slack = is_slack_at(axis.s, fields, mirror.point);
     mirror.at_u = stencil_u(axis.s, mirror.point);
     mirror.at_v = stencil_v(axis.s, mirror.point);
     return true;

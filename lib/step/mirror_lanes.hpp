@@ -15,6 +15,8 @@ struct MirrorTask {
     const GridShape& s;
     const float* distance;
     const float* level;
+    const float* pressure;
+    float slack;  ///< as `is_slack` has it; below 0: no liquid may part from walls
     const float* now_u;
     const float* now_v;
     const float* was_u;
@@ -107,6 +109,7 @@ struct Mirrors {
     float fx_v[kMostMirrors];
     float fy_v[kMostMirrors];
     std::uint32_t wet = 0;  ///< a bit for each of which the point lies in a cell of liquid
+    float most[kMostMirrors];  ///< along the normal that is mirrored: 0 where the liquid may part
 };
 
 /// A vector in each lane.
@@ -233,6 +236,9 @@ inline void look_at_points(const MirrorTask& task, const std::int32_t* face,
     const auto inside = (i < s.i0 + s.nx) & (j < s.j0 + s.ny);
     const auto level = L::numbers_at(task.level, inside ? cell : L::load_whole(face));
     found.wet = L::bits_of(inside & (level > L::all(0.0F)));
+    const auto pressure = L::numbers_at(task.pressure, inside ? cell : L::load_whole(face));
+    const auto slack = inside & (L::absolute(pressure) <= L::all(task.slack));
+    L::store(found.most, slack ? L::all(0.0F) : L::all(__builtin_inff()));
 }
 
 /// As `wall_velocity`, at the faces' middles.
@@ -310,7 +316,8 @@ inline void mirror_faces(const MirrorTask& task, const std::int32_t* face, const
     const LaneVectors<L> liquid{
         interpolate_group<L>(L::squares_at(task.now_u, task.now_u + t, m.at_u), at_u),
         interpolate_group<L>(L::squares_at(task.now_v, task.now_v + t, m.at_v), at_v)};
-    const Floats across = (liquid - wall).dot(normal) * (L::all(1.0F) + L::load(m.ratio));
+    const Floats towards = L::minimum((liquid - wall).dot(normal), L::load(m.most));
+    const Floats across = towards * (L::all(1.0F) + L::load(m.ratio));
     L::store(changes.now, OnU ? liquid.x - across * normal.x : liquid.y - across * normal.y);
     // As `before`.
     const LaneVectors<L> there = LaneVectors<L>{interpolate_group<L>(was_u, at_u),

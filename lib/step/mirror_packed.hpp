@@ -19,6 +19,7 @@ struct Mirror {
     std::int32_t ratio;   ///< 512ths
     bool sticks;
     bool open;
+    bool slack;  ///< nothing keeps the liquid there: it may go from the wall
 };
 
 /// Of a velocity, 256ths, or of a cross-wise one; both fit with any normal.
@@ -94,11 +95,14 @@ struct MirrorTask {
     /// `weir::mirrored`, 256ths.
     std::int32_t mirrored(const Mirror& mirror, Whole liquid, std::int32_t face) const {
         const Whole relative = relative_to(mirror.wall, liquid);
-        const std::int32_t towards = along(relative, mirror.normal);
+        std::int32_t towards = along(relative, mirror.normal);
         if (mirror.sticks) {
             return stuck(mirror, relative,
                          mirror.open ? own_towards(mirror, face)
                                      : -rounded_shift(mirror.ratio * towards, 9));
+        }
+        if (mirror.slack && towards > 0) {
+            towards = 0;  // it takes the face along
         }
         const std::int32_t turned = saturated<17>(rounded_shift(towards * (512 + mirror.ratio), 9));
         return of(liquid) - part(turned, mirror);
@@ -176,7 +180,7 @@ inline std::uint32_t word_of(Whole place) {
 }
 
 /// `distance`: 512ths. @return whether there is liquid at the mirror's place.
-inline bool mirror_of(const FaceAxis<Real>& axis, const LevelOf<Real>* level,
+inline bool mirror_of(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
                       const FacePlace& from, std::int32_t face, std::int32_t distance,
                       Whole normal, Mirror& mirror) {
     const Walls<Real>& walls = axis.walls;
@@ -202,8 +206,9 @@ inline bool mirror_of(const FaceAxis<Real>& axis, const LevelOf<Real>* level,
     const Whole place = from.further_out(depth + maximum(depth, kReach), normal, outside);
     mirror.place = word_of(place);
     mirror.ratio = minimum(depth, kReach);
-    return near_liquid(axis.s, level, Vec2<Real>{Real::of_raw(256 * place.x),
-                                                 Real::of_raw(256 * place.y)});
+    const Vec2<Real> point{Real::of_raw(256 * place.x), Real::of_raw(256 * place.y)};
+    mirror.slack = is_slack_at(axis.s, fields, point);
+    return near_liquid(axis.s, fields.level, point);
 }
 
 /// A cell further on, where a solid that is thin here has its other side: its distance from the
@@ -230,12 +235,12 @@ inline bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& 
     mirror.open = axis.open()[face].raw != 0;
     const FacePlace from(axis, i, j);
     const Whole normal = normal_at(axis, face);
-    if (mirror_of(axis, fields.level, from, face, distance, normal, mirror)) {
+    if (mirror_of(axis, fields, from, face, distance, normal, mirror)) {
         return true;
     }
     const std::int32_t beyond = other_side(axis, from, normal);
     return beyond <= 0 &&
-           mirror_of(axis, fields.level, from, face, beyond, {-normal.x, -normal.y}, mirror);
+           mirror_of(axis, fields, from, face, beyond, {-normal.x, -normal.y}, mirror);
 }
 
 /// What a face takes in both fields.
