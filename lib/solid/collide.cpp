@@ -111,19 +111,14 @@ template <class Real>
     return true;
 }
 
-/// A particle that is in the open, and may have come there through a solid, which then stops it. It
-/// stays: true.
+/// Whether a particle that is in the open may have come there through a solid. `slot`: the body.
 template <class Real>
-[[gnu::noinline, gnu::cold]] bool pass(Scene<Real>& scene, std::int32_t k, Vec2<Real> before,
-                                       Went went) {
-    const Vec2<Real> x = scene.particles.position[k];
-    const std::uint16_t slot =
-        scene.walls.moving ? body_on_way(scene, before, x) : std::uint16_t{kNoBody};
-    const bool far = went == Went::far;
-    if (far || leads_through(scene, origin(scene, slot, before), x)) {
-        stop_on_path(scene, k, slot, before, far);
+[[gnu::noinline, gnu::cold]] bool came_through(const Scene<Real>& scene, Vec2<Real> before,
+                                               Vec2<Real> x, Went went, std::uint16_t& slot) {
+    if (scene.walls.moving) {
+        slot = body_on_way(scene, before, x);
     }
-    return true;
+    return went == Went::far || leads_through(scene, origin(scene, slot, before), x);
 }
 
 /// A particle near the contour of a solid, to which it stands so. False: it has no way out.
@@ -136,7 +131,12 @@ template <class Real>
         return !at.inside || set_back(scene, k, at, before, false);
     }
     if (!at.inside) {
-        return went == Went::near || pass(scene, k, before, went);
+        std::uint16_t slot = kNoBody;
+        if (went != Went::near &&
+            came_through(scene, before, Vec2<Real>(scene.particles.position[k]), went, slot)) {
+            stop_on_path(scene, k, slot, before, went == Went::far);
+        }
+        return true;
     }
     if (went != Went::far && set_back(scene, k, at, before, went != Went::near)) {
         ++scene.result.reflected;

@@ -61,17 +61,20 @@ template <class Real>
     return enters(from, to, found) || (found && enters(to, from, found));
 }
 
-/// Sets a particle back to the line of its cell, and to that of the cell where it gets. False, and
-/// nothing has happened: it is too deep, or comes out on another side than it came from.
+/// Where a particle is set back to.
 template <class Real>
-[[gnu::noinline]] bool set_back(Scene<Real>& scene, std::int32_t k, Standing<Real> at,
-                                Vec2<Real> before, bool further) {
-    const Vec2<Real> x = scene.particles.position[k];
-    const bool saddle = at.which == 5 || at.which == 10;
-    const Vec2<Real> from = scene.walls.binary ? before : origin(scene, at.slot, before);
-    const bool binary = scene.walls.binary;
-    Vec2<Real> to = x;
+struct PlaceBack {
+    Vec2<Real> to;
     Blows<Real> blows;
+};
+
+/// On the line of its cell, and on that of the cell where it gets. False: it is too deep, or comes
+/// out on another side than it came from. By itself: what it needs is gone when others are asked.
+template <class Real>
+[[gnu::noinline]] bool find_place_back(const Scene<Real>& scene, Standing<Real> at,
+                                       Vec2<Real> from, PlaceBack<Real>& back) {
+    const bool binary = scene.walls.binary;
+    Blows<Real>& blows = back.blows;
     while (at.inside && blows.count < (binary ? 1 : kMostWalls)) {
         const Real way = kClearance<Real> - at.hit.distance;
         if (way > kFastestWayOut<Real> && !binary) {
@@ -81,22 +84,34 @@ template <class Real>
         blows.slot[blows.count] = at.slot;
         blows.normal[blows.count] = normal;
         ++blows.count;
-        const Vec2<Real> wall = to + minimum(way, kFastestWayOut<Real>) * normal;
+        const Vec2<Real> wall = back.to + minimum(way, kFastestWayOut<Real>) * normal;
         const Real beyond = binary ? Real(0) : Real(0) - kBeyond<Real> * at.hit.distance;
-        to = as_kept(within_tank(scene.shape, wall + beyond * normal));
-        at = standing(scene.shape, scene.walls, to);
-        if (!binary && !at.inside &&
-            on_other_side(scene, wall, normal, from)) {
+        back.to = as_kept(within_tank(scene.shape, wall + beyond * normal));
+        at = standing(scene.shape, scene.walls, back.to);
+        if (!binary && !at.inside && on_other_side(scene, wall, normal, from)) {
             return false;
         }
     }
-    if (!binary && (at.inside || ((further || saddle || blows.count > 1) &&
-                                  leads_through(scene, from, to)))) {
+    return binary || !at.inside;
+}
+
+/// Sets a particle back. False, and nothing has happened: see above, or its way leads through.
+template <class Real>
+[[gnu::noinline]] bool set_back(Scene<Real>& scene, std::int32_t k, const Standing<Real>& at,
+                                Vec2<Real> before, bool further) {
+    const bool binary = scene.walls.binary;
+    const bool saddle = at.which == 5 || at.which == 10;
+    const Vec2<Real> x = scene.particles.position[k];
+    const Vec2<Real> from = binary ? before : origin(scene, at.slot, before);
+    PlaceBack<Real> back{x, {}};
+    if (!find_place_back(scene, at, from, back) ||
+        (!binary && (further || saddle || back.blows.count > 1) &&
+         leads_through(scene, from, back.to))) {
         return false;
     }
-    scene.particles.position[k] = to;
-    for (std::int32_t blow = 0; blow < blows.count; ++blow) {
-        answer(scene, k, blows.slot[blow], x, blows.normal[blow]);
+    scene.particles.position[k] = back.to;
+    for (std::int32_t blow = 0; blow < back.blows.count; ++blow) {
+        answer(scene, k, back.blows.slot[blow], x, back.blows.normal[blow]);
     }
     return true;
 }

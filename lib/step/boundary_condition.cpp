@@ -34,7 +34,7 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const TwoFields<Real>& 
     } else {
         Mirror<Real> mirror;
         return wants_image(axis, fields.pressure, face) &&
-                       find_mirror(axis, fields.pressure, i, j, mirror)
+                       find_mirror(axis, fields.pressure, fields.fall, i, j, mirror)
                    ? axis.of(was ? before(field, mirror) : mirrored(field, mirror))
                    : own;
     }
@@ -126,6 +126,7 @@ struct BothMirrors {
     const PressureFields<Real>& fields;
     Velocity<Real> now;
     Velocity<Real> was;
+    Vec2<Real> fall;
     BothFields<Real> u;
     BothFields<Real> v;
 #if WEIR_HAS_LANES
@@ -140,7 +141,7 @@ struct BothMirrors {
     }
     [[gnu::noinline]] void mirror(BothFields<Real>& of, std::int32_t i, std::int32_t j) {
         Mirror<Real> mirror;
-        if (find_mirror(of.axis, fields, i, j, mirror)) {
+        if (find_mirror(of.axis, fields, fall, i, j, mirror)) {
             of.hold(i, j, of.axis.of(mirrored(now, mirror)), of.axis.of(before(was, mirror)));
         }
     }
@@ -231,6 +232,7 @@ struct BothMirrors {
                 fields.level,
                 fields.pressure,
                 may_part(fields) ? kHold<float> * fields.cell_weight : -1.0F,
+                fall,
                 now.u,
                 now.v,
                 was.u,
@@ -318,6 +320,7 @@ void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
         fields,
         both.now,
         both.was,
+        both.fall,
         {{s, walls, true}, grid.u, grid.mass_u, fields.divergence, turns},
         {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal, turns}};
 #if WEIR_HAS_LANES
@@ -335,10 +338,11 @@ void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
 }  // namespace
 
 template <class Real>
-void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
+void mirror_in_solids(const Walls<Real>& walls, Vec2<Real> fall, PressureFields<Real>& fields,
                       StaggeredGrid<Real>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const TwoFields<Real> both{velocity_now(grid, fields), velocity_before(grid, fields), fields};
+    const TwoFields<Real> both{velocity_now(grid, fields), velocity_before(grid, fields), fields,
+                               fall};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
     bool done = false;
@@ -361,8 +365,8 @@ void mirror_in_solids(const Walls<Real>& walls, PressureFields<Real>& fields,
     mirror_field(walls, both, true, rows, work, fields, grid.mass_u, grid.mass_v);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                \
-    template void mirror_in_solids(const Walls<Real>&, PressureFields<Real>&, \
+#define WEIR_INSTANTIATE(Real)                                                            \
+    template void mirror_in_solids(const Walls<Real>&, Vec2<Real>, PressureFields<Real>&, \
                                    StaggeredGrid<Real>&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

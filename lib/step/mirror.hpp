@@ -39,6 +39,7 @@ struct TwoFields {
     Velocity<Real> now;
     Velocity<Real> was;
     const PressureFields<Real>& pressure;
+    Vec2<Real> fall;  ///< what gravity gave
 };
 
 template <class Real>
@@ -53,7 +54,7 @@ struct Mirror {
     Real ratio = Real(0);  ///< depth of the face over distance of the mirror point
     bool sticks = false;   ///< the wall's own velocity on the wall, not slip
     bool open = false;     ///< the face: what it has along the normal is the liquid's
-    bool slack = false;    ///< nothing keeps the liquid there: it may go from the wall
+    bool slack = false;    ///< gravity takes the liquid from the wall, and nothing holds it there
 };
 
 /// A face between two nodes.
@@ -192,7 +193,7 @@ Vec2<Real> stuck(const Mirror<Real>& mirror, Vec2<Real> liquid, Real towards) {
     return (mirror.wall - mirror.ratio * along) + towards * mirror.normal;
 }
 
-/// Whether the pressure at a point in the part of the tank that is looked at is slack.
+/// Whether the pressure at a point is slack, in the part of the tank that is looked at.
 template <class Real>
 bool is_slack_at(const GridShape& s, const PressureFields<Real>& fields, Vec2<Real> point) {
     const std::int32_t i = static_cast<std::int32_t>(point.x) - s.i0;
@@ -296,8 +297,8 @@ template <class Real>
 
 /// Where such a face takes its velocity from. False: it keeps its own.
 template <class Real>
-bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& fields, std::int32_t i,
-                 std::int32_t j, Mirror<Real>& mirror) {
+bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& fields, Vec2<Real> fall,
+                 std::int32_t i, std::int32_t j, Mirror<Real>& mirror) {
     const std::int32_t face = axis.s.index(i, j);
     const Edge<Real> edge{axis.centre(i, j), face, face + axis.other_node()};
     const Vec2<Real> normal = axis.normal(face);
@@ -308,7 +309,8 @@ bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
         return false;
     }
     mirror.open = axis.open()[face] > Real(0);
-    mirror.slack = is_slack_at(axis.s, fields, mirror.point);
+    const Real from_wall = dot(mirror.normal, fall);
+    mirror.slack = from_wall > Real(0) && is_slack_at(axis.s, fields, mirror.point);
     mirror.at_u = stencil_u(axis.s, mirror.point);
     mirror.at_v = stencil_v(axis.s, mirror.point);
     return true;

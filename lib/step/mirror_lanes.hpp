@@ -17,6 +17,7 @@ struct MirrorTask {
     const float* level;
     const float* pressure;
     float slack;  ///< as `is_slack` has it; below 0: no liquid may part from walls
+    Vec2<float> fall;
     const float* now_u;
     const float* now_v;
     const float* was_u;
@@ -214,9 +215,9 @@ inline GroupDistances<L> distances_at(const MirrorTask& task, const std::int32_t
     }
 }
 
-/// The stencils around points, and which of these lie in liquid.
+/// The stencils around points, and which of these lie in liquid. Returns where pressure is slack.
 template <class L>
-inline void look_at_points(const MirrorTask& task, const std::int32_t* face,
+inline typename L::Ints look_at_points(const MirrorTask& task, const std::int32_t* face,
                            const LaneVectors<L>& point, Mirrors& found) {
     const GridShape& s = task.s;
     const auto half = L::all(0.5F);
@@ -237,8 +238,7 @@ inline void look_at_points(const MirrorTask& task, const std::int32_t* face,
     const auto level = L::numbers_at(task.level, inside ? cell : L::load_whole(face));
     found.wet = L::bits_of(inside & (level > L::all(0.0F)));
     const auto pressure = L::numbers_at(task.pressure, inside ? cell : L::load_whole(face));
-    const auto slack = inside & (L::absolute(pressure) <= L::all(task.slack));
-    L::store(found.most, slack ? L::all(0.0F) : L::all(__builtin_inff()));
+    return inside & (L::absolute(pressure) <= L::all(task.slack));
 }
 
 /// As `wall_velocity`, at the faces' middles.
@@ -284,7 +284,9 @@ inline void find_mirrors(const MirrorTask& task, const MirrorFaces& faces, Mirro
     const LaneVectors<L> point{
         L::clamp(middle.x + way.x, L::all(task.low.x), L::all(task.high.x)),
         L::clamp(middle.y + way.y, L::all(task.low.y), L::all(task.high.y))};
-    look_at_points<L>(task, faces.face, point, found);
+    const auto slack = look_at_points<L>(task, faces.face, point, found);
+    const LaneVectors<L> fall{L::all(task.fall.x), L::all(task.fall.y)};
+    L::store(found.most, slack & (normal.dot(fall) > zero) ? zero : L::all(__builtin_inff()));
     L::store(found.normal_x, normal.x);
     L::store(found.normal_y, normal.y);
     L::store(found.point_x, point.x);

@@ -19,7 +19,7 @@ struct Mirror {
     std::int32_t ratio;   ///< 512ths
     bool sticks;
     bool open;
-    bool slack;  ///< nothing keeps the liquid there: it may go from the wall
+    bool slack;  ///< gravity takes the liquid from the wall, and nothing holds it there
 };
 
 /// Of a velocity, 256ths, or of a cross-wise one; both fit with any normal.
@@ -180,7 +180,7 @@ inline std::uint32_t word_of(Whole place) {
 }
 
 /// `distance`: 512ths. @return whether there is liquid at the mirror's place.
-inline bool mirror_of(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
+inline bool mirror_of(const FaceAxis<Real>& axis, const TwoFields<Real>& both,
                       const FacePlace& from, std::int32_t face, std::int32_t distance,
                       Whole normal, Mirror& mirror) {
     const Walls<Real>& walls = axis.walls;
@@ -207,8 +207,9 @@ inline bool mirror_of(const FaceAxis<Real>& axis, const PressureFields<Real>& fi
     mirror.place = word_of(place);
     mirror.ratio = minimum(depth, kReach);
     const Vec2<Real> point{Real::of_raw(256 * place.x), Real::of_raw(256 * place.y)};
-    mirror.slack = is_slack_at(axis.s, fields, point);
-    return near_liquid(axis.s, fields.level, point);
+    const Whole fall{Speed(both.fall.x).raw, Speed(both.fall.y).raw};
+    mirror.slack = along(fall, normal) > 0 && is_slack_at(axis.s, both.pressure, point);
+    return near_liquid(axis.s, both.pressure.level, point);
 }
 
 /// A cell further on, where a solid that is thin here has its other side: its distance from the
@@ -227,7 +228,7 @@ inline std::int32_t other_side(const FaceAxis<Real>& axis, const FacePlace& from
 }
 
 /// `weir::find_mirror`.
-inline bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& fields,
+inline bool find_mirror(const FaceAxis<Real>& axis, const TwoFields<Real>& both,
                         std::int32_t i, std::int32_t j, Mirror& mirror) {
     const std::int32_t face = axis.s.index(i, j);
     const std::int32_t distance =
@@ -235,12 +236,12 @@ inline bool find_mirror(const FaceAxis<Real>& axis, const PressureFields<Real>& 
     mirror.open = axis.open()[face].raw != 0;
     const FacePlace from(axis, i, j);
     const Whole normal = normal_at(axis, face);
-    if (mirror_of(axis, fields, from, face, distance, normal, mirror)) {
+    if (mirror_of(axis, both, from, face, distance, normal, mirror)) {
         return true;
     }
     const std::int32_t beyond = other_side(axis, from, normal);
     return beyond <= 0 &&
-           mirror_of(axis, fields, from, face, beyond, {-normal.x, -normal.y}, mirror);
+           mirror_of(axis, both, from, face, beyond, {-normal.x, -normal.y}, mirror);
 }
 
 /// What a face takes in both fields.
@@ -255,7 +256,7 @@ struct Image {
     const std::int32_t face = axis.s.index(i, j);
     Mirror mirror;
     if (!wants_image(axis, fields.pressure, face) ||
-        !find_mirror(axis, fields.pressure, i, j, mirror)) {
+        !find_mirror(axis, fields, i, j, mirror)) {
         return false;
     }
     const MirrorFaces faces(mirror, axis.s.stride);

@@ -139,12 +139,13 @@ Real volume_gain(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
 
 /// Faces that no liquid owns: inside solids and beyond the tank.
 template <bool Solids, class Real>
-void fill_borders(Simulation<Real>& simulation, Work work) {
+void fill_borders(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     StaggeredGrid<Real>& grid = simulation.grid;
     if constexpr (Solids) {
         const Walls<Real>& walls = simulation.layers.walls;
         if (walls.active) {
-            mirror_in_solids(walls, simulation.pressure, grid, work);
+            const Vec2<Real> fall = plan.dt_s * simulation.settings.gravity;
+            mirror_in_solids(walls, fall, simulation.pressure, grid, work);
             if (walls.thin != nullptr && work.once(grid.shape.size())) {
                 mirror_at_thin_walls(walls, simulation.pressure.level, grid);
             }
@@ -340,7 +341,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (simulation.pressure.elasticity != nullptr) {
         simulation.pressure.elasticity->release_pressure(grid.shape, simulation.pressure, work);
     }
-    fill_borders<Solids>(simulation, work);
+    fill_borders<Solids>(simulation, plan, work);
     clock.charge(Stage::pressure);
 
     quiet_leaning(simulation, plan, work);

@@ -9,6 +9,10 @@
 namespace weir {
 namespace {
 
+/// What gravity gave in the step.
+template <class Real>
+constexpr Vec2<Real> kFall{Real(0.5), Real(-2.0)};
+
 enum class Bodies { still, moving, sticking };
 
 WorldDef tank_with(Bodies bodies) {
@@ -53,7 +57,7 @@ public:
         Progress progress;
         progress.begin();
         progress.resume(kMostWork);
-        mirror_in_solids(simulation().layers.walls, simulation().pressure, grid(),
+        mirror_in_solids(simulation().layers.walls, kFall<Real>, simulation().pressure, grid(),
                          at_once ? Work(progress) : Work());
     }
 

@@ -124,7 +124,9 @@ void divide() {
     borders.wrap_x = borders.wrap_y = true;  // no face is closed
     const weir::Vec2<Real> gravity{Real::of_raw(g_numbers.either(26)),
                                    Real::of_raw(g_numbers.either(20))};
-    weir::grid_update(borders, weir::Seconds<Real>(0.0625) * gravity, g_fields, to);
+    weir::PressureFields<Real> fields;
+    fields.level = g_fields.level;
+    weir::grid_update(borders, weir::Seconds<Real>(0.0625) * gravity, fields, to);
     add_to_hash(to.u, kEntries * sizeof(Speed));
     add_to_hash(to.v, kEntries * sizeof(Speed));
     add_to_hash(g_fields.mass_u);
