@@ -71,52 +71,65 @@ void fold_across(Mass* mass, Real* momentum, const Line& low, const Line& high, 
     fold_across(momentum, low, high, wrap);
 }
 
-/// Cells at a wall of the tank, beside a face and one further from it.
-template <class Real>
-struct CellsAtWall {
-    const LevelOf<Real>* level;
-    const Real* pressure;  ///< null: liquid does not part from this wall
-    Real hold;             ///< less pressure holds nothing
-    std::int32_t inward;   ///< from a cell at the wall to the next one
-    bool wet = false;
-    bool airy = false;
-    bool pressed = false;
-    Real light = Real(1);  ///< 1 / density of the liquid at the face
-
-    void look(std::int32_t cell) {
-        const bool liquid = level[cell] > LevelOf<Real>(0);
-        wet = wet || liquid;
-        airy = airy || !liquid;
-        pressed = pressed || (liquid && pressure != nullptr && light * pressure[cell] > hold);
+/// `cell`: from a face on the wall to the cell that it belongs to; `inward`: from there to the
+/// next one away from the wall. The first and last entry of the line are ghosts. `stays`: faces
+/// that are left as they are.
+template <class Velocity, class Level, class Stays>
+void close(Velocity* velocity, const Line& wall, const Level* level, std::int32_t cell,
+           std::int32_t inward, const Stays& stays) {
+    const auto wet = [&](std::int32_t at) {
+        return level[at] > Level(0) || level[at + inward] > Level(0);
+    };
+    for (std::int32_t k = 1; k + 1 < wall.count; ++k) {
+        const std::int32_t face = wall.first + k * wall.step;
+        const std::int32_t at = face + cell;
+        if ((wet(at) || wet(at - wall.step) || wet(at + wall.step)) && !stays(k, face)) {
+            velocity[face] = Velocity(0);
+        }
     }
-    /// Whether liquid with that velocity through the wall goes from it, and nothing holds it there.
-    bool parts(VelocityOf<Real> velocity) const {
-        const bool away = inward > 0 ? velocity > VelocityOf<Real>(0)
-                                     : velocity < VelocityOf<Real>(0);
-        return pressure != nullptr && away && airy && !pressed;
+}
+
+/// What may part from a wall that gravity takes it from.
+template <class Real>
+struct Parting {
+    const LevelOf<Real>* level;
+    const Real* pressure;
+    Real hold;  ///< less pressure holds nothing
+
+    /// Of a cell and the next one inward: whether neither holds liquid to the wall. `light`: its
+    /// 1 / density.
+    bool is_slack(std::int32_t at, std::int32_t inward, Real light, bool& airy) const {
+        for (const std::int32_t end = at + 2 * inward; at != end; at += inward) {
+            const bool wet = level[at] > LevelOf<Real>(0);
+            airy = airy || !wet;
+            if (wet && light * pressure[at] > hold) {
+                return false;
+            }
+        }
+        return true;
     }
 };
 
-/// `cell`: from a face on the wall to the cell that it belongs to. The first and last entry of the
-/// line are ghosts.
+/// As `close`, but for faces through which liquid parts from the wall.
 template <class Real>
-void close(VelocityOf<Real>* velocity, const VelocityOf<Real>* light, const Line& wall,
-           std::int32_t cell, const CellsAtWall<Real>& cells) {
-    const LevelOf<Real>* level = cells.level;
-    for (std::int32_t k = 1; k + 1 < wall.count; ++k) {
-        const std::int32_t face = wall.first + k * wall.step;
-        CellsAtWall<Real> around = cells;
-        around.light = light != nullptr ? Real(light[face]) : Real(1);
-        for (std::int32_t n = k > 1 ? -1 : 0; n <= (k + 2 < wall.count ? 1 : 0); ++n) {
-            const std::int32_t at = face + cell + n * wall.step;
-            around.look(at);
-            around.look(at + cells.inward);
+[[gnu::noinline]] void close_but_part(VelocityOf<Real>* velocity,
+                                      const VelocityOf<Real>* inverse_density, const Line& wall,
+                                      std::int32_t cell, std::int32_t inward,
+                                      const Parting<Real>& parting) {
+    close(velocity, wall, parting.level, cell, inward, [&](std::int32_t k, std::int32_t face) {
+        const VelocityOf<Real> v = velocity[face];
+        const std::int32_t at = face + cell;
+        if (!(inward > 0 ? v > VelocityOf<Real>(0) : v < VelocityOf<Real>(0)) ||
+            !(parting.level[at] > LevelOf<Real>(0))) {
+            return false;
         }
-        const bool own = level[face + cell] > LevelOf<Real>(0);
-        if (around.wet && !(own && around.parts(velocity[face]))) {
-            velocity[face] = VelocityOf<Real>(0);
-        }
-    }
+        const Real light = inverse_density != nullptr ? Real(inverse_density[face]) : Real(1);
+        bool airy = false;
+        return parting.is_slack(at, inward, light, airy) &&
+               (k == 1 || parting.is_slack(at - wall.step, inward, light, airy)) &&
+               (k + 2 == wall.count || parting.is_slack(at + wall.step, inward, light, airy)) &&
+               airy;
+    });
 }
 
 template <class Velocity, class Real>
@@ -199,23 +212,39 @@ void extend_velocity(const Borders<Real>& b, const GridShape& s, VelocityOf<Real
     }
 }
 
+/// `off`: what of the fall leads from the wall. By itself: four walls share it.
+template <class Real>
+[[gnu::noinline]] void close_wall(VelocityOf<Real>* velocity,
+                                  const VelocityOf<Real>* inverse_density, const Line& line,
+                                  std::int32_t cell, std::int32_t inward, Real off,
+                                  const Parting<Real>& parting) {
+    if (parting.pressure != nullptr && off > Real(0)) {
+        close_but_part(velocity, inverse_density, line, cell, inward, parting);
+    } else {
+        close(velocity, line, parting.level, cell, inward,
+              [](std::int32_t, std::int32_t) { return false; });
+    }
+}
+
 template <class Real>
 void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* level,
                  const Real* pressure, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
-    const Real hold = kHold<Real> * maximum(absolute(fall.x), absolute(fall.y));
-    const auto at = [&](std::int32_t inward, Real off) {
-        return CellsAtWall<Real>{level, off > Real(0) ? pressure : nullptr, hold, inward};
+    const Parting<Real> parting{level, pressure,
+                                kHold<Real> * maximum(absolute(fall.x), absolute(fall.y))};
+    const auto close_u = [&](std::int32_t i, std::int32_t cell, std::int32_t inward, Real off) {
+        close_wall(grid.u, grid.inverse_density_u, column(s, i), cell, inward, off, parting);
+    };
+    const auto close_v = [&](std::int32_t j, std::int32_t cell, std::int32_t inward, Real off) {
+        close_wall(grid.v, grid.inverse_density_v, row(s, j), cell, inward, off, parting);
     };
     if (!b.wrap_x) {
-        close(grid.u, grid.inverse_density_u, column(s, 0), 0, at(1, fall.x));
-        close(grid.u, grid.inverse_density_u, column(s, s.nx), -1, at(-1, -fall.x));
+        close_u(0, 0, 1, fall.x);
+        close_u(s.nx, -1, -1, -fall.x);
     }
     if (!b.wrap_y) {
-        close(grid.v, grid.inverse_density_v, row(s, 0), 0,
-              at(s.stride, fall.y));
-        close(grid.v, grid.inverse_density_v, row(s, s.ny), -s.stride,
-              at(-s.stride, -fall.y));
+        close_v(0, 0, s.stride, fall.y);
+        close_v(s.ny, -s.stride, -s.stride, -fall.y);
     }
 }
 

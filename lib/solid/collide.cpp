@@ -118,7 +118,11 @@ template <class Real>
     if (scene.walls.moving) {
         slot = body_on_way(scene, before, x);
     }
-    return went == Went::far || leads_through(scene, origin(scene, slot, before), x);
+    if (went == Went::far) {
+        return true;
+    }
+    const Vec2<Real> from = origin(scene, slot, before);
+    return is_crossed(scene.shape, scene.walls, from, x) && leads_through(scene, from, x);
 }
 
 /// A particle near the contour of a solid, to which it stands so. False: it has no way out.
@@ -268,8 +272,8 @@ inline void collide_packed(Scene<SmallFixed>& scene, const Flight<SmallFixed>& f
                            std::int32_t first, std::int32_t count) {
     for (std::int32_t n = count; n > 0;) {
         const packed::Found found = packed::next_at_wall(
-            scene.shape, scene.walls, scene.particles.position + first, flight.before, n,
-            scene.result.tested);
+            scene.shape, scene.walls, scene.particles.position + first,
+            {flight.before, flight.far}, n, scene.result.tested);
         n = found.n;
         if (n >= 0) {
             const Vec2<SmallFixed> before(flight.before[n]);

@@ -28,21 +28,17 @@ using PlaceOfParticle = Vec2<PositionOf<SmallFixed>>;
     return ((to - from + 0x00800080U) & 0xFF00FF00U) != 0;
 }
 
-/// The last of some particles that is in a cell with solid, or went further than half a cell; −1:
-/// none. By itself, so that its loop has all registers.
-[[gnu::noinline]] inline std::int32_t last_to_ask(const CasesAt& at, const PlaceOfParticle* places,
-                                                  const PlaceOfParticle* before,
-                                                  std::int32_t count) {
+/// The last of some particles that is in a cell with solid, or −1. By itself, so that its loop has
+/// all registers.
+[[gnu::noinline]] inline std::int32_t last_near_wall(const CasesAt& at,
+                                                     const PlaceOfParticle* places,
+                                                     std::int32_t count) {
     const std::uint8_t* const cases = at.cases;
     const std::int32_t stride = at.stride;
-    const std::ptrdiff_t to_before = whole(reinterpret_cast<const char*>(before) -
-                                           reinterpret_cast<const char*>(places));
     for (const PlaceOfParticle* one = places + count; one != places;) {
         one = whole(one - 1);
         const std::uint32_t place = word_at(one);
-        const std::uint32_t from = word_at(reinterpret_cast<const char*>(one) + to_before);
-        if (goes_further(from, place) ||
-            cases[CasesAt::row(place) * stride + CasesAt::column(place)] != kCellOutside) {
+        if (cases[CasesAt::row(place) * stride + CasesAt::column(place)] != kCellOutside) {
             return static_cast<std::int32_t>(one - places);
         }
     }
@@ -64,6 +60,21 @@ inline bool is_path_open(const CasesAt& at, std::uint32_t from, std::uint32_t to
     return true;
 }
 
+/// The same, or the last that went further than half a cell on a way with solid.
+[[gnu::noinline]] inline std::int32_t last_to_ask(const CasesAt& at, const PlaceOfParticle* places,
+                                                  const PlaceOfParticle* before,
+                                                  std::int32_t count) {
+    for (std::int32_t n = count - 1; n >= 0; --n) {
+        const std::uint32_t place = word_at(places + n);
+        const std::uint32_t from = word_at(before + n);
+        if (at.cases[at.cell(place)] != kCellOutside ||
+            (goes_further(from, place) && !is_path_open(at, from, place))) {
+            return n;
+        }
+    }
+    return -1;
+}
+
 /// Whether it went further than a cell.
 inline bool goes_far(std::uint32_t from, std::uint32_t to) {
     const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
@@ -79,9 +90,47 @@ inline bool is_clear(const CasesAt& at, std::uint32_t place, std::uint8_t which)
                                 4 * low_byte(place), 4 * low_byte(place >> 16U)}) > 0;
 }
 
+/// Whether solid may be at a place: cells without any are told at once.
+inline bool may_be_in(const CasesAt& at, std::uint32_t place) {
+    const std::uint8_t which = at.cases[at.cell(place)];
+    return which != kCellOutside && !is_clear(at, place, which);
+}
+
+/// `weir::is_crossed`.
+inline bool is_crossed(const CasesAt& at, std::uint32_t from, std::uint32_t to) {
+    const auto third = [](std::uint32_t a, std::uint32_t b) {
+        const std::int32_t way =
+            static_cast<std::int32_t>(b & 0xFFFFU) - static_cast<std::int32_t>(a & 0xFFFFU);
+        return static_cast<std::uint32_t>(rounded_shift(85 * way, 8));
+    };
+    const std::uint32_t way = third(from, to) + (third(from >> 16U, to >> 16U) << 16U);
+    return may_be_in(at, from + way) || may_be_in(at, to - way);
+}
+
+/// `weir::went`.
+[[gnu::noinline]] inline Went went(std::uint32_t from, std::uint32_t to) {
+    return !goes_further(from, to) ? Went::near
+           : goes_far(from, to)    ? Went::far
+                                   : Went::further;
+}
+
+/// The same of who is in the open and went further than half a cell, but near also if there is no
+/// solid on its way. By itself: few are.
+[[gnu::noinline]] inline Went went_through(const CasesAt& at, bool moving, std::uint32_t from,
+                                           std::uint32_t to) {
+    const Went how = went(from, to);
+    return how == Went::far || moving || is_crossed(at, from, to) ? how : Went::near;
+}
+
 struct Found {
     std::int32_t n;  ///< −1: none
     Went went;       ///< near also if there is no solid on its way
+};
+
+/// Where particles were before the step.
+struct Before {
+    const PlaceOfParticle* places;
+    bool further;  ///< one of them went further than kLongWay
 };
 
 /// The last of `count` particles that is not clearly in the open, or may have passed a wall.
@@ -89,27 +138,28 @@ struct Found {
 /// the stack when a contour is asked.
 [[gnu::noinline]] inline Found next_at_wall(const GridShape& s, const Walls<SmallFixed>& walls,
                                             const PlaceOfParticle* places,
-                                            const PlaceOfParticle* before, std::int32_t count,
+                                            const Before& before, std::int32_t count,
                                             std::int32_t& tested) {
     const CasesAt at(s, walls);
     for (std::int32_t n = count; n > 0;) {
-        n = last_to_ask(at, places, before, n);
+        n = before.further ? last_to_ask(at, places, before.places, n)
+                           : last_near_wall(at, places, n);
         if (n < 0) {
             break;
         }
-        const std::uint32_t from = word_at(before + n);
         const std::uint32_t to = word_at(places + n);
-        if (goes_further(from, to) && !is_path_open(at, from, to)) {
-            return {n, goes_far(from, to) ? Went::far : Went::further};
-        }
+        const std::uint32_t from = word_at(before.places + n);
         const std::uint8_t which = at.cases[at.cell(to)];
-        if (which == kCellOutside) {
-            continue;
+        if (which != kCellOutside && !is_clear(at, to, which)) {
+            return {n, went(from, to)};
         }
-        if (!is_clear(at, to, which)) {
-            return {n, Went::near};
+        if (goes_further(from, to)) {
+            const Went how = went_through(at, walls.moving, from, to);
+            if (how != Went::near) {
+                return {n, how};
+            }
         }
-        ++tested;
+        tested += which != kCellOutside ? 1 : 0;
     }
     return {-1, Went::near};
 }

@@ -44,6 +44,14 @@ template <class Real>
            !is_inside(scene.shape, scene.walls, from);
 }
 
+/// Whether a way of a cell along each axis at most may lead through half a cell of solid, between
+/// places in the open: it is in it after a third or after two.
+template <class Real>
+bool is_crossed(const GridShape& s, const Walls<Real>& walls, Vec2<Real> from, Vec2<Real> to) {
+    const Vec2<Real> third = ratio_of<Real>(1, 3) * (to - from);
+    return is_inside(s, walls, from + third) || is_inside(s, walls, to - third);
+}
+
 /// Whether a way between two places in the open leads through a solid.
 template <class Real>
 [[gnu::noinline, gnu::cold]] bool leads_through(const Scene<Real>& scene, Vec2<Real> from,

@@ -71,18 +71,28 @@ TYPED_TEST(Parting, PlatesOffTheGridsLinesTakeAJetsMomentum) {
     }
 }
 
-/// How far a film of a cell under the ceiling has fallen after 0.3 s, over what gravity gives.
+/// How far a film of some cells under the ceiling, or under a shelf at half the height, has fallen
+/// after 0.3 s, over what gravity gives.
 template <class Real>
-double fall_from_ceiling(Pressure pressure) {
+double fall_of_film(Pressure pressure, float thick, bool shelf) {
     WorldDef def;
     def.cell_m = 1.0F / 16.0F;
     def.capacity.cells_x = 64;
     def.capacity.cells_y = 32;
     def.capacity.particles = 100;
+    def.capacity.bodies = 1;
+    def.capacity.vertices = 4;
     def.pressure = pressure;
     def.sound_speed_mps = pressure == Pressure::equation_of_state ? 20.0F : 0.0F;
     TestWorld<Real> world{def};
-    expect_ok(world->fill({{20 * def.cell_m, 31 * def.cell_m}, {30 * def.cell_m, 2.0F}}));
+    if (shelf) {
+        BodyId id;
+        const Ring ring = rectangle(40 * def.cell_m, 4 * def.cell_m);
+        expect_ok(world->add_static_body(body_of(ring, {32 * def.cell_m, 18 * def.cell_m}), &id));
+    }
+    const float top = shelf ? 16.0F : 32.0F;
+    expect_ok(world->fill({{20 * def.cell_m, (top - thick) * def.cell_m},
+                           {30 * def.cell_m, top * def.cell_m}}));
     const auto height = [&] {
         double sum = 0.0;
         for (const auto& at : world->particle_positions()) {
@@ -104,9 +114,13 @@ class Ceiling : public ::testing::Test {};
 using AllScalars = ::testing::Types<float, double, Fixed, SmallFixed>;
 TYPED_TEST_SUITE(Ceiling, AllScalars);
 
+TYPED_TEST(Ceiling, ShelvesHoldNoRowOfDrops) {
+    EXPECT_GT(fall_of_film<TypeParam>(Pressure::projection, 0.5F, true), 0.9);
+}
+
 TYPED_TEST(Ceiling, HoldsNoFilm) {
-    EXPECT_GT(fall_from_ceiling<TypeParam>(Pressure::projection), 0.9);
-    EXPECT_GT(fall_from_ceiling<TypeParam>(Pressure::equation_of_state), 0.5);
+    EXPECT_GT(fall_of_film<TypeParam>(Pressure::projection, 1.0F, false), 0.9);
+    EXPECT_GT(fall_of_film<TypeParam>(Pressure::equation_of_state, 1.0F, false), 0.5);
 }
 
 }  // namespace
