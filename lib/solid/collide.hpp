@@ -17,7 +17,7 @@ inline constexpr std::int32_t kBlock = kHasLanes<Real> ? 512 : (Stored<Real>::co
 /// Who goes no further along an axis has passed no wall that is not in its cell, cells: less than
 /// kPastCorner by more than rounding.
 template <class Real>
-inline constexpr Real kLongWay = Real(Stored<Real>::coarse ? 1.0 : 0.625);
+inline constexpr Real kLongWay = Real(0.625);
 
 /// Where the particles of a block come from.
 template <class Real>

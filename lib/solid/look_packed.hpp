@@ -60,26 +60,29 @@ inline bool is_path_open(const CasesAt& at, std::uint32_t from, std::uint32_t to
     return true;
 }
 
-/// The same, or the last that went further than half a cell on a way with solid.
-[[gnu::noinline]] inline std::int32_t last_to_ask(const CasesAt& at, const PlaceOfParticle* places,
-                                                  const PlaceOfParticle* before,
-                                                  std::int32_t count) {
+/// Whether it went further than that along an axis, 256ths.
+[[gnu::always_inline]] inline bool goes_beyond(std::uint32_t from, std::uint32_t to,
+                                               std::uint32_t than) {
+    const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
+    const std::uint32_t along_y = (to >> 16U) - (from >> 16U);
+    return along_x + than > 2 * than || along_y + than > 2 * than;
+}
+
+/// The same, or the last that may have passed a wall, as `weir::may_pass` says.
+[[gnu::noinline]] inline std::int32_t last_past_wall(const CasesAt& at,
+                                                     const PlaceOfParticle* places,
+                                                     const PlaceOfParticle* before,
+                                                     std::int32_t count) {
+    constexpr auto kPast = static_cast<std::uint32_t>(kPastCorner<SmallFixed>.raw >> 8);
     for (std::int32_t n = count - 1; n >= 0; --n) {
         const std::uint32_t place = word_at(places + n);
         const std::uint32_t from = word_at(before + n);
         if (at.cases[at.cell(place)] != kCellOutside ||
-            (goes_further(from, place) && !is_path_open(at, from, place))) {
+            (goes_beyond(from, place, kPast) && !is_path_open(at, from, place))) {
             return n;
         }
     }
     return -1;
-}
-
-/// Whether it went further than a cell.
-inline bool goes_far(std::uint32_t from, std::uint32_t to) {
-    const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
-    const std::uint32_t along_y = (to >> 16U) - (from >> 16U);
-    return along_x + 256U > 512U || along_y + 256U > 512U;
 }
 
 /// Whether a place is clearly in front of the contour of its cell.
@@ -110,7 +113,7 @@ inline bool is_crossed(const CasesAt& at, std::uint32_t from, std::uint32_t to) 
 /// `weir::went`.
 [[gnu::noinline]] inline Went went(std::uint32_t from, std::uint32_t to) {
     return !goes_further(from, to) ? Went::near
-           : goes_far(from, to)    ? Went::far
+           : goes_beyond(from, to, 256)    ? Went::far
                                    : Went::further;
 }
 
@@ -130,7 +133,7 @@ struct Found {
 /// Where particles were before the step.
 struct Before {
     const PlaceOfParticle* places;
-    bool further;  ///< one of them went further than kLongWay
+    bool far;  ///< one of them went further than kLongWay
 };
 
 /// The last of `count` particles that is not clearly in the open, or may have passed a wall.
@@ -142,8 +145,8 @@ struct Before {
                                             std::int32_t& tested) {
     const CasesAt at(s, walls);
     for (std::int32_t n = count; n > 0;) {
-        n = before.further ? last_to_ask(at, places, before.places, n)
-                           : last_near_wall(at, places, n);
+        n = before.far ? last_past_wall(at, places, before.places, n)
+                       : last_near_wall(at, places, n);
         if (n < 0) {
             break;
         }
