@@ -30,20 +30,22 @@ struct BlockTask {
     bool is_past(std::int32_t n) const {
         return may_pass(shape, cell_case, before[n], position[n]);
     }
-    /// A bit for each of `count` from the first on. `lanes`: components of which one is too long,
-    /// in the first half of them or in the second.
-    [[gnu::noinline]] std::uint32_t past(std::int32_t first, std::int32_t count,
-                                         std::uint32_t lanes) const {
-        std::uint32_t set = 0;
-        for (lanes = (lanes | lanes >> 1U) & 0x5555U; lanes != 0; lanes &= lanes - 1U) {
-            const std::int32_t low = __builtin_ctz(lanes) / 2;
-            for (std::int32_t k = low; k < count; k += count / 2) {
-                set |= is_past(first + k) ? 1U << static_cast<std::uint32_t>(k) : 0U;
-            }
-        }
-        return set;
-    }
 };
+
+/// A bit for each of a group from the first on that is past. `lanes`: components of which one is
+/// too long, in the first half of them or in the second. Each kind of lanes has its own.
+template <class L>
+[[gnu::noinline]] std::uint32_t past_in_group(const BlockTask& task, std::int32_t first,
+                                              std::uint32_t lanes) {
+    std::uint32_t set = 0;
+    for (lanes = (lanes | lanes >> 1U) & 0x5555U; lanes != 0; lanes &= lanes - 1U) {
+        const std::int32_t low = __builtin_ctz(lanes) / 2;
+        for (std::int32_t k = low; k < L::kLanes; k += L::kLanes / 2) {
+            set |= task.is_past(first + k) ? 1U << static_cast<std::uint32_t>(k) : 0U;
+        }
+    }
+    return set;
+}
 
 /// To groups of eight: with the first one.
 inline void fill_up(const NearWall& near) {
@@ -73,7 +75,7 @@ inline std::int32_t find_near_wall(const BlockTask& task, std::int32_t count, Ne
                 L::absolute(low - L::load(before + first)),
                 L::absolute(high - L::load(before + first + L::kLanes)));
             const std::uint32_t lanes = L::bits_of(way > L::all(kPastCorner<float>));
-            set |= lanes != 0 ? task.past(count - L::kLanes, L::kLanes, lanes) : 0U;
+            set |= lanes != 0 ? past_in_group<L>(task, count - L::kLanes, lanes) : 0U;
         }
         if (set == 0) {
             continue;
