@@ -41,7 +41,7 @@ struct Table {
         return most;
     }
 };
-constexpr Table kWithoutSolids = {{0, 44, 23, 32, 34, 114, 0}};
+constexpr Table kWithoutSolids = {{0, 44, 26, 32, 34, 114, 0}};
 constexpr Table kWithSolids = {{783, 45, 29, 53, 52, 1400, 0}};
 
 bool g_within = true;
