@@ -286,7 +286,8 @@ inline void find_mirrors(const MirrorTask& task, const MirrorFaces& faces, Mirro
         L::clamp(middle.y + way.y, L::all(task.low.y), L::all(task.high.y))};
     const auto slack = look_at_points<L>(task, faces.face, point, found);
     const LaneVectors<L> fall{L::all(task.fall.x), L::all(task.fall.y)};
-    L::store(found.most, slack & (normal.dot(fall) > zero) ? zero : L::all(__builtin_inff()));
+    const auto free = slack & (normal.dot(fall) > zero);
+    L::store(found.most, free ? zero : L::all(__builtin_inff()));
     L::store(found.normal_x, normal.x);
     L::store(found.normal_y, normal.y);
     L::store(found.point_x, point.x);
