@@ -32,17 +32,17 @@ template <class Real>
     return false;
 }
 
-/// Whether the pressure in a cell neither holds liquid to a wall nor pulls at it: there is none but
-/// for what a solve leaves.
-template <class Real>
-inline bool is_slack(const PressureFields<Real>& fields, Real pressure) {
-    return absolute(pressure) <= kHold<Real> * fields.cell_weight;
-}
-
 /// Whether liquid may part from walls at all: with surface tension it clings to them.
 template <class Real>
 inline bool may_part(const PressureFields<Real>& fields) {
     return !fields.on_surface;
+}
+
+/// Pressure of no larger size neither holds liquid to a wall nor pulls at it: there is none but for
+/// what a solve leaves. Below 0: no liquid may part.
+template <class Real>
+inline Real most_slack(const PressureFields<Real>& fields) {
+    return may_part(fields) ? kHold<Real> * fields.cell_weight : Real(-1);
 }
 
 }  // namespace weir

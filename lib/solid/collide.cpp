@@ -258,8 +258,8 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
             const Vec2<float> before(flight.before[n]);
             const Standing<float> at = standing_near(s, scene.walls, position[n]);
             scene.result.tested -= at.which == kCellOutside ? 1 : 0;
-            const Went far = went(before, position[n]);
-            note(scene, first + n, meet_at(scene, first + n, at, before, far), before,
+            const Went how = went(before, position[n]);
+            note(scene, first + n, meet_at(scene, first + n, at, before, how), before,
                  flight.mark_removed);
         }
     }
@@ -301,11 +301,11 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
         }
         const Vec2<Real> x = position[n];
         const Vec2<Real> before = flight.before[n];
-        const Went far = went(before, x);
-        const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, far == Went::far);
+        const Went how = went(before, x);
+        const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, how == Went::far);
         if (case_at(s, walls, x) != kCellOutside || goes_further(before, x, kPastCorner<Real>) ||
             thin) {
-            note(scene, first + n, meet(scene, first + n, before, far, thin), before,
+            note(scene, first + n, meet(scene, first + n, before, how, thin), before,
                  flight.mark_removed);
         }
     }

@@ -28,6 +28,14 @@ using PlaceOfParticle = Vec2<PositionOf<SmallFixed>>;
     return ((to - from + 0x00800080U) & 0xFF00FF00U) != 0;
 }
 
+/// Whether it went further than `than` along an axis, 256ths.
+[[gnu::always_inline]] inline bool goes_beyond(std::uint32_t from, std::uint32_t to,
+                                               std::uint32_t than) {
+    const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
+    const std::uint32_t along_y = (to >> 16U) - (from >> 16U);
+    return along_x + than > 2 * than || along_y + than > 2 * than;
+}
+
 /// The last of some particles that is in a cell with solid, or −1. By itself, so that its loop has
 /// all registers.
 [[gnu::noinline]] inline std::int32_t last_near_wall(const CasesAt& at,
@@ -60,15 +68,7 @@ inline bool is_path_open(const CasesAt& at, std::uint32_t from, std::uint32_t to
     return true;
 }
 
-/// Whether it went further than that along an axis, 256ths.
-[[gnu::always_inline]] inline bool goes_beyond(std::uint32_t from, std::uint32_t to,
-                                               std::uint32_t than) {
-    const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
-    const std::uint32_t along_y = (to >> 16U) - (from >> 16U);
-    return along_x + than > 2 * than || along_y + than > 2 * than;
-}
-
-/// The same, or the last that may have passed a wall, as `weir::may_pass` says.
+/// As `last_near_wall`, or the last that may have passed a wall, as `weir::may_pass` says.
 [[gnu::noinline]] inline std::int32_t last_past_wall(const CasesAt& at,
                                                      const PlaceOfParticle* places,
                                                      const PlaceOfParticle* before,
@@ -113,8 +113,8 @@ inline bool is_crossed(const CasesAt& at, std::uint32_t from, std::uint32_t to) 
 /// `weir::went`.
 [[gnu::noinline]] inline Went went(std::uint32_t from, std::uint32_t to) {
     return !goes_further(from, to) ? Went::near
-           : goes_beyond(from, to, 256)    ? Went::far
-                                   : Went::further;
+           : goes_beyond(from, to, 256) ? Went::far
+                                        : Went::further;
 }
 
 /// The same of who is in the open and went further than half a cell, but near also if there is no

@@ -231,7 +231,7 @@ struct BothMirrors {
                 walls.distance,
                 fields.level,
                 fields.pressure,
-                may_part(fields) ? kHold<float> * fields.cell_weight : -1.0F,
+                most_slack(fields),
                 fall,
                 now.u,
                 now.v,

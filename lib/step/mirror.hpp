@@ -198,8 +198,8 @@ template <class Real>
 bool is_slack_at(const GridShape& s, const PressureFields<Real>& fields, Vec2<Real> point) {
     const std::int32_t i = static_cast<std::int32_t>(point.x) - s.i0;
     const std::int32_t j = static_cast<std::int32_t>(point.y) - s.j0;
-    return i < s.nx && j < s.ny && may_part(fields) &&
-           is_slack(fields, fields.pressure[s.index(i, j)]);
+    return i < s.nx && j < s.ny &&
+           absolute(fields.pressure[s.index(i, j)]) <= most_slack(fields);
 }
 
 /// Velocity that a face in a solid takes: mirrored about the wall, in the wall's frame.

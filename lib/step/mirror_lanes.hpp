@@ -16,7 +16,7 @@ struct MirrorTask {
     const float* distance;
     const float* level;
     const float* pressure;
-    float slack;  ///< as `is_slack` has it; below 0: no liquid may part from walls
+    float most_slack;
     Vec2<float> fall;
     const float* now_u;
     const float* now_v;
@@ -218,7 +218,7 @@ inline GroupDistances<L> distances_at(const MirrorTask& task, const std::int32_t
 /// The stencils around points, and which of these lie in liquid. Returns where pressure is slack.
 template <class L>
 inline typename L::Ints look_at_points(const MirrorTask& task, const std::int32_t* face,
-                           const LaneVectors<L>& point, Mirrors& found) {
+                                       const LaneVectors<L>& point, Mirrors& found) {
     const GridShape& s = task.s;
     const auto half = L::all(0.5F);
     const auto shifted_x = point.x + half;
@@ -238,7 +238,7 @@ inline typename L::Ints look_at_points(const MirrorTask& task, const std::int32_
     const auto level = L::numbers_at(task.level, inside ? cell : L::load_whole(face));
     found.wet = L::bits_of(inside & (level > L::all(0.0F)));
     const auto pressure = L::numbers_at(task.pressure, inside ? cell : L::load_whole(face));
-    return inside & (L::absolute(pressure) <= L::all(task.slack));
+    return inside & (L::absolute(pressure) <= L::all(task.most_slack));
 }
 
 /// As `wall_velocity`, at the faces' middles.
