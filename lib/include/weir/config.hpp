@@ -49,11 +49,12 @@ struct Capacity {
     bool moving_bodies = true;
     std::int32_t vertices = 0;      ///< 0 … kMaxVertices, of all bodies; and 3 a hole
     /// Walls thinner than 1.5 cells: room for their edges, 0 … kMaxWallEdges, about 3 for each cell
-    /// of their length and 6 for each edge. 0: none. Then what stands still is tight from 1.05
-    /// cells on, at any angle and speed, and has holes below one; what moves from 1.5 on, but that
-    /// below 1.75 one in 100,000 may pass where it presses liquid against the tank. Near such walls
-    /// particles and faces go one by one: 1.2 to 1.6 times the time on a desktop, 2.7 in a small
-    /// tank that one goes through. Not of free bodies, which would not be pushed back.
+    /// of their length and 6 for each edge. Near such walls particles and faces go one by one: 1.2
+    /// to 1.6 times the time on a desktop, 2.7 in a small tank that one goes through. Not of free
+    /// bodies, which would not be pushed back. 0: none; then walls that stand still are tight from
+    /// 1.05 cells on, at any angle and speed, and have holes below one. Walls that move are tight
+    /// from 1.5 on; below 1.75 one particle in 100,000 may pass where liquid is pressed against the
+    /// tank.
     std::int32_t wall_edges = 0;
     /// 0 … kMaxBodies: contacts that a step can report, of a body with the liquid, of a free one
     /// with another or with the tank.
@@ -66,18 +67,18 @@ struct Capacity {
     /// Room for `World::let_regions_sleep`: 8 bytes a cell (double: 16, SmallFixed: 5). Not with
     /// `two_way`, `window_cells` or periodic borders.
     bool sleeping_regions = false;
-    /// Of a huge tank store only the cells around the liquid, so many; 0, or as many as the tank
-    /// has: all of it. They hold the rectangle around all particles and 4 cells more on each side,
-    /// out to multiples of 32 columns and 8 rows, and a ring around that; at least 66 × 18, along
-    /// a seam the whole tank. With room for bodies a cell more above and on the right, at least
-    /// 66 × 26. As long as that suffices no bit is different. If it does not, the sides that hold
-    /// the fewest particles are left off: those fall by themselves, meet the tank's walls, the
-    /// bodies and no other particle, and change places in the views, until they come back into
-    /// reach; `StepReport::particles_beyond` counts them. A pool out there falls flat, for good: a
-    /// level of many pools that all matter wants `sleeping_regions` instead. What a body buries
-    /// there stays in it, and goes along, until then. Beside bodies each of them takes several
-    /// times as long as one within reach, which its unit of work (`WorkBound`) does not tell. Not
-    /// with thin walls or `two_way`, nor in SmallFixed.
+    /// Of a huge tank store only so many cells, a window around the liquid; 0, or as many as the
+    /// tank has: all of it. The window has to hold the rectangle around all particles and 4 cells
+    /// more on each side, out to multiples of 32 columns and 8 rows, and a ring around that: at
+    /// least 66 × 18 cells; of a periodic axis the whole length. With room for bodies it is a cell
+    /// larger above and on the right, at least 66 × 26. While it suffices no bit is different.
+    /// If it does not, its sides with the fewest particles are cut off. Particles beyond it fall
+    /// alone: they meet the tank's walls and the bodies, but no other particle, and change places
+    /// in the views, until they are within reach again; `StepReport::particles_beyond` counts
+    /// them. A pool beyond it falls flat for good: a level of many pools that all matter wants
+    /// `sleeping_regions` instead. A particle that a body buries there stays in it and goes along.
+    /// Beside bodies a particle beyond takes several times as long as one within, which its unit of
+    /// work (`WorkBound`) does not tell. Not with thin walls or `two_way`, nor in SmallFixed.
     std::int32_t window_cells = 0;
 };
 
@@ -151,13 +152,12 @@ struct WorldDef {
 
     /// What nothing is meant to be faster than along an axis, m/s; 0: 255 cells/s, or as many as
     /// kMaxTopSpeedSmallFixed. SmallFixed keeps velocities in 16 bits, up to 255, 127.5, 63.75 …
-    /// cells/s, whichever is enough, down to 1: the slower, the finer. What liquid moves at is to
-    /// be some hundreds of 32,768ths of it. Liquid that gets faster is limited, and the report says
-    /// so; bodies are refused. Gravity may be as strong as 0.46 top² / cell_m at least: less than a
-    /// fall of a cell needs no top speed. SmallFixed wants it on cells of 5 mm and below, where 255
-    /// of them are 1.3 m/s, in whatever is shaken, on larger cells too, and wherever steps report
-    /// `Clamped::speed`: about 2 √(2gh), h the tank's height, g the strongest pull. Other
-    /// arithmetic has no need of it.
+    /// cells/s, whichever is enough, down to 1: the slower, the finer. A 32,768th of it is the last
+    /// digit, and liquid should move at some hundreds of those. Liquid that gets faster is limited,
+    /// and the report says so; bodies are refused. Gravity may be 0.46 top² / cell_m at least.
+    /// SmallFixed wants a top speed on cells of 5 mm and below, where 255 of them are 1.3 m/s, in
+    /// whatever is shaken, on larger cells too, and wherever steps report `Clamped::speed`: about
+    /// 2 √(2gh), h the tank's height, g the strongest pull. Other arithmetic has no need of it.
     float top_speed_mps = 0.0F;
 
     std::int32_t particles_per_cell = 4;  ///< at rest: 1, 4, 9 or 16. 4 is a 2×2 lattice
@@ -205,9 +205,9 @@ struct WorldDef {
 
     /// Density of the second liquid over that of the first; 0.01 … 100. Only with
     /// `capacity.second_liquid`, and with Pressure::projection. Unlike densities want more sweeps.
-    /// Poured in, 0.8 rises within 20 s of 30 cells of water, 0.9 within 80. In Fixed, whose
-    /// pressures have less room, the heavier one is to be the first if it is over ten times as
-    /// heavy: a pool of 20 cells that is 100 times as heavy as the first one sinks.
+    /// Poured into 30 cells of water, 0.8 rises to the top within 20 s, 0.9 within 80. In Fixed,
+    /// whose pressures have less room, let the first be the heavier one if it is over ten times as
+    /// heavy: 20 cells of a second liquid that is 100 times as heavy lose their height.
     float second_density_ratio = 1.0F;
 
     TankWalls walls;

@@ -14,8 +14,8 @@ struct Diagnostics {
     Vec2<double> momentum_m3ps;             ///< Σ share · v
     double angular_momentum_m4ps = 0.0;     ///< Σ share · x × v about the tank's lower left corner
     double kinetic_energy_m4ps2 = 0.0;      ///< Σ share · |v|² / 2
-    /// −Σ share · g · x, half a step ago: positions and velocities leap over each other, and then
-    /// velocities were what they are.
+    /// −Σ share · g · x, half a step ago: positions and velocities leapfrog, and the velocities
+    /// belong to that time.
     double potential_energy_m4ps2 = 0.0;
     double volume_m2 = 0.0;       ///< area that is filled: cells count as far as they are full
     double largest_density = 0.0;  ///< of any cell; 1 = at rest

@@ -24,7 +24,7 @@ enum class Owner : std::uint8_t {
     vertices,   ///< polygons, their pose in the tank, their convex pieces
     contour,    ///< signed distance at nodes (static and merged), contour matrix
     cut_cells,  ///< open fractions of faces and cells
-    thin_walls,  ///< edges of walls thinner than a cell
+    thin_walls,  ///< edges of walls thinner than 1.5 cells
     grid,       ///< staggered momentum, velocity, mass and inverse density
     pressure,   ///< pressure, its right-hand side and diagonal, surface level
     count

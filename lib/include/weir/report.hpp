@@ -7,11 +7,11 @@ namespace weir {
 
 /// The stages of a substep, in the order in which they run.
 enum class Stage : std::uint8_t {
-    contour,           ///< polygon rasterization and contour matrix
-    particle_to_grid,  ///< scatter of mass and momentum
-    grid_update,       ///< velocity = momentum / mass, gravity, tank walls, solid faces
-    pressure,          ///< projection or equation of state
-    volume,            ///< displacement towards uniform density
+    contour,           ///< bodies move, polygons are rasterized, cells are cut
+    particle_to_grid,  ///< what part of the tank is worked on; scatter of mass and momentum
+    grid_update,       ///< density, velocity = momentum / mass, gravity, viscosity
+    pressure,          ///< projection or equation of state; faces in solids and tank walls
+    volume,            ///< blend of FLIP and PIC; displacement towards uniform density
     grid_to_particle,  ///< gather of velocity, advection
     collide,           ///< inside test against the contour line, reflection
     count
@@ -37,14 +37,14 @@ enum class Clamped : std::uint32_t {
                               ///< moved apart, or stopped where their numbers led nowhere
 };
 
-/// The ladder of a deadline: what steps leave off to cost less. 0: nothing. 1: half of the
-/// pressure's sweeps. 2: three quarters of them. 3: and every other step moving bodies stay where
-/// they are drawn: `walls_held`. 4: and half of the substeps. 5: all substeps but one. With fewer
-/// substeps less time passes: `dt_s` says how much. Numbers are rounded up.
+/// The ladder of a deadline: what steps leave off to cost less. Rung 0: nothing. 1: half of the
+/// pressure's sweeps. 2: three quarters of them. 3: also, every other step moving bodies stay where
+/// they are drawn (`walls_held`). 4: also half of the substeps. 5: all substeps but one. With fewer
+/// substeps less time passes: `dt_s` says how much. What is left is rounded up.
 /// The sweeps are those of the definition, at least 4 (SmallFixed: 2, and 2 more on any rung). Of
-/// the default 6 rungs 1 to 3 make 3 and 2, which saves next to nothing: 7 to 9 % of a step. Who
-/// wants these rungs asks for more (with 24 they save 20 and 28 %). Rungs 4 and 5 save most, but
-/// where a step is one substep already, and are slow motion.
+/// the default 6 rung 1 makes 3, rungs 2 and 3 make 2, which saves only 7 to 9 % of a step. Who
+/// wants these rungs asks for more sweeps (of 24 they save 20 and 28 %). Rungs 4 and 5 save most,
+/// unless a step is one substep already, and are slow motion.
 inline constexpr std::int32_t kRungs = 6;
 
 /// What a step costs at most, whatever the state of the world: every cell full, every particle
@@ -93,9 +93,9 @@ struct StepReport {
     /// no room, as a piston in a full tank does. 0 with surface tension, and without
     /// `volume_gain`.
     std::int32_t cells_overfull = 0;
-    /// In fixed point: how often a particle came to faces that hold as much as they can, and they
-    /// count no more: 32 particles in `World<SmallFixed>`, in `World<Fixed>` 16,384 or a momentum
-    /// of that. It takes part in the liquid again where there is room.
+    /// In fixed point: how often a face left a particle out, as it held all that it can: 32
+    /// particles in `World<SmallFixed>`, in `World<Fixed>` 16,384, or that many at 1 cell/s. The
+    /// particle takes part in the liquid again where there is room.
     std::int32_t particles_crowded = 0;
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
     std::int32_t particles_slowed = 0;     ///< limited to 2 cells a substep

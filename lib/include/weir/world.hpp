@@ -55,12 +55,12 @@ public:
     /// A solid that gravity and the liquid move, and that meets the tank's walls, bodies of all
     /// kinds and its like; otherwise a moving body. Where two surfaces meet the larger restitution
     /// and the larger friction count, at the tank's walls too; conveyors take it along.
-    /// Bodies that are in each other are moved apart, by at most 1/16 cell in a substep. A body has
-    /// room for 6 points at which it meets something, which all share; of more the nearest count.
-    /// What is smaller than 2.4 cells is braked in its turning by the liquid that it is in. Of what
-    /// the grid does not show, below two cells or much thinner than one, the liquid lifts what it
-    /// should, but flows through it: thin hulls hold nothing, and `Capacity::wall_edges` is not for
-    /// free bodies.
+    /// Bodies that are in each other are moved apart, by at most 1/16 cell in a substep. There is
+    /// room for 6 points of contact a body, which all bodies share; of more the nearest count.
+    /// A body smaller than 2.4 cells is braked in its turning by the liquid that it is in. One
+    /// below two cells, or much thinner than one, the grid shows in part or not at all: liquid
+    /// lifts it as it should, but flows through it. So thin hulls hold nothing, and
+    /// `Capacity::wall_edges` is not for free bodies.
     /// `def.hold` puts it on a hinge or a rail, which are part of the solve: a water wheel of any
     /// density is stable. Other joints, and whatever else moves bodies, are for a physics engine
     /// (`examples/box2d`).
@@ -88,17 +88,16 @@ public:
     Status set_surface(BodyId id, const Surface& surface);
     Status remove_body(BodyId id);
 
-    /// What the liquid did to a body in the last step. Wants `capacity.two_way`. To move a body by
-    /// it from step to step is stable only if that is heavier than the liquid that it takes along;
-    /// `add_free_body` knows no such limit. Of what the method
-    /// itself does to momentum bodies that are not free, and the tank, have their share.
+    /// What the liquid did to a body in the last step. Wants `capacity.two_way`. Whoever moves a
+    /// body by it from step to step is stable only if the body is heavier than the liquid that it
+    /// takes along; `add_free_body` knows no such limit. Momentum that the method itself loses or
+    /// gains is shared out to the tank and to bodies that are not free, so that sums are right.
     Status force(BodyId id, BodyForce* force) const;
     /// And to the tank: pressure on its walls, particles that hit them, drag of those without slip.
     /// The sum over tank and bodies is what gravity gave to the liquid less what its momentum
-    /// changed by, to rounding: 1e-6 of the liquid's weight, but for substeps in which nobody was
-    /// touched. `Fixed` and
-    /// `SmallFixed` keep it in whole numbers, of which none is lost, and tell them rounded; what
-    /// would be nobody's there is the tank's.
+    /// changed by, to 1e-6 of the liquid's weight, except in substeps in which liquid touched
+    /// neither. `Fixed` and `SmallFixed` keep it in whole numbers, of which none is lost, and tell
+    /// them rounded; what would be nobody's there is the tank's.
     Status tank_force(BodyForce* force) const;
     /// What a body weighs. Wants `capacity.two_way`.
     Status mass(BodyId id, BodyMass* mass) const;
@@ -106,8 +105,8 @@ public:
     /// Fills a box with particles on a lattice, leaving out what is inside solids.
     /// All or nothing: refuses if not every particle has room. A box takes about its area over
     /// cell_m² times `particles_per_cell`; one that holds no point of the lattice adds 0, and is
-    /// ok. A box that reaches beyond the tank is refused (`Status::box_outside_domain`). It does
-    /// not look at particles: where there is liquid already there is twice as much then.
+    /// ok. A box that reaches beyond the tank is refused (`Status::box_outside_domain`). Particles
+    /// that are there already stay, so where there is liquid there is twice as much then.
     /// @param added number of particles, may be null; with `Status::no_free_particle` how many it
     /// would have been.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
@@ -118,8 +117,8 @@ public:
     /// Rates, of an inlet or an outlet, go by `StepReport::dt_s`: a step may simulate less than it
     /// was asked for.
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
-    /// Removes the particle at that place in the views; the last particle takes its place, but
-    /// after `let_regions_sleep` a sleeper's is taken by another sleeper, and that one's by it.
+    /// Removes the particle at that place in the views; the last particle takes its place. After
+    /// `let_regions_sleep` a sleeper's place is taken by another sleeper, whose own the last takes.
     Status remove_particle(std::int32_t index);
     /// Removes what is in a box: an outlet, a cup that is drunk from. Looks at each particle once.
     /// Of this box and those below what reaches beyond the tank is cut off.
@@ -169,8 +168,9 @@ public:
     Status begin_step(float dt_s, StepReport* report, std::int32_t rung = 0);
     /// Goes on with the step for that much work: a unit is a cell or a particle that one loop
     /// looks at. The slice ends with the first loop item that reaches it: a row of cells, the
-    /// tank's border, a block of 32 particles (128 on a desktop) or all the moving bodies' nodes,
-    /// whichever comes. At least one is done. True: the step is done, or there is none.
+    /// tank's border, a particle or a block of them (32, SmallFixed 16, 512 where float has SIMD
+    /// lanes), all the moving bodies' nodes. At least one is done. True: the step is done, or there
+    /// is none.
     /// A slice costs what 150 units do, however little it does (10,000 instructions on a
     /// Cortex-M0): in slices of 50 units a step takes four times as long as at once, of 800 a
     /// fifth more, of 1,600 a tenth. 800 or more are sensible.
@@ -226,8 +226,8 @@ public:
     /// the program or before: all steps from there on have the same bits. Refuses what is
     /// truncated, damaged or of another kind, whatever its bytes are, and leaves the world as it
     /// was. Bodies that were placed since the last step are seen where they are. Names of bodies
-    /// hold the place of the world in memory: in one that lies elsewhere ask for the new ones.
-    /// Contacts are those of the next step. Of the same definition is a world only if both or none
+    /// hold the place of the world in memory: in one that lies elsewhere ask for the new ones
+    /// (`body_in_slot`). There are no contacts until the next step. Both worlds or none must have
     /// let regions sleep.
     Status restore(const void* snapshot, std::size_t bytes);
     /// The name of the body in that slot of the table, 0 … capacity.bodies − 1.
