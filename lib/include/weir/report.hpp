@@ -94,8 +94,8 @@ struct StepReport {
     /// `volume_gain`.
     std::int32_t cells_overfull = 0;
     /// In fixed point: how often a face left a particle out, as it held all that it can: 32
-    /// particles in `World<SmallFixed>`, in `World<Fixed>` 16,384, or that many at 1 cell/s. The
-    /// particle takes part in the liquid again where there is room.
+    /// particles in `World<SmallFixed>`, in `World<Fixed>` 16,384, or the momentum of
+    /// 16,384 at 1 cell/s. The particle takes part in the liquid again where there is room.
     std::int32_t particles_crowded = 0;
     std::int32_t particles_reset = 0;      ///< non-finite: put to rest at the nearest valid place
     std::int32_t particles_slowed = 0;     ///< limited to 2 cells a substep
