@@ -1,5 +1,7 @@
 #include "pressure/equation_of_state.hpp"
 
+#include "pressure/parting.hpp"
+
 namespace weir {
 
 namespace {
@@ -25,6 +27,16 @@ Real counted_flow(const PressureFields<Real>& fields, std::int32_t c) {
     } else {
         return minimum(Real(1), times_inverse(Real(4), kept)) * density * fields.divergence[c];
     }
+}
+
+/// What bulk viscosity makes of a flow out of a cell. It does not hold liquid to a wall that air can
+/// come to.
+template <class Real>
+Real resistance(const GridShape& s, const Walls<Real>& walls, const PressureFields<Real>& fields,
+                std::int32_t c, Real flow) {
+    const bool parts = flow > Real(0) && fields.inverse_diagonal[c] < VelocityOf<Real>(0) &&
+                       may_part(fields) && has_air_around(fields, walls.full_density, s, c);
+    return parts ? Real(0) : kBulkViscosity<Real> * flow;
 }
 
 /// body(cell) for all that are liquid and not shut in. (Beside liquid diagonals may hold a mark.)
@@ -107,14 +119,14 @@ void carry_pressure(const OpenWeights<Real>& weights, PressureFields<Real>& fiel
 }
 
 template <class Real>
-void compress(const Borders<Real>& borders, const GridShape& shape, PressureFields<Real>& fields,
-              Work work) {
+void compress(const Borders<Real>& borders, const GridShape& shape, const Walls<Real>& walls,
+              PressureFields<Real>& fields, Work work) {
     const Real way = way_of_sound(fields);
     work.share(work.take(shape.ny, shape.nx), shape.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_liquid(shape, rows, fields, [&](std::int32_t c) {
             const Real flow = way * counted_flow(fields, c);
             fields.pressure[c] = maximum(Real(0), fields.pressure[c] - way * flow) -
-                                 kBulkViscosity<Real> * flow;
+                                 resistance(shape, walls, fields, c, flow);
         });
     });
     if (work.once(shape.border())) {
@@ -123,22 +135,24 @@ void compress(const Borders<Real>& borders, const GridShape& shape, PressureFiel
 }
 
 template <class Real>
-void release_pressure(const GridShape& shape, PressureFields<Real>& fields, Work work) {
+void release_pressure(const GridShape& shape, const Walls<Real>& walls,
+                      PressureFields<Real>& fields, Work work) {
     const Real way = way_of_sound(fields);
     work.share(work.take(shape.ny, shape.nx), shape.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_liquid(shape, rows, fields, [&](std::int32_t c) {
             const Real flow = way * counted_flow(fields, c);
-            fields.pressure[c] += kBulkViscosity<Real> * flow;
+            fields.pressure[c] += resistance(shape, walls, fields, c, flow);
         });
     });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template void follow_sound(Real, PressureFields<Real>&);                                \
-    template void carry_pressure(const OpenWeights<Real>&, PressureFields<Real>&, Work);    \
-    template void compress(const Borders<Real>&, const GridShape&, PressureFields<Real>&,   \
-                           Work);                                                           \
-    template void release_pressure(const GridShape&, PressureFields<Real>&, Work);
+#define WEIR_INSTANTIATE(Real)                                                                 \
+    template void follow_sound(Real, PressureFields<Real>&);                                   \
+    template void carry_pressure(const OpenWeights<Real>&, PressureFields<Real>&, Work);       \
+    template void compress(const Borders<Real>&, const GridShape&, const Walls<Real>&,         \
+                           PressureFields<Real>&, Work);                                       \
+    template void release_pressure(const GridShape&, const Walls<Real>&, PressureFields<Real>&, \
+                                   Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -28,14 +28,16 @@ template <class Real>
 void carry_pressure(const OpenWeights<Real>& weights, PressureFields<Real>& fields, Work work);
 
 /// Advances it, and adds for this step a bulk viscosity of 3/8 c cells, which takes ringing out.
-/// Surface cells, whose diagonal is large, and thin ones, which hold less, are as much softer.
+/// Surface cells, whose diagonal is large, and thin ones, which hold less, are as much softer. Where
+/// air can come between liquid and a wall, it does not resist that they part.
 template <class Real>
-void compress(const Borders<Real>& borders, const GridShape& shape, PressureFields<Real>& fields,
-              Work work);
+void compress(const Borders<Real>& borders, const GridShape& shape, const Walls<Real>& walls,
+              PressureFields<Real>& fields, Work work);
 
 /// When all have read the pressure: takes the viscosity out of it again.
 template <class Real>
-void release_pressure(const GridShape& shape, PressureFields<Real>& fields, Work work);
+void release_pressure(const GridShape& shape, const Walls<Real>& walls,
+                      PressureFields<Real>& fields, Work work);
 
 /// All of it: a program whose definition asks for no equation of state does not link this file.
 template <class Real>
@@ -44,8 +46,9 @@ struct detail::Elasticity {
     void (*carry_pressure)(const OpenWeights<Real>& weights, PressureFields<Real>& fields,
                            Work work);
     void (*compress)(const Borders<Real>& borders, const GridShape& shape,
-                     PressureFields<Real>& fields, Work work);
-    void (*release_pressure)(const GridShape& shape, PressureFields<Real>& fields, Work work);
+                     const Walls<Real>& walls, PressureFields<Real>& fields, Work work);
+    void (*release_pressure)(const GridShape& shape, const Walls<Real>& walls,
+                             PressureFields<Real>& fields, Work work);
     /// The general loops, in packed worlds; in others, which have no others, null. What whole
     /// numbers make of faces at gaps, of jets and of spray takes it that pressure stores nothing.
     void (*push)(const Borders<Real>& borders, const Walls<Real>& walls, const Part& rows,

@@ -14,6 +14,10 @@ namespace weir {
 template <class Real>
 inline constexpr Real kPatchGain = Real(1);
 
+/// What a patch's mean may say.
+template <class Real>
+inline constexpr Real kPatchWindow = Real(0.03);
+
 /// Excess of a patch that a solid fills: no drift towards it, nor from it.
 template <class Real>
 inline constexpr Real kSolidPatch = Real(2);
@@ -131,14 +135,21 @@ inline Real work_of_drift(const Weights<Real>& sums) {
 template <class Real>
 inline constexpr Real kTorn = Real(0.025 * kOfDisorder<Real>);
 
+/// With less mean excess a patch is not pressed together: what is may always expand. Torn
+/// compressible liquid is too dense in one cell beside one that is too thin.
+template <class Real>
+inline Real least_pressed(const PressureFields<Real>& fields) {
+    return fields.sound_speed > Real(0) ? kPatchWindow<Real> : Real(0);
+}
+
 /// Which share of its drift a patch makes. What is torn is drawn up only as far as it can pay:
 /// liquid that falls from a wall has nothing to pay from at first.
 template <class Real>
-inline Real share_of_drift(const Weights<Real>& sums, Real mean_excess) {
+inline Real share_of_drift(const Weights<Real>& sums, bool pressed) {
     const Real torn = clamp<Real>(in_turn(sums.disorder) - kTorn<Real>, Real(0), kStirred<Real>);
     const Real due = kMostPrice<Real> * (in_turn(sums.raised) * (torn / kStirred<Real>));
     const Real moving = in_turn(sums.moving);
-    return mean_excess < Real(0) && due > Real(0) ? moving / (moving + due) : Real(1);
+    return !pressed && due > Real(0) ? moving / (moving + due) : Real(1);
 }
 
 /// Which share of its velocity a patch gives for what the drift lifts in it, and gets for what it
@@ -289,7 +300,8 @@ inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& wa
 /// Whether a patch cannot pay for all of its drift: then it makes less of it.
 template <bool Solids, class Real>
 inline bool slows_down(Drift<Solids, Real>& drift, const Weights<Real>& sums) {
-    const Real share = share_of_drift(sums, drift.mean_excess());
+    const bool pressed = drift.mean_excess() >= least_pressed(drift.fields);
+    const Real share = share_of_drift(sums, pressed);
     drift.speed = share * drift.speed;
     return share < Real(1);
 }

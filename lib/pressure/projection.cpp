@@ -157,7 +157,7 @@ void advance(const Borders<Real>& borders, const Walls<Real>& walls,
     before.v = grid.mass_v;
     fields.elasticity->carry_pressure({before, borders, walls}, fields, work);
     build(FaceWeights<Solids, Mixed, Real>{before, borders, walls}, fields, work);
-    fields.elasticity->compress(borders, grid.shape, fields, work);
+    fields.elasticity->compress(borders, grid.shape, walls, fields, work);
 }
 
 /// The pressure of an incompressible liquid, as near as so many sweeps bring it.

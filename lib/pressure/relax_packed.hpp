@@ -5,6 +5,7 @@
 #include "math/packed_arithmetic.hpp"
 #include "math/sum_of_products.hpp"
 #include "pressure/face_weights.hpp"
+#include "pressure/parting.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -128,18 +129,20 @@ template <class Real>
 struct PackedRelaxTask {
     const PressureFields<Real>& fields;
     const Walls<Real>& walls;
+    const GridShape& shape;
     std::int32_t stride;
     std::int32_t step;  ///< ω in 1/2^15ths, so that ω / n has 8 bits
     std::int32_t of_4;  ///< that of cells with four and with three sides
     std::int32_t of_3;
 
-    PackedRelaxTask(const PressureFields<Real>& f, const Walls<Real>& w, std::int32_t row,
+    PackedRelaxTask(const PressureFields<Real>& f, const Walls<Real>& w, const GridShape& s,
                     Real omega)
-        : fields(f), walls(w), stride(row), step(omega.raw >> 1), of_4(step / 512),
+        : fields(f), walls(w), shape(s), stride(s.stride), step(omega.raw >> 1), of_4(step / 512),
           of_3(step / 384) {}
 };
 
-/// A cell at the surface or at a wall, with its diagonal and what flows out of it.
+/// A cell at the surface or at a wall, with its diagonal and what flows out of it. (`relax_weighted`
+/// says why walls do not pull.)
 template <bool Solids, class Real>
 [[gnu::noinline]] void relax_rare(const PackedRelaxTask<Real>& task, Real* at, std::int32_t kept,
                                   std::int32_t flow) {
@@ -147,6 +150,11 @@ template <bool Solids, class Real>
         short_of_neighbours<Solids>(at, task.walls, task.fields.pressure, task.stride, kept,
                                     flow * 512);
     at->raw = relaxed(at->raw, residual, coarse_factor(task.step, kept < 0 ? -kept : kept));
+    if (Solids && kept < 0 && at->raw < 0 &&
+        has_air_around(task.fields, task.walls.full_density, task.shape,
+                       static_cast<std::int32_t>(at - task.fields.pressure))) {
+        at->raw = 0;
+    }
 }
 
 /// Relaxes cells c, c + 2 … of a row.
@@ -277,7 +285,7 @@ template <bool Solids, bool Mixed, class Real>
                                     std::int32_t low, std::int32_t high, Real omega,
                                     std::int32_t colour, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
-    const PackedRelaxTask<Real> task(fields, weights.walls, s.stride, omega);
+    const PackedRelaxTask<Real> task(fields, weights.walls, s, omega);
     for (std::int32_t j = low; j <= high; ++j) {
         relax_packed_row<Solids>(task, s.index((j + colour) & 1, j));
     }

@@ -8,11 +8,9 @@ namespace weir {
 
 namespace {
 
-/// What a single cell may say in the mean of its patch, and what a patch may say.
+/// What a single cell may say in the mean of its patch.
 template <class Real>
 constexpr Real kCellWindow = Real(0.2);
-template <class Real>
-constexpr Real kPatchWindow = Real(0.03);
 
 /// A patch with that many liquid cells that are too dense by this in the mean has not the room for
 /// its liquid. (Of a cell no more than kCellWindow counts.)

@@ -339,7 +339,8 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         }
     }
     if (simulation.pressure.elasticity != nullptr) {
-        simulation.pressure.elasticity->release_pressure(grid.shape, simulation.pressure, work);
+        simulation.pressure.elasticity->release_pressure(grid.shape, walls, simulation.pressure,
+                                                         work);
     }
     fill_borders<Solids>(simulation, plan, work);
     clock.charge(Stage::pressure);
