@@ -1,4 +1,4 @@
-// Bodies: adding, moving, asking, removing.
+// Bodies: adding, changing, removing.
 #include "world/world_bodies.hpp"
 
 #include "geometry/convex_decomposition.hpp"
@@ -43,25 +43,6 @@ Status check_room(const WorldState<Real>& state, const BodyDef& def, BodyKind ki
     return places_needed(def) > table.vertex_capacity - table.vertices_used
                ? Status::no_free_vertex
                : Status::ok;
-}
-
-template <class Real>
-void set_pose(const WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
-    body.position = convert<Real>(state.cells_per_m * convert<Face<Real>>(motion.position_m));
-    body.angle = static_cast<Real>(wrapped_angle(static_cast<Face<Real>>(motion.angle_rad)));
-}
-
-template <class Real>
-void set_velocity(const WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
-    body.velocity = convert<Real>(pace_of(state) * convert<Face<Real>>(motion.velocity_mps));
-    body.spin = static_cast<Real>(motion.spin_radps * unit_of(state));
-}
-
-template <class Real>
-NodeBox box_of(const Simulation<Real>& simulation, const Body<Real>& body) {
-    const GridShape& shape = simulation.layers.shape;
-    return nodes_near(simulation.bodies.ring(body), body.vertex_count, Real(0.5), shape.nx,
-                      shape.ny);
 }
 
 /// Distance of the furthest vertex from the body's origin: spin × this is its fastest point.
@@ -196,148 +177,6 @@ Status World<Real>::add_moving_body(const BodyDef& def, BodyId* id) {
     return free != Status::ok ? free : add_body(*state_, def, BodyKind::moving, id);
 }
 
-namespace {
-
-/// Whether anything can be done with that body now.
-template <class Real>
-Status check_known(const WorldState<Real>* state, BodyId id) {
-    const Status free = ready(state);
-    return free != Status::ok ? free : check_id(*state, id);
-}
-
-/// Whether that body can be given that motion now.
-template <class Real>
-Status check_movable(const WorldState<Real>* state, BodyId id) {
-    const Status known = check_known(state, id);
-    if (known != Status::ok) {
-        return known;
-    }
-    return state->simulation.bodies.body[id.slot].kind == BodyKind::fixed ? Status::body_is_static
-                                                                          : Status::ok;
-}
-
-template <class Real>
-Status check_reach(const WorldState<Real>& state, const Motion& motion) {
-    return check_motion(motion, state.def.cell_m, reach_of<Real>(state.unit_exponent));
-}
-
-/// Of an angle within a whole turn.
-float shorter_turn(float angle_rad) {
-    constexpr float kHalf = 3.14159265F;
-    if (angle_rad > kHalf) {
-        return angle_rad - 2.0F * kHalf;
-    }
-    return angle_rad < -kHalf ? angle_rad + 2.0F * kHalf : angle_rad;
-}
-
-/// Of the way to somewhere, which that velocity and spin would take, what a body can go at most.
-float share_of_way(const Motion& motion, float cell_m, const Reach& reach) {
-    const float speed = maximum(absolute(motion.velocity_mps.x), absolute(motion.velocity_mps.y));
-    const float fastest = reach.speed * cell_m;
-    const float spin = absolute(motion.spin_radps);
-    constexpr float kBelow = 0.999999F;  // the product is rounded
-    return minimum(speed > fastest ? kBelow * (fastest / speed) : 1.0F,
-                   spin > reach.spin ? kBelow * (reach.spin / spin) : 1.0F);
-}
-
-template <class Real>
-void change_velocity(WorldState<Real>& state, const Motion& motion, Body<Real>& body) {
-    const Vec2<Real> velocity = body.velocity;
-    const Real spin = body.spin;
-    set_velocity(state, motion, body);
-    if (velocity.x != body.velocity.x || velocity.y != body.velocity.y || spin != body.spin) {
-        touch_regions(state.simulation.regions, body.drawn);
-        wake(state);
-    }
-}
-
-}  // namespace
-
-template <class Real>
-Status World<Real>::set_motion(BodyId id, const Motion& motion) {
-    Status valid = check_movable(state_, id);
-    if (valid == Status::ok) {
-        valid = check_reach(*state_, motion);
-    }
-    if (valid != Status::ok) {
-        return valid;
-    }
-    BodyTable<Real>& table = state_->simulation.bodies;
-    Body<Real>& body = table.body[id.slot];
-    const Vec2<Real> position = body.position;
-    const Real angle = body.angle;
-    lead(table, id.slot, false);
-    set_pose(*state_, motion, body);
-    if (position.x != body.position.x || position.y != body.position.y || angle != body.angle) {
-        body.moved = body.leapt = true;
-        place(table, body);
-        touch_regions(state_->simulation.regions, body.drawn);
-        touch_regions(state_->simulation.regions, box_of(state_->simulation, body));
-        wake(*state_);
-    }
-    change_velocity(*state_, motion, body);
-    return Status::ok;
-}
-
-template <class Real>
-Status World<Real>::move_body(BodyId id, Vec2f position_m, float angle_rad, float dt_s) {
-    Motion now;
-    Motion motion{position_m, angle_rad, {}, 0.0F};
-    Status valid = check_movable(state_, id);
-    if (valid == Status::ok) {
-        valid = check_reach(*state_, motion);
-    }
-    if (valid == Status::ok && !(dt_s > 0.0F && is_finite(dt_s))) {
-        valid = Status::motion_not_finite;
-    }
-    if (valid == Status::ok) {
-        valid = this->motion(id, &now);
-    }
-    if (valid != Status::ok) {
-        return valid;
-    }
-    // A body that was held goes for both steps in the next one.
-    const float behind_s =
-        unit_of(*state_) * static_cast<float>(state_->simulation.walls_behind_s);
-    constexpr float kShortest = 1.0e-20F;  // whatever is faster than it can be, and not infinite
-    const float per_s = 1.0F / maximum(dt_s + behind_s, kShortest);
-    motion.velocity_mps = {per_s * (position_m.x - now.position_m.x),
-                           per_s * (position_m.y - now.position_m.y)};
-    motion.spin_radps = per_s * shorter_turn(wrapped_angle(angle_rad - now.angle_rad));
-    const float share =
-        share_of_way(motion, state_->def.cell_m, reach_of<Real>(state_->unit_exponent));
-    motion.velocity_mps = {share * motion.velocity_mps.x, share * motion.velocity_mps.y};
-    motion.spin_radps = share * motion.spin_radps;
-    valid = check_reach(*state_, motion);
-    if (valid == Status::ok) {
-        lead(state_->simulation.bodies, id.slot, true);
-        change_velocity(*state_, motion, state_->simulation.bodies.body[id.slot]);
-    }
-    return valid;
-}
-
-template <class Real>
-Status World<Real>::motion(BodyId id, Motion* motion) const {
-    if (state_ == nullptr) {
-        return Status::not_initialised;
-    }
-    if (motion == nullptr) {
-        return Status::output_missing;
-    }
-    const Status known = check_id(*state_, id);
-    if (known != Status::ok) {
-        return known;
-    }
-    const Body<Real>& body = state_->simulation.bodies.body[id.slot];
-    const auto cell_m = static_cast<Face<Real>>(state_->def.cell_m);
-    motion->position_m = convert<float>(cell_m * convert<Face<Real>>(body.position));
-    const auto per_s = static_cast<Face<Real>>(units_per_s(*state_));
-    motion->velocity_mps = convert<float>((cell_m * per_s) * convert<Face<Real>>(body.velocity));
-    motion->angle_rad = static_cast<float>(body.angle);
-    motion->spin_radps = static_cast<float>(per_s * static_cast<Face<Real>>(body.spin));
-    return Status::ok;
-}
-
 template <class Real>
 Status World<Real>::set_surface(BodyId id, const Surface& surface) {
     Status valid = check_known(state_, id);
@@ -385,9 +224,6 @@ Status World<Real>::remove_body(BodyId id) {
     template Status check_id(const WorldState<Real>&, BodyId);                      \
     template Status World<Real>::add_static_body(const BodyDef&, BodyId*);          \
     template Status World<Real>::add_moving_body(const BodyDef&, BodyId*);          \
-    template Status World<Real>::set_motion(BodyId, const Motion&);                 \
-    template Status World<Real>::move_body(BodyId, Vec2f, float, float);            \
-    template Status World<Real>::motion(BodyId, Motion*) const;                     \
     template Status World<Real>::set_surface(BodyId, const Surface&);               \
     template Status World<Real>::remove_body(BodyId);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
