@@ -1,4 +1,4 @@
-// What a caller is told of a body and tells it again changes nothing.
+// How bodies move as told: what was told of one and is said again changes nothing, and what creeps.
 #include "measure/random.hpp"
 #include "test_world.hpp"
 
@@ -42,6 +42,26 @@ TYPED_TEST(BodyMotion, SaidAgainIsNoLeap) {
             }
             ASSERT_EQ(world->state_hash(), hash) << "step " << k << ", cells of " << cell_m;
         }
+    }
+}
+
+/// A hand that turns once in twelve hours on a body that goes 14 cm a day: less than half a unit of
+/// fixed point in each step, which by `set_motion` is none.
+TYPED_TEST(BodyMotion, WhatCreepsIsLedInTime) {
+    TestWorld<TypeParam> world(small_def());
+    const Ring hand = rectangle(0.1F, 0.02F);
+    BodyId id;
+    expect_ok(world->add_moving_body(body_of(hand, {0.16F, 0.16F}), &id));
+    constexpr float kDt = 1.0F / 60.0F;
+    for (std::int32_t step = 1; step <= 3000; ++step) {
+        const float time = kDt * static_cast<float>(step);
+        const Vec2f place{0.16F + 1.6e-6F * time, 0.16F};
+        const float angle = 1.4544e-4F * time;
+        expect_ok(world->move_body(id, place, angle, kDt));
+        world->step(kDt);
+        const Motion now = motion_of(*world, id);
+        ASSERT_NEAR(now.position_m.x, place.x, 4.0e-7F) << step;
+        ASSERT_NEAR(now.angle_rad, angle, 2.0e-5F) << step;
     }
 }
 

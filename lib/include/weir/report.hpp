@@ -75,7 +75,9 @@ struct StepReport {
     /// Time that was simulated, or slept: less than was asked for if `Clamped::time_step`. What
     /// goes by rates, as an inlet or an outlet does, goes by this.
     float dt_s = 0.0F;
-    float max_speed_mps = 0.0F;       ///< of any particle, at the end
+    /// Of any particle along an axis, at the end; of what met a solid in the last substep as it was
+    /// before. A speed is at most √2 times that.
+    float max_speed_mps = 0.0F;
     std::int32_t particles = 0;       ///< alive at the end
     /// Of these, in regions that sleep (`World::let_regions_sleep`), or all in a world asleep.
     std::int32_t particles_asleep = 0;

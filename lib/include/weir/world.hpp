@@ -72,7 +72,7 @@ public:
     /// Another position than it had is a leap, which presses together the liquid that was there:
     /// over and over again it destroys the liquid's volume. Who knows only positions calls
     /// `move_body` before each step. A blow to a free body: what `motion` says of it, with an
-    /// impulse over `mass` added to its velocity, as often as wanted.
+    /// impulse over `mass` added to its velocity, as often as wanted: the same place is no leap.
     Status set_motion(BodyId id, const Motion& motion);
     /// Leads a moving body there within the next step, which is to be of dt_s: it gets the velocity
     /// and the spin, the shorter way round, that take it there. After that step it stands still
