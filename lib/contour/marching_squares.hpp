@@ -78,14 +78,4 @@ struct OpenMoments {
 template <class Real>
 OpenMoments<Real> open_moments(const Real distance[4]);
 
-#define WEIR_INSTANTIATE(Real)                                                               \
-    extern template std::uint8_t contour_case(const Real*);                                  \
-    extern template ContourCell<Real> contour_cell(const Real*);                             \
-    extern template ContourHit<Real> contour_hit(const Real*, Vec2<Real>);                   \
-    extern template Real open_fraction(Real, Real);                                          \
-    extern template Real open_area(const Real*);                                             \
-    extern template OpenMoments<Real> open_moments(const Real*);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
-#undef WEIR_INSTANTIATE
-
 }  // namespace weir

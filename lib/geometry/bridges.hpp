@@ -21,10 +21,4 @@ template <class Real>
 bool join_holes(const Outline<Real>& outline, CornerLinks links, ArrayView<std::uint16_t> scratch,
                 ArrayView<std::uint16_t> sequence);
 
-#define WEIR_INSTANTIATE(Real)                                                                   \
-    extern template bool join_holes(const Outline<Real>&, CornerLinks, ArrayView<std::uint16_t>, \
-                                    ArrayView<std::uint16_t>);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
-#undef WEIR_INSTANTIATE
-
 }  // namespace weir

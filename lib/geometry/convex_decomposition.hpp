@@ -50,10 +50,4 @@ bool pieces_fit(At at, std::int32_t length, std::int32_t vertices) {
     return true;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                             \
-    extern template std::int32_t decompose(const Outline<Real>&, ArrayView<std::uint16_t>, \
-                                           ArrayView<std::uint16_t>);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
-#undef WEIR_INSTANTIATE
-
 }  // namespace weir

@@ -43,12 +43,4 @@ EarClipper<Real> start_clipping(const CornerRing<Real>& ring, CornerLinks links,
 template <class Real>
 Ear clip_ear(EarClipper<Real>& clipper);
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    extern template EarClipper<Real> start_clipping(const CornerRing<Real>&, CornerLinks, \
-                                                     ArrayView<std::uint16_t>,            \
-                                                     ArrayView<std::uint16_t>);           \
-    extern template Ear clip_ear(EarClipper<Real>&);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
-#undef WEIR_INSTANTIATE
-
 }  // namespace weir

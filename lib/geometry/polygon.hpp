@@ -49,11 +49,4 @@ template <class Real>
 bool inside_convex(const Vec2<Real>* vertices, const std::uint16_t* piece, std::int32_t count,
                    Vec2<Real> point);
 
-#define WEIR_INSTANTIATE(Real)                                                                \
-    extern template Real twice_signed_area(const Vec2<Real>*, std::int32_t);                  \
-    extern template bool inside_convex(const Vec2<Real>*, const std::uint16_t*, std::int32_t, \
-                                       Vec2<Real>);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
-#undef WEIR_INSTANTIATE
-
 }  // namespace weir

@@ -60,12 +60,4 @@ Real distance_to_outline(const Outline<Real>& outline, Vec2<Real> p, Real far,
 template <class Real>
 bool covers(const Outline<Real>& outline, Vec2<Real> p);
 
-#define WEIR_INSTANTIATE(Real)                                                                     \
-    extern template bool covers(const Outline<Real>&, Vec2<Real>);                                 \
-    extern template Real distance_to_segment(Vec2<Real>, Vec2<Real>, Vec2<Real>);                  \
-    extern template Real distance_to_outline(const Outline<Real>&, Vec2<Real>, Real,               \
-                                              const Bounds<Real>&);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
-#undef WEIR_INSTANTIATE
-
 }  // namespace weir

@@ -29,9 +29,4 @@ inline Real wrapped_angle(Real angle_rad) {
 template <class Real>
 Rotation<Real> rotation(Real angle_rad);
 
-#define WEIR_INSTANTIATE(Real) \
-    extern template Rotation<Real> rotation(Real);
-WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
-#undef WEIR_INSTANTIATE
-
 }  // namespace weir
