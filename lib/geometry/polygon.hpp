@@ -1,4 +1,4 @@
-// Polygons: area, and the inside test by left turns; the checks of outlines are in
+// Polygons: area, and inside tests; the checks of outlines are in
 // weir/geometry.hpp. A ring is the list of a polygon's vertices; its last edge closes it.
 #pragma once
 
@@ -20,12 +20,6 @@ constexpr Product<Real> turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
     return cross(b - a, c - a);
 }
 
-/// Whether c lies to the left of the line from a to b, or on it.
-template <class Real>
-constexpr bool is_left_turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
-    return turn(a, b, c) >= Product<Real>(0);
-}
-
 /// Whether a point is in a triangle that turns left, or on its rim.
 inline bool in_triangle(Vec2<double> a, Vec2<double> b, Vec2<double> c, Vec2<double> p) {
     return turn(c, a, p) >= 0.0 && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0;
@@ -41,12 +35,5 @@ double twice_area_in_double(View<Vec2f> ring);
 /// Whether a point is within a ring, either way round: how often a ray from it meets the ring. On
 /// an edge the answer may be either.
 bool within_ring(View<Vec2f> ring, Vec2f point);
-
-/// Whether a point is in a convex piece of a polygon, its edge included: it lies to the left of
-/// every edge (the paper's test). A piece without area holds no point.
-/// @param piece vertex numbers, counter-clockwise.
-template <class Real>
-bool inside_convex(const Vec2<Real>* vertices, const std::uint16_t* piece, std::int32_t count,
-                   Vec2<Real> point);
 
 }  // namespace weir

@@ -7,6 +7,7 @@
 #include "geometry/bridges.hpp"
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/ring_copy.hpp"
+#include "measure/convex_piece.hpp"
 #include "polygon_list.hpp"
 #include "pour.hpp"
 #include "problems.hpp"

@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
-#include "geometry/polygon.hpp"
 #include "geometry/ring_copy.hpp"
 #include "geometry/signed_distance.hpp"
 #include "math/rotation.hpp"
+#include "measure/convex_piece.hpp"
 
 namespace weir {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geometry/convex_decomposition.hpp"
-#include "geometry/polygon.hpp"
 #include "geometry/signed_distance.hpp"
+#include "measure/convex_piece.hpp"
 #include "test_world.hpp"
 
 namespace weir {

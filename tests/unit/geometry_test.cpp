@@ -207,40 +207,12 @@ TYPED_TEST(GeometryTest, TurnAndArea) {
     using Point = Vec2<TypeParam>;
     const auto at = point_of<TypeParam>;
     EXPECT_EQ(turn(at(0, 0), at(2, 0), at(0, 3)), TypeParam(6));
-    EXPECT_TRUE(is_left_turn(at(0, 0), at(2, 0), at(1, 1)));
-    EXPECT_TRUE(is_left_turn(at(0, 0), at(2, 0), at(5, 0)));
-    EXPECT_FALSE(is_left_turn(at(0, 0), at(2, 0), at(1, -1)));
     const Point ell[] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 4}, {0, 4}};
     EXPECT_EQ(twice_signed_area(ell, 6), TypeParam(12));
     const Point reversed[] = {{0, 4}, {1, 4}, {1, 1}, {3, 1}, {3, 0}, {0, 0}};
     EXPECT_EQ(twice_signed_area(reversed, 6), TypeParam(-12));
     const Point far_out[] = {{4096, 4096}, {4097, 4096}, {4096, 4097}};
     EXPECT_EQ(twice_signed_area(far_out, 3), TypeParam(1));
-}
-
-TYPED_TEST(GeometryTest, InsideConvexHoldsItsBoundary) {
-    using Point = Vec2<TypeParam>;
-    const auto at = point_of<TypeParam>;
-    const Point ring[] = {{0, 0}, {9, 9}, {4, 0}, {4, 4}, {0, 4}};  // vertex 1 is not in the piece
-    const std::uint16_t piece[] = {3, 4, 0, 2};
-    for (const Point p : {at(0, 0), at(4, 0), at(4, 4), at(0, 4), at(2, 0),
-                          at(4, 1), at(3, 4), at(0, 2), at(1, 3)}) {
-        EXPECT_TRUE(inside_convex(ring, piece, 4, p)) << p.x << ' ' << p.y;
-    }
-    for (const Point p : {at(-1, 0), at(5, 0), at(5, 4), at(0, 5), at(2, -1),
-                          at(4.001, 1), at(3, 4.001), at(-0.001, 2), at(9, 9)}) {
-        EXPECT_FALSE(inside_convex(ring, piece, 4, p)) << p.x << ' ' << p.y;
-    }
-}
-
-TYPED_TEST(GeometryTest, PieceWithoutAreaHoldsNoPoint) {
-    using Point = Vec2<TypeParam>;
-    const auto at = point_of<TypeParam>;
-    const Point ring[] = {{0, 0}, {1, 0}, {2, 0}};
-    const std::uint16_t piece[] = {0, 1, 2};
-    for (const Point p : {at(0.5, 0), at(7, 0), at(-7, 0), at(0, 1)}) {
-        EXPECT_FALSE(inside_convex(ring, piece, 3, p));
-    }
 }
 
 TYPED_TEST(GeometryTest, DistanceToSegment) {
