@@ -13,9 +13,6 @@ using FixedSeconds = FixedPoint<30, S>;
 template <class S>
 using FixedRatio = FixedPoint<24, S>;
 
-inline constexpr std::int32_t kMostRaw = 0x7FFFFFFF;
-inline constexpr std::int32_t kLeastRaw = -0x7FFFFFFF - 1;
-
 namespace fixed {
 
 #if defined(__ARM_FEATURE_DSP)
@@ -37,18 +34,6 @@ inline std::int32_t subtract(std::int32_t a, std::int32_t b) {
                                                      : difference;
 }
 #endif
-constexpr std::int32_t saturate(std::int64_t value) {
-    const auto low = static_cast<std::int32_t>(value);
-    if (static_cast<std::int64_t>(low) == value) {
-        return low;
-    }
-    return value < 0 ? kLeastRaw : kMostRaw;
-}
-/// value · 2^−shift, rounded.
-constexpr std::int64_t shifted(std::int64_t value, int shift) {
-    const std::int64_t half = std::int64_t{1} << (shift - 1);
-    return (value + half + (value >> 63)) >> shift;
-}
 #if defined(__ARM_ARCH_6M__)
 /// No product of 64 bits on this processor: out of four of 32, and not inlined.
 std::int32_t multiply(std::int32_t a, std::int32_t b, int shift);
@@ -159,13 +144,6 @@ template <int F, class S>
 constexpr std::int32_t floor_to_int(FixedPoint<F, S> value) {
     return value.raw >> F;
 }
-
-template <int To, class S>
-template <int From, std::enable_if_t<From != To, int>>
-constexpr FixedPoint<To, S>::FixedPoint(FixedPoint<From, S> value)
-    : raw(To > From ? fixed::saturate(static_cast<std::int64_t>(value.raw) *
-                                      (std::int64_t{1} << (To > From ? To - From : 0)))
-                    : fixed::saturate(fixed::shifted(value.raw, From > To ? From - To : 1))) {}
 
 /// How many times one time is the other.
 template <class S>

@@ -220,8 +220,9 @@ TEST(CutCells, PackedSharesAreThoseOfRoomyNumbers) {
                 << outside << ' ' << inside;
         }
     }
-    const SmallFixed most = SmallFixed::most();
-    EXPECT_EQ(open_fraction(SmallFixed(), most).raw, open_fraction(Fixed(), Fixed::most()).raw);
+    const SmallFixed most = SmallFixed::of_raw(kMostRaw);
+    EXPECT_EQ(open_fraction(SmallFixed(), most).raw,
+              open_fraction(Fixed(), Fixed::of_raw(kMostRaw)).raw);
 }
 
 #if WEIR_HAS_LANES

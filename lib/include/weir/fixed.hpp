@@ -12,6 +12,26 @@ namespace weir {
 struct RoomyStorage {};
 struct PackedStorage {};
 
+inline constexpr std::int32_t kMostRaw = 0x7FFFFFFF;
+inline constexpr std::int32_t kLeastRaw = -0x7FFFFFFF - 1;
+
+namespace fixed {
+
+constexpr std::int32_t saturate(std::int64_t value) {
+    const auto low = static_cast<std::int32_t>(value);
+    if (static_cast<std::int64_t>(low) == value) {
+        return low;
+    }
+    return value < 0 ? kLeastRaw : kMostRaw;
+}
+/// value · 2^−shift, rounded.
+constexpr std::int64_t shifted(std::int64_t value, int shift) {
+    const std::int64_t half = std::int64_t{1} << (shift - 1);
+    return (value + half + (value >> 63)) >> shift;
+}
+
+}  // namespace fixed
+
 /// raw · 2^−Fraction, Fraction 1 … 31. Conversions round to the nearest, ties away from zero, and
 /// saturate: no input wraps around. NaN becomes 0.
 template <int Fraction, class Storage = RoomyStorage>
@@ -26,22 +46,20 @@ struct FixedPoint {
         value.raw = bits;
         return value;
     }
-    static constexpr FixedPoint most() { return of_raw(0x7FFFFFFF); }
-    static constexpr FixedPoint least() { return of_raw(-0x7FFFFFFF - 1); }
 
     template <class Whole, std::enable_if_t<std::is_integral<Whole>::value, int> = 0>
     [[gnu::always_inline]] constexpr explicit FixedPoint(Whole value)
         : raw(std::is_unsigned<Whole>::value && static_cast<std::uint64_t>(value) >> 63U != 0U
-                  ? most().raw
+                  ? kMostRaw
                   : of_whole(static_cast<std::int64_t>(value))) {}
 
     /// Meant for constants: costs double arithmetic where the compiler cannot fold it.
     [[gnu::always_inline]] constexpr explicit FixedPoint(double value) {
         const double scaled = value * static_cast<double>(1U << static_cast<unsigned>(Fraction));
         if (scaled >= 2147483647.0) {
-            raw = most().raw;
+            raw = kMostRaw;
         } else if (scaled <= -2147483648.0) {
-            raw = least().raw;
+            raw = kLeastRaw;
         } else if (scaled == scaled) {
             raw = static_cast<std::int32_t>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
         }
@@ -52,7 +70,8 @@ struct FixedPoint {
 
     /// From another kind of fixed-point number.
     template <int Other, std::enable_if_t<Other != Fraction, int> = 0>
-    constexpr explicit FixedPoint(FixedPoint<Other, Storage> value);
+    constexpr explicit FixedPoint(FixedPoint<Other, Storage> value)
+        : raw(of_other<Other>(value.raw)) {}
 
     constexpr explicit operator double() const {
         return static_cast<double>(raw) /
@@ -69,12 +88,20 @@ struct FixedPoint {
     }
 
 private:
+    template <int Other>
+    [[gnu::always_inline]] static constexpr std::int32_t of_other(std::int32_t value) {
+        if constexpr (Other < Fraction) {
+            return fixed::saturate(value * (std::int64_t{1} << (Fraction - Other)));
+        } else {
+            return fixed::saturate(fixed::shifted(value, Other - Fraction));
+        }
+    }
     [[gnu::always_inline]] static constexpr std::int32_t of_whole(std::int64_t value) {
         constexpr std::int64_t kLimit = std::int64_t{1} << (31 - Fraction);
         if (value >= kLimit) {
-            return most().raw;
+            return kMostRaw;
         }
-        return value < -kLimit ? least().raw
+        return value < -kLimit ? kLeastRaw
                                : static_cast<std::int32_t>(static_cast<std::uint32_t>(value)
                                                            << static_cast<unsigned>(Fraction));
     }
