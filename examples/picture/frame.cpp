@@ -1,7 +1,6 @@
 #include "weir_picture/frame.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace weir_picture {

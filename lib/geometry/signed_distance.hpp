@@ -2,8 +2,6 @@
 // Coordinates are cells, |x| ≤ 1e6.
 #pragma once
 
-#include <cstdint>
-
 #include "geometry/outline.hpp"
 #include "geometry/polygon.hpp"
 #include "math/vec2.hpp"

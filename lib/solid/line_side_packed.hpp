@@ -3,7 +3,6 @@
 #pragma once
 
 #include "math/packed_arithmetic.hpp"
-#include "math/vec2.hpp"
 
 namespace weir::packed {
 

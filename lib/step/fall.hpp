@@ -1,7 +1,6 @@
 // What gravity gives in a substep.
 #pragma once
 
-#include "math/packed.hpp"
 #include "math/vec2.hpp"
 
 namespace weir {

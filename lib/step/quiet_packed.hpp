@@ -2,7 +2,6 @@
 #pragma once
 
 #include "math/quotient_packed.hpp"
-#include "pressure/pressure_fields.hpp"
 #include "step/weights_packed.hpp"
 
 namespace weir {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "grid/borders.hpp"
-#include "weir/config.hpp"
 
 namespace weir {
 

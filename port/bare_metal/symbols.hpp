@@ -2,7 +2,6 @@
 // value_of().
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 extern "C" {

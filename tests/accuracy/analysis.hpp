@@ -1,7 +1,6 @@
 // What is read off particles and signals.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "scheme.hpp"

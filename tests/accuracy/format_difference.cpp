@@ -9,7 +9,6 @@
 
 #include "dam_break.hpp"
 #include "problems.hpp"
-#include "reference_data.hpp"
 
 namespace accuracy {
 

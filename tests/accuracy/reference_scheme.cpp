@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
 
 #include "paper_scaling.hpp"
 #include "reference_pressure.hpp"

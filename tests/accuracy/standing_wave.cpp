@@ -3,7 +3,6 @@
 // and loss are read off the modal velocity, the projection of the particles' velocities on the
 // mode. The lattice is relaxed at rest first: relaxing lifts the surface by some hundredths of a
 // cell, which is not a wave.
-#include <algorithm>
 #include <cmath>
 
 #include "problems.hpp"

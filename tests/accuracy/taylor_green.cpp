@@ -2,7 +2,6 @@
 // of time: L / U. u = −U cos kx sin ky, v = U sin kx cos ky, p = −(U²/4)(cos 2kx + cos 2ky) with
 // k = 2π / L; the velocity decays by exp(−2 ν k² t), the pressure by its square (Taylor & Green
 // 1937).
-#include <algorithm>
 #include <cmath>
 
 #include "problems.hpp"

@@ -14,7 +14,6 @@
 // cells on each side, in which a soft force pushes back and, near its end, a clamp holds.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "paper_solids.hpp"

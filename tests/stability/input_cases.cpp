@@ -1,5 +1,4 @@
 // S16: numbers that are none, through every door: refused with a name, or contained and reported.
-#include <cmath>
 #include <limits>
 
 #include "cases.hpp"

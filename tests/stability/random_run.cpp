@@ -1,6 +1,5 @@
 // Random scenes: every one has to stay finite, whole, inside, and within its energy.
 #include <algorithm>
-#include <cmath>
 #include <exception>
 
 #include "cases.hpp"

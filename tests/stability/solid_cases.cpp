@@ -1,5 +1,4 @@
 // S6, S7, S8: liquid meets solids that are hard to meet.
-#include <algorithm>
 #include <cmath>
 
 #include "cases.hpp"

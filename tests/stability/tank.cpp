@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "contour/marching_squares.hpp"
 #include "math/vec2.hpp"

@@ -10,7 +10,6 @@
 #include "math/vec2.hpp"
 #include "solid/collide.hpp"
 #include "solid/first_entry.hpp"
-#include "solid/layers.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
 

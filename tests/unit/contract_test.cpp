@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstddef>
 #include <random>
-#include <vector>
 
 #include "math/packed_arithmetic.hpp"
 #include "test_world.hpp"

@@ -10,7 +10,6 @@
 #include "pressure/surface_level.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/particle_to_grid.hpp"
-#include "step/transfer_lanes.hpp"
 
 namespace weir {
 namespace {

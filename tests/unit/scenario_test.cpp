@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <vector>
 
 #include "contour/marching_squares.hpp"
 #include "scenes/scenarios.hpp"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "test_world.hpp"
 #include "weir/weir.hpp"

@@ -2,7 +2,6 @@
 // side.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/vec2.hpp"

@@ -1,7 +1,6 @@
 // Nothing through a solid, nothing trapped in one, at any speed; what cannot be saved is counted.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/vec2.hpp"

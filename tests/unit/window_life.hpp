@@ -1,8 +1,6 @@
 // What is expected of a world of which only a window is stored, beside one that stores all of it.
 #pragma once
 
-#include <cstdlib>
-
 #include "port/port.hpp"
 #include "wide_world.hpp"
 

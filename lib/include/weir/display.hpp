@@ -2,7 +2,6 @@
 // that is sent, and a surface at rest does not flicker.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "weir/world.hpp"

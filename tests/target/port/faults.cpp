@@ -1,6 +1,5 @@
 // Goes wrong on purpose, in the way `fault=` asks for. Each must end as a named fault: if the line
 // "survived" appears, or nothing does, a real program's mistake would have gone unseen.
-#include <cstddef>
 #include <cstdint>
 
 #include "port/port.hpp"
