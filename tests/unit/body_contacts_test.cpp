@@ -32,10 +32,7 @@ float mass_of(const World<Real>& world, BodyId id) {
     return mass.mass_m2;
 }
 
-template <class Real>
-class BodyContacts : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(BodyContacts, Scalars, );
+WEIR_SUITE(BodyContacts, RoomyScalars);
 
 /// A crate is thrown onto a rough slab, bounces and slides: in every step what it met is what
 /// changed its momentum besides gravity, and nothing is told while it flies.

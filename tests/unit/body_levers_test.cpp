@@ -43,10 +43,7 @@ struct Splash {
     }
 };
 
-template <class Real>
-class BodyLevers : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(BodyLevers, Scalars, );
+WEIR_SUITE(BodyLevers, RoomyScalars);
 
 /// Two bodies' room is too little for that box, 20 bodies' is enough.
 TYPED_TEST(BodyLevers, KeptOrNotHaveTheSameBits) {

@@ -13,10 +13,7 @@ namespace {
 
 constexpr float kDt = 1.0F / 60.0F;
 
-template <class Real>
-class Contract : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Contract, Scalars);
+WEIR_SUITE(Contract, EveryScalar);
 
 TYPED_TEST(Contract, SnapshotsHaveRoomForManyBodies) {
     WorldDef def;
@@ -226,10 +223,7 @@ TEST(ContractOfPackedWorlds, WhatIsTooFastSaturates) {
     EXPECT_EQ(scaled(-300, 12345), (-300 * 12345) >> 7);
 }
 
-template <class Real>
-class ContractOfFreeBodies : public ::testing::Test {};
-using Roomy = ::testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(ContractOfFreeBodies, Roomy);
+WEIR_SUITE(ContractOfFreeBodies, RoomyScalars);
 
 TYPED_TEST(ContractOfFreeBodies, NoneIsAddedInMidStep) {
     WorldDef def;

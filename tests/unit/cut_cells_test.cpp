@@ -153,10 +153,7 @@ struct Picture {
     }
 };
 
-template <class Real>
-class CutCellsOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(CutCellsOf, Scalars, );
+WEIR_SUITE(CutCellsOf, EveryScalar);
 
 /// Blots come and go. All cells are looked at if all seem to have been solid.
 TYPED_TEST(CutCellsOf, WhatIsTouchedAloneIsUpdated) {

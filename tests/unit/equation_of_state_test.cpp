@@ -36,15 +36,10 @@ double energy_of(const World<Real>& world, double gravity_in_cells) {
     return sum;
 }
 
-template <class Real>
-class EquationOfState : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(EquationOfState, Scalars, );
+WEIR_SUITE(EquationOfState, RoomyScalars);
 
-template <class Real>
-class ElasticArithmetic : public testing::Test {};
 using FixedScalars = testing::Types<float, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(ElasticArithmetic, FixedScalars, );
+WEIR_SUITE(ElasticArithmetic, FixedScalars);
 
 constexpr float kBarAngle = 0.37F;
 

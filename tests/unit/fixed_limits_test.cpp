@@ -81,10 +81,8 @@ namespace {
 
 TEST(FixedLimits, Init) { check_all(fixed_rows()); }
 
-template <class Real>
-class FixedWorld : public ::testing::Test {};
-using Both = ::testing::Types<Fixed, SmallFixed>;
-TYPED_TEST_SUITE(FixedWorld, Both, );
+using Both = testing::Types<Fixed, SmallFixed>;
+WEIR_SUITE(FixedWorld, Both);
 
 TYPED_TEST(FixedWorld, TheLargestIsAccepted) {
     WorldDef def = small_def();

@@ -335,10 +335,7 @@ TEST(FreeBody, AnyDensityIsStable) {
 
 /// Light and smaller than what the grid tells of a body's turning: of 1 and 1.5 cells. They had
 /// spun at 10 to 40 rad/s and swum about in calm liquid for as long as anybody looked.
-template <class Real>
-class FreeBodyOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(FreeBodyOf, Scalars, );
+WEIR_SUITE(FreeBodyOf, RoomyScalars);
 TYPED_TEST(FreeBodyOf, SmallOnesComeToRest) {
     const struct {
         float cells;

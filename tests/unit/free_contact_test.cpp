@@ -73,10 +73,7 @@ double energy_of(const Motion& m, double edge) {
            kG * static_cast<double>(m.position_m.y);
 }
 
-template <class Real>
-class FreeContact : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(FreeContact, Scalars, );
+WEIR_SUITE(FreeContact, RoomyScalars);
 
 /// Without friction a ramp is slid down as gravity has it; on a rough one a crate stays.
 TYPED_TEST(FreeContact, CrateOnARampSlidesOrStays) {

@@ -38,10 +38,7 @@ std::int32_t fill_pool(World<Real>& world, BodyId (&id)[kCrates]) {
     return added;
 }
 
-template <class Real>
-class FreeCrowd : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(FreeCrowd, Scalars, );
+WEIR_SUITE(FreeCrowd, RoomyScalars);
 
 /// Liquid under crates cannot rise past them where they have pressed it together. What is caught
 /// between two of them is removed. The crates are taken out again.

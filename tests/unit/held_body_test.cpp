@@ -23,10 +23,7 @@ WorldDef held_def() {
     return def;
 }
 
-template <class Real>
-class HeldBody : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(HeldBody, Scalars);
+WEIR_SUITE(HeldBody, RoomyScalars);
 
 /// A rod that hangs on its end falls from level: at the bottom ω² = 3 g / L.
 TYPED_TEST(HeldBody, ARodSwingsAboutItsEnd) {

@@ -72,10 +72,7 @@ Ring ball(float cells, int corners) {
     return ring;
 }
 
-template <class Real>
-class Immersion : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(Immersion, Scalars, );
+WEIR_SUITE(Immersion, RoomyScalars);
 
 /// However it lies to the grid's lines: they sank, or hung in the water, below two cells.
 TYPED_TEST(Immersion, SmallSquaresOfHalfTheDensityFloat) {

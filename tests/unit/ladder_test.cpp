@@ -19,10 +19,7 @@ WorldDef dam_def() {
     return def;
 }
 
-template <class Real>
-class LadderOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(LadderOf, Scalars, );
+WEIR_SUITE(LadderOf, EveryScalar);
 
 TYPED_TEST(LadderOf, EveryRungCostsLessAndSaysSo) {
     std::int64_t before = 0;

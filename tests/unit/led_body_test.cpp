@@ -22,10 +22,7 @@ WorldDef pool_def(std::int32_t cells_x, std::int32_t cells_y) {
     return def;
 }
 
-template <class Real>
-class LedBody : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(LedBody, Scalars, );
+WEIR_SUITE(LedBody, RoomyScalars);
 
 /// It lies flat, the liquid around it keeps its volume, and nothing lifts it again.
 TYPED_TEST(LedBody, SunkenBodyLeavesTheLiquidItsVolume) {
@@ -212,10 +209,7 @@ TYPED_TEST(LedBody, SnapshotKnowsWhoIsLed) {
 }
 
 /// Further than it can go in a step a body goes as far as it can, straight there.
-template <class Real>
-class FarLedBody : public testing::Test {};
-using AllScalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(FarLedBody, AllScalars, );
+WEIR_SUITE(FarLedBody, EveryScalar);
 TYPED_TEST(FarLedBody, CatchesUp) {
     WorldDef def = pool_def(200, 20);
     def.capacity.particles = 100;

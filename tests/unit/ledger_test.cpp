@@ -5,6 +5,7 @@
 
 #include "measure/momentum_book.hpp"
 #include "measure/stirred_tank.hpp"
+#include "test_world.hpp"
 
 namespace weir {
 namespace {
@@ -40,10 +41,8 @@ void expect_balance(const Stirred& how, double most_settled) {
     EXPECT_LT(book.settled_rms(), most_settled);
 }
 
-template <class Real>
-class WholeLedgerOf : public testing::Test {};
 using Scalars = testing::Types<Fixed, SmallFixed>;
-TYPED_TEST_SUITE(WholeLedgerOf, Scalars, );
+WEIR_SUITE(WholeLedgerOf, Scalars);
 
 TYPED_TEST(WholeLedgerOf, BalancesAPool) {
     expect_balance<TypeParam>({}, 0.01);

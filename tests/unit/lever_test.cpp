@@ -49,10 +49,7 @@ struct Spray {
     }
 };
 
-template <class Real>
-class SprayOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(SprayOf, Scalars, );
+WEIR_SUITE(SprayOf, RoomyScalars);
 
 TYPED_TEST(SprayOf, IsPushedToTheLiquidsSpeedAndTurnedRound) {
     // A pressure of 1 a quarter of a cell below the surface: 4 cells/s.

@@ -29,10 +29,7 @@ LiquidIn found_in(const World<Real>& world, const Box& box) {
     return found;
 }
 
-template <class Real>
-class LiquidBox : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(LiquidBox, Scalars, );
+WEIR_SUITE(LiquidBox, EveryScalar);
 
 TYPED_TEST(LiquidBox, KnowsHowMuchWhereAndHowFast) {
     TestWorld<TypeParam> world(tank());
@@ -240,10 +237,7 @@ TYPED_TEST(LiquidBox, OnlyWhoIsPushedWakes) {
     EXPECT_EQ(world->step(0.01F).particles_asleep, 0);
 }
 
-template <class Real>
-class OfOneLiquid : public testing::Test {};
-using ScalarsOfTwo = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(OfOneLiquid, ScalarsOfTwo);
+WEIR_SUITE(OfOneLiquid, RoomyScalars);
 
 /// Mixed in every cell: each call finds its own.
 TYPED_TEST(OfOneLiquid, CallsLeaveTheOtherAlone) {

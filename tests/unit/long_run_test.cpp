@@ -75,10 +75,7 @@ TEST(LongRun, LiquidThatLeansComesToRest) {
     EXPECT_LT(mean_restlessness<float>(), 0.001);
 }
 
-template <class Real>
-class LongRunOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(LongRunOf, Scalars, );
+WEIR_SUITE(LongRunOf, EveryScalar);
 
 /// A stream went on for ever along a surface that leaned against a solid, 1.1 to 1.7 %, as long as
 /// any air cell with a contour was soon taken as filled.

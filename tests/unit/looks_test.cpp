@@ -69,10 +69,7 @@ struct Sleepers {
     }
 };
 
-template <class Real>
-class Looks : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Looks, Scalars, );
+WEIR_SUITE(Looks, EveryScalar);
 
 TYPED_TEST(Looks, AfterSleepersWereDrained) {
     for (int way = 0; way < kLooks; ++way) {

@@ -57,10 +57,7 @@ double energy_kept(float degrees) {
     return energy() / before;
 }
 
-template <class Real>
-class Mirror : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(Mirror, Scalars, );
+WEIR_SUITE(Mirror, RoomyScalars);
 
 // Faces in the wall that no particle reaches had counted as liquid at rest: 2.5 % were lost at 45
 // degrees, 1.2 and 1.5 % at 20 and 30.

@@ -35,10 +35,7 @@ struct CornerPool {
     }
 };
 
-template <class Real>
-class Occupied : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Occupied, Scalars, );
+WEIR_SUITE(Occupied, EveryScalar);
 
 TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
     CornerPool<TypeParam> small(40, 100), large(90, 120);

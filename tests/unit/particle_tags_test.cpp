@@ -48,10 +48,7 @@ void disturb(World<Real>& world, Dice& dice) {
     }
 }
 
-template <class Real>
-class ParticleTags : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(ParticleTags, Scalars, );
+WEIR_SUITE(ParticleTags, EveryScalar);
 
 /// What liquid a particle is of goes with it. Its tag says the same, whatever became of both.
 TYPED_TEST(ParticleTags, GoWithTheKinds) {

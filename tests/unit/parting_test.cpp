@@ -60,10 +60,7 @@ double push_on_plate(float off) {
 
 /// The contour cuts the plate's corner: a cell there is far more open above than below. The flow
 /// that this asks for was sucked from the sheet: 0.56 of the jet's momentum was left.
-template <class Real>
-class Parting : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Parting, Scalars);
+WEIR_SUITE(Parting, EveryScalar);
 
 TYPED_TEST(Parting, PlatesOffTheGridsLinesTakeAJetsMomentum) {
     for (const float off : some_of({0.25F, 0.0F, 0.5F, 0.75F})) {
@@ -109,10 +106,7 @@ double fall_of_film(Pressure pressure, float thick, float at) {
     return (before - height()) / fall;
 }
 
-template <class Real>
-class Ceiling : public ::testing::Test {};
-using AllScalars = ::testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Ceiling, AllScalars);
+WEIR_SUITE(Ceiling, EveryScalar);
 
 TYPED_TEST(Ceiling, ShelvesHoldNoRowOfDrops) {
     EXPECT_GT(fall_of_film<TypeParam>(Pressure::projection, 0.5F, 16.0F), 0.9);

@@ -66,10 +66,7 @@ TEST(PressedLiquid, ShakyGravityPressesNobodyTogether) {
 
 /// A drum that turns presses what it carries up against its wall. What is in a sliver of a cell
 /// there pushed back by no more than the sliver's room.
-template <class Real>
-class Drum : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(Drum, Scalars, );
+WEIR_SUITE(Drum, RoomyScalars);
 
 TYPED_TEST(Drum, LeavesTheLiquidItsVolume) {
     constexpr int kSides = 16;

@@ -65,10 +65,7 @@ struct Surface {
 
 const Vec2<double> kOnSurface{6.25, 6.25};
 
-template <class Real>
-class QuietSurface : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(QuietSurface, Scalars, );
+WEIR_SUITE(QuietSurface, EveryScalar);
 
 TYPED_TEST(QuietSurface, TakesHalfOfWhatIsUnlikeTheGridWhereItLeans) {
     Surface<TypeParam> surface(0.3, {});

@@ -223,10 +223,7 @@ private:
     std::optional<TestWorld<Real>> sliced_;
 };
 
-template <class Real>
-class RandomCalls : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(RandomCalls, Scalars, );
+WEIR_SUITE(RandomCalls, EveryScalar);
 
 /// WEIR_RANDOM_LIVES: how many.
 TYPED_TEST(RandomCalls, ChangeNothingWhenRefusedAndAllLivesAlike) {

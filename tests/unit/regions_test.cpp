@@ -105,10 +105,7 @@ double nearest_to_sleepers(const World<Real>& world, std::int32_t asleep) {
     return nearest;
 }
 
-template <class Real>
-class RegionsOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(RegionsOf, Scalars, );
+WEIR_SUITE(RegionsOf, EveryScalar);
 
 TYPED_TEST(RegionsOf, OnePoolSleepsWhileTheOtherSplashes) {
     Pools<TypeParam> pools;

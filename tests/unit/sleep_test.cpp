@@ -61,10 +61,7 @@ struct Pool {
     World<Real>* operator->() { return &*world; }
 };
 
-template <class Real>
-class SleepOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(SleepOf, Scalars, );
+WEIR_SUITE(SleepOf, EveryScalar);
 
 TYPED_TEST(SleepOf, AtRestItFallsAsleepAndNothingChanges) {
     Pool<TypeParam> pool;

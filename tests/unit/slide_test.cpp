@@ -10,10 +10,7 @@ namespace {
 
 constexpr float kCell = 0.02F;
 
-template <class Real>
-class Slide : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Slide, Scalars);
+WEIR_SUITE(Slide, EveryScalar);
 
 WorldDef tank(std::int32_t columns, std::int32_t rows) {
     WorldDef def;

@@ -55,10 +55,8 @@ double turned(Vec2<double> n, double incidence) {
     return length((1.0 / 16.0) * left - (v - 2.0 * dot(v, n) * n));
 }
 
-template <class Real>
-class Sliver : public testing::Test {};
 using Scalars = testing::Types<float, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Sliver, Scalars, );
+WEIR_SUITE(Sliver, Scalars);
 
 TYPED_TEST(Sliver, DoesNotTurnASingleParticle) {
     double worst = 0.0;

@@ -106,10 +106,7 @@ void expect_picture_of_poses(const WorldDef& def, std::uint64_t seed) {
     }
 }
 
-template <class Real>
-class BodiesPicture : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(BodiesPicture, Scalars, );
+WEIR_SUITE(BodiesPicture, EveryScalar);
 
 TYPED_TEST(BodiesPicture, FollowsFromPosesAlone) {
     for (std::uint64_t seed = kSanitized ? 20 : 1; seed <= 20; ++seed) {

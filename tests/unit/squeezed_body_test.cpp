@@ -87,10 +87,7 @@ void expect_sound(World<Real>& world, BodyId id) {
     EXPECT_LE(std::hypot(now.velocity_mps.x, now.velocity_mps.y), 1000.0F);
 }
 
-template <class Real>
-class SqueezedBody : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(SqueezedBody, Scalars, );
+WEIR_SUITE(SqueezedBody, RoomyScalars);
 
 /// Pushes that bodies are parted with were found for what they took along in the water: where that
 /// was gone at the step's end they doubled from round to round, to an angle of 1e13.

@@ -12,6 +12,15 @@
 
 namespace weir {
 
+using EveryScalar = testing::Types<float, double, Fixed, SmallFixed>;
+using RoomyScalars = testing::Types<float, double, Fixed>;
+
+/// Tests that are run in each arithmetic of a list.
+#define WEIR_SUITE(Suite, Scalars)         \
+    template <class Real>                  \
+    class Suite : public testing::Test {}; \
+    TYPED_TEST_SUITE(Suite, Scalars, )
+
 /// Sanitizers look at what memory is touched and how, in ten times the time: where lives are compared
 /// to the bit, which others do, they get fewer.
 #if defined(__SANITIZE_ADDRESS__)

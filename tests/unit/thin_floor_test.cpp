@@ -48,10 +48,7 @@ float height_over(bool open) {
     return lowest;
 }
 
-template <class Real>
-class ThinFloor : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(ThinFloor, Scalars, );
+WEIR_SUITE(ThinFloor, RoomyScalars);
 
 TYPED_TEST(ThinFloor, IsReached) {
     const float over_slab = height_over<TypeParam>(false);

@@ -53,10 +53,8 @@ void expect_floor(TestWorld<Real>& world, float from, float to, float height) {
     }
 }
 
-template <class Real>
-class Touching : public testing::Test {};
 using Scalars = testing::Types<float, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Touching, Scalars, );
+WEIR_SUITE(Touching, Scalars);
 
 TYPED_TEST(Touching, AFloorOfTilesIsFlat) {
     const std::vector<std::vector<Ring>> floors = {

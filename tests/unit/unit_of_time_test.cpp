@@ -182,10 +182,7 @@ TEST(UnitOfTime, RegionsFallAsleepAtTheSameStep) {
 }
 
 // Floats and Q15.16 know what is slow: not a bit changes.
-template <class Real>
-class OtherScalar : public ::testing::Test {};
-using Others = ::testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(OtherScalar, Others, );
+WEIR_SUITE(OtherScalar, RoomyScalars);
 
 TYPED_TEST(OtherScalar, HasNoNeedOfATopSpeed) {
     WorldDef def = small_def();

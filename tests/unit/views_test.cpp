@@ -8,10 +8,7 @@
 namespace weir {
 namespace {
 
-template <class Real>
-class Views : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(Views, Scalars, );
+WEIR_SUITE(Views, EveryScalar);
 
 /// What the view tells, row by row.
 template <class Real>

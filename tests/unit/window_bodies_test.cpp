@@ -16,10 +16,7 @@ constexpr Capacity kLevel = [] {
 }();
 static_assert(world_bytes<float>(kLevel) < 4'200'000, "window and polygons decide, not the tank");
 
-template <class Real>
-class WindowBodies : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(WindowBodies, Scalars, );
+WEIR_SUITE(WindowBodies, RoomyScalars);
 
 TYPED_TEST(WindowBodies, HaveTheBitsOfTheWholeTank) {
     const char* more = std::getenv("WEIR_WINDOWS");

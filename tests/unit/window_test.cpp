@@ -19,10 +19,7 @@ constexpr Capacity kHugeWindowed = [] {
 static_assert(world_bytes<float>(kHuge) > 600'000'000, "the tank decides");
 static_assert(world_bytes<float>(kHugeWindowed) < 2'100'000, "the window does");
 
-template <class Real>
-class Window : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed>;
-TYPED_TEST_SUITE(Window, Scalars, );
+WEIR_SUITE(Window, RoomyScalars);
 
 TYPED_TEST(Window, HasTheBitsOfTheWholeTank) {
     for (std::int32_t kind = 0; kind < kKinds; ++kind) {

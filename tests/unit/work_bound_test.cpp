@@ -39,10 +39,7 @@ void expect_within_bound(World<Real>& world, float dt_s, std::int32_t budget, bo
     }
 }
 
-template <class Real>
-class WorkBoundOf : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(WorkBoundOf, Scalars, );
+WEIR_SUITE(WorkBoundOf, EveryScalar);
 
 TYPED_TEST(WorkBoundOf, NoStepDoesMore) {
     for (std::int32_t kind = 0; kind < kBusyKinds; ++kind) {
