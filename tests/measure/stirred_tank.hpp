@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "measure/tank_def.hpp"
 #include "measure/world_memory.hpp"
 
 namespace measure {
@@ -57,13 +58,8 @@ private:
     enum class Kind { fixed, moving, free };
 
     static weir::WorldDef definition(const Stirred& how) {
-        weir::WorldDef def;
+        weir::WorldDef def = measure::tank_def(12, 12, 500, 3, 12);
         def.cell_m = 0.02F;
-        def.capacity.cells_x = 12;
-        def.capacity.cells_y = 12;
-        def.capacity.particles = 500;
-        def.capacity.bodies = 3;
-        def.capacity.vertices = 12;
         def.capacity.second_liquid = how.second;
         def.capacity.two_way = true;
         def.second_density_ratio = how.second ? 1.7F : 1.0F;

@@ -1,5 +1,6 @@
 // The library under valgrind: no stdio, no allocation of its own, so that whatever valgrind counts
 // is the library's. Ends with 0, or with the number of the check that failed.
+#include "measure/tank_def.hpp"
 #include "scenes/scenarios.hpp"
 
 extern "C" [[noreturn]] void weir_fault(const char*, const char*, int) { __builtin_trap(); }
@@ -24,12 +25,7 @@ bool run(const scenes::Scenario& scenario) {
 
 /// Bodies come and go while the liquid moves.
 bool churn() {
-    weir::WorldDef def;
-    def.capacity.cells_x = 16;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 256;
-    def.capacity.bodies = 3;
-    def.capacity.vertices = 12;
+    weir::WorldDef def = measure::tank_def(16, 16, 256, 3, 12);
     weir::World<float>& world = g_stage.world;
     if (world.init(def, g_memory) != weir::Status::ok ||
         world.fill({{0, 0}, {0.16F, 0.16F}}) != weir::Status::ok) {

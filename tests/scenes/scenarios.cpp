@@ -1,5 +1,7 @@
 #include "scenes/scenarios.hpp"
 
+#include "measure/tank_def.hpp"
+
 namespace scenes {
 
 namespace {
@@ -19,12 +21,7 @@ Box cells(float x0, float y0, float x1, float y1) {
 
 constexpr WorldDef tank(std::int32_t cells_x, std::int32_t cells_y, std::int32_t particles,
                         std::int32_t bodies, std::int32_t vertices) {
-    WorldDef def;
-    def.capacity.cells_x = cells_x;
-    def.capacity.cells_y = cells_y;
-    def.capacity.particles = particles;
-    def.capacity.bodies = bodies;
-    def.capacity.vertices = vertices;
+    WorldDef def = measure::tank_def(cells_x, cells_y, particles, bodies, vertices);
     def.cell_m = kCell;
     return def;
 }

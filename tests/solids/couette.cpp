@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/vec2.hpp"
+#include "measure/tank_def.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
 
@@ -23,14 +24,9 @@ constexpr double kSettled = 0.24;  // of gap²/viscosity: what is not steady has
 
 /// Of a gap of so many cells whose wall goes a gap a second.
 weir::WorldDef definition(int gap, int cells_x, int cells_y) {
-    weir::WorldDef def;
+    weir::WorldDef def = measure::tank_def(cells_x, cells_y, 4 * cells_x * cells_y, 2, 2048);
     def.cell_m = static_cast<float>(kCell);
     def.gravity_mps2 = {};
-    def.capacity.cells_x = cells_x;
-    def.capacity.cells_y = cells_y;
-    def.capacity.particles = 4 * cells_x * cells_y;
-    def.capacity.bodies = 2;
-    def.capacity.vertices = 2048;
     def.capacity.two_way = true;
     def.max_substeps = 64;  // with 16 what 64 cells have of viscosity is limited
     def.viscosity_m2ps = static_cast<float>(gap * kCell * gap * kCell / kReynolds);

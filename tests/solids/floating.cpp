@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/tank_def.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
 
@@ -44,13 +45,9 @@ struct Box {
     }
 
     static weir::WorldDef definition(int cells) {
-        weir::WorldDef def;
+        weir::WorldDef def = measure::tank_def(4 * cells, 3 * cells, 4 * 4 * cells * 2 * cells, 1,
+                                               4);
         def.cell_m = static_cast<float>(kWidth / cells);
-        def.capacity.cells_x = 4 * cells;
-        def.capacity.cells_y = 3 * cells;
-        def.capacity.particles = 4 * 4 * cells * 2 * cells;
-        def.capacity.bodies = 1;
-        def.capacity.vertices = 4;
         def.capacity.two_way = true;
         return def;
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "measure/tank_def.hpp"
 #include "problems.hpp"
 #include "vessel.hpp"
 
@@ -47,13 +48,8 @@ public:
     }
 
     static weir::WorldDef definition(weir::Contour contour, int particles_per_cell) {
-        weir::WorldDef def;
+        weir::WorldDef def = measure::tank_def(kCells, kCells, 1, 1, 4);
         def.cell_m = kCell_m;
-        def.capacity.cells_x = kCells;
-        def.capacity.cells_y = kCells;
-        def.capacity.particles = 1;
-        def.capacity.bodies = 1;
-        def.capacity.vertices = 4;
         def.contour = contour;
         def.particles_per_cell = particles_per_cell;
         def.gravity_mps2 = {};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/tank_def.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
 
@@ -30,13 +31,8 @@ struct Outcome {
 /// Drives a piston of the tank's height in from the left, to `stroke` of the tank's width.
 template <class Real>
 Outcome press(weir::Pressure pressure, double speed, double stroke) {
-    weir::WorldDef def;
+    weir::WorldDef def = measure::tank_def(kCells, kCells, 4 * kCells * kCells, 1, 4);
     def.cell_m = static_cast<float>(kCell);
-    def.capacity.cells_x = kCells;
-    def.capacity.cells_y = kCells;
-    def.capacity.particles = 4 * kCells * kCells;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 4;
     def.pressure = pressure;
     Tank<Real> tank(def);
     const Ring ring = rectangle(kSide, 2.0 * kSide);

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "math/vec2.hpp"
+#include "measure/tank_def.hpp"
 #include "tank.hpp"
 
 namespace solids {
@@ -59,13 +60,8 @@ double depth_in(const ListedPolygon& polygon, weir::Vec2<double> p) {
 template <class Real>
 PourResult pour(const ListedPolygon& drawn) {
     const ListedPolygon polygon = fitted(drawn);
-    weir::WorldDef def;
+    weir::WorldDef def = measure::tank_def(kTank, kTank, 4000, 1, weir::kMaxBodyVertices);
     def.cell_m = 1.0F;
-    def.capacity.cells_x = kTank;
-    def.capacity.cells_y = kTank;
-    def.capacity.particles = 4000;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = weir::kMaxBodyVertices;
     Tank<Real> tank(def);
     std::vector<weir::View<weir::Vec2f>> views;
     weir::BodyDef body = body_of(polygon, views);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/tank_def.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
 #include "weir/weir.hpp"
@@ -62,13 +63,8 @@ Column column_of(const Tank<Real>& tank, const Wall& wall, double foot) {
 template <class Real>
 void hold(Report& report, const std::string& name, const Wall& wall, std::int32_t steps) {
     const std::int32_t rows = wall.depth + 12;
-    weir::WorldDef def;
+    weir::WorldDef def = measure::tank_def(48, rows, 4 * 48 * rows, 1, 8);
     def.cell_m = kCell;
-    def.capacity.cells_x = 48;
-    def.capacity.cells_y = rows;
-    def.capacity.particles = 4 * 48 * rows;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 8;
     def.capacity.wall_edges = 700;
     Tank<Real> tank(def);
     const float foot = 20.37F;

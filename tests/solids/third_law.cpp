@@ -7,6 +7,7 @@
 #include "math/vec2.hpp"
 #include "measure/momentum_book.hpp"
 #include "measure/stirred_tank.hpp"
+#include "measure/tank_def.hpp"
 #include "problems.hpp"
 #include "tank.hpp"
 #include "world/world_state.hpp"
@@ -63,13 +64,8 @@ public:
 
 private:
     static weir::WorldDef definition() {
-        weir::WorldDef def;
+        weir::WorldDef def = measure::tank_def(2 * kCells, kCells, 8 * kCells * kCells, 3, 16);
         def.cell_m = static_cast<float>(kCell);
-        def.capacity.cells_x = 2 * kCells;
-        def.capacity.cells_y = kCells;
-        def.capacity.particles = 8 * kCells * kCells;
-        def.capacity.bodies = 3;
-        def.capacity.vertices = 16;
         def.capacity.two_way = true;
         return def;
     }

@@ -11,6 +11,7 @@
 
 #include "math/vec2.hpp"
 #include "measure/random.hpp"
+#include "measure/tank_def.hpp"
 #include "measure/world_memory.hpp"
 #include "problems.hpp"
 #include "weir/weir.hpp"
@@ -176,13 +177,8 @@ class Scene {
 public:
     Scene(std::uint64_t seed, weir::Contour contour) : random_(seed) {
         divided_ = random_.chance(0.4F);
-        weir::WorldDef def;
+        weir::WorldDef def = measure::tank_def(kCells, kCells, kThrown, 8, 256);
         def.cell_m = kCell;
-        def.capacity.cells_x = kCells;
-        def.capacity.cells_y = kCells;
-        def.capacity.particles = kThrown;
-        def.capacity.bodies = 8;
-        def.capacity.vertices = 256;
         def.capacity.wall_edges = kThinWalls<Real> ? 6000 : 0;
         def.contour = contour;
         def.gravity_mps2 = {0.0F, random_.chance(0.5F) ? -9.81F : 0.0F};

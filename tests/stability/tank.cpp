@@ -6,6 +6,7 @@
 
 #include "contour/marching_squares.hpp"
 #include "math/vec2.hpp"
+#include "measure/tank_def.hpp"
 
 namespace stability {
 
@@ -33,12 +34,7 @@ std::string Scheme::name() const {
 
 weir::WorldDef tank_def(const Scheme& scheme, std::int32_t cells_x, std::int32_t cells_y,
                         std::int32_t particles, std::int32_t bodies, std::int32_t vertices) {
-    weir::WorldDef def;
-    def.capacity.cells_x = cells_x;
-    def.capacity.cells_y = cells_y;
-    def.capacity.particles = particles;
-    def.capacity.bodies = bodies;
-    def.capacity.vertices = vertices;
+    weir::WorldDef def = measure::tank_def(cells_x, cells_y, particles, bodies, vertices);
     def.cell_m = kCell;
     def.pressure = scheme.pressure;
     def.contour = scheme.contour;

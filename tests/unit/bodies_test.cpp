@@ -18,12 +18,7 @@ namespace {
 constexpr float kFrame = 1.0F / 60.0F;
 
 WorldDef field_def(std::int32_t bodies, std::int32_t vertices) {
-    WorldDef def = small_def();
-    def.capacity.cells_x = 40;
-    def.capacity.cells_y = 30;
-    def.capacity.particles = 4800;
-    def.capacity.bodies = bodies;
-    def.capacity.vertices = vertices;
+    WorldDef def = tank_def(40, 30, 4800, bodies, vertices);
     def.cell_m = kCell;
     return def;
 }

@@ -14,12 +14,7 @@ const Ring kSlab = rectangle(0.7F, 0.06F);
 const Ring kCrate = rectangle(0.1F, 0.1F);
 
 WorldDef dry_def(std::int32_t contacts) {
-    WorldDef def;
-    def.capacity.cells_x = 40;
-    def.capacity.cells_y = 40;
-    def.capacity.particles = 1600;
-    def.capacity.bodies = 4;
-    def.capacity.vertices = 32;
+    WorldDef def = tank_def(40, 40, 1600, 4, 32);
     def.capacity.two_way = true;
     def.capacity.contacts = contacts;
     return def;

@@ -31,13 +31,8 @@ struct Splash {
         expect_ok(world->fill({{0.0F, 0.0F}, {60 * kCell, 14 * kCell}}));
     }
     static WorldDef def_of(std::int32_t bodies) {
-        WorldDef def = small_def();
+        WorldDef def = tank_def(60, 40, 4000, bodies, 200);
         def.cell_m = 0.02F;
-        def.capacity.cells_x = 60;
-        def.capacity.cells_y = 40;
-        def.capacity.particles = 4000;
-        def.capacity.bodies = bodies;
-        def.capacity.vertices = 200;
         def.capacity.two_way = true;
         return def;
     }

@@ -15,12 +15,7 @@ inline constexpr std::int32_t kBusyKinds = 9;
 
 /// One definition for each way in which worlds differ, 0 … kBusyKinds − 1.
 inline WorldDef busy_def(std::int32_t kind) {
-    WorldDef def;
-    def.capacity.particles = 400;
-    def.capacity.cells_x = 18;
-    def.capacity.cells_y = 14;
-    def.capacity.bodies = 5;
-    def.capacity.vertices = 32;
+    WorldDef def = tank_def(18, 14, 400, 5, 32);
     def.capacity.contacts = 2;
     switch (kind) {
         case 1: def.contour = Contour::mid_edge; break;

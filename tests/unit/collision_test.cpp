@@ -21,12 +21,7 @@ constexpr float kCell = 0.02F;
 
 /// A tank of 32 × 32 cells without gravity, whose one particle keeps its own velocity (FLIP 1).
 WorldDef free_flight() {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 4096;
-    def.capacity.bodies = 2;
-    def.capacity.vertices = 16;
+    WorldDef def = tank_def(32, 32, 4096, 2, 16);
     def.gravity_mps2 = {0, 0};
     def.flip_ratio = 1.0F;
     def.volume_gain = 0.0F;

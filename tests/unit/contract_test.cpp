@@ -62,10 +62,7 @@ TYPED_TEST(Contract, LookingChangesNoFuture) {
 
 /// Viscous liquid that is led to rest in fixed point.
 TYPED_TEST(Contract, RestoredViscousLiquidGoesOn) {
-    WorldDef def;
-    def.capacity.cells_x = 18;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 400;
+    WorldDef def = tank_def(18, 32, 400);
     def.viscosity_m2ps = 0.12F;
     def.flip_ratio = 0.5F;
     TestWorld<TypeParam> world{def};
@@ -165,10 +162,7 @@ TYPED_TEST(Contract, BoundsOfContoursHold) {
 TEST(ContractOfPackedWorlds, WhereAStepIsCutSlowsNobody) {
     for (unsigned seed = 0; seed < 300; ++seed) {
         std::mt19937 random(seed);
-        WorldDef def;
-        def.capacity.cells_x = 24;
-        def.capacity.cells_y = 24;
-        def.capacity.particles = 600;
+        WorldDef def = tank_def(24, 24, 600);
         def.max_substeps = 1;
         def.gravity_mps2 = {0, -0.5F};
         def.walls = every_wall({0.0F, 1000.0F, false, 4.0F});

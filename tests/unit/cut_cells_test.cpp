@@ -31,12 +31,7 @@ double kernel(double x, double y) {
 }
 
 TEST(CutCells, FullDensityIsTheKernelOverTheOpenPart) {
-    WorldDef def;
-    def.capacity.cells_x = 24;
-    def.capacity.cells_y = 24;
-    def.capacity.particles = 10;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 4;
+    WorldDef def = tank_def(24, 24, 10, 1, 4);
     for (int trial = 0; trial < 12; ++trial) {
         TestWorld<float> world(def);
         const float angle = 0.55F * static_cast<float>(trial);
@@ -77,12 +72,7 @@ TEST(CutCells, FullDensityIsTheKernelOverTheOpenPart) {
 /// Largest difference of the density's mean from 1 in a row of cells on a floor one cell thick whose
 /// top is at `height` cells, in a vessel that stands `off` cells from the tank's corner.
 double worst_row_on_floor(std::int32_t off, float height) {
-    WorldDef def;
-    def.capacity.cells_x = 24 + off;
-    def.capacity.cells_y = 24 + off;
-    def.capacity.particles = 2000;
-    def.capacity.bodies = 3;
-    def.capacity.vertices = 12;
+    WorldDef def = tank_def(24 + off, 24 + off, 2000, 3, 12);
     TestWorld<float> world(def);
     const auto at = [&](float x, float y) {
         const auto more = static_cast<float>(off);

@@ -10,11 +10,7 @@ namespace {
 constexpr double kCellM = 0.02;
 
 WorldDef pool_def() {
-    WorldDef def;
-    def.capacity.particles = 2000;
-    def.capacity.cells_x = 20;
-    def.capacity.cells_y = 20;
-    return def;
+    return tank_def(20, 20, 2000);
 }
 
 TEST(Diagnostics, OneParticleByHand) {

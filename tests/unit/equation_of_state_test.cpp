@@ -13,10 +13,7 @@ namespace {
 constexpr float kCell = 0.02F;
 
 WorldDef elastic_def(std::int32_t nx, std::int32_t ny, std::int32_t particles) {
-    WorldDef def;
-    def.capacity.cells_x = nx;
-    def.capacity.cells_y = ny;
-    def.capacity.particles = particles;
+    WorldDef def = tank_def(nx, ny, particles);
     def.cell_m = kCell;
     def.pressure = Pressure::equation_of_state;
     return def;

@@ -15,12 +15,7 @@ namespace {
 constexpr float kDt = 1.0F / 120.0F;
 
 WorldDef two_way_def() {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 4096;
-    def.capacity.bodies = 3;
-    def.capacity.vertices = 24;
+    WorldDef def = tank_def(32, 32, 4096, 3, 24);
     def.capacity.two_way = true;
     def.pressure_sweeps = 32;
     return def;

@@ -15,12 +15,7 @@ constexpr double kCell = 0.02;
 constexpr double kG = 9.81;
 
 WorldDef dry_def() {
-    WorldDef def;
-    def.capacity.cells_x = 40;
-    def.capacity.cells_y = 40;
-    def.capacity.particles = 4 * 40 * 40;
-    def.capacity.bodies = 8;
-    def.capacity.vertices = 64;
+    WorldDef def = tank_def(40, 40, 4 * 40 * 40, 8, 64);
     def.capacity.two_way = true;
     return def;
 }

@@ -12,12 +12,7 @@ constexpr float kDepth = 15 * kCell;
 constexpr int kCrates = 24;
 
 WorldDef pool_def() {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 48;
-    def.capacity.particles = 4 * 32 * 15;
-    def.capacity.bodies = kCrates;
-    def.capacity.vertices = 4 * kCrates;
+    WorldDef def = tank_def(32, 48, 4 * 32 * 15, kCrates, 4 * kCrates);
     def.capacity.two_way = true;
     return def;
 }

@@ -13,12 +13,7 @@ namespace {
 constexpr float kDt = 1.0F / 240.0F;
 
 WorldDef held_def() {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 4096;
-    def.capacity.bodies = 3;
-    def.capacity.vertices = 64;
+    WorldDef def = tank_def(32, 32, 4096, 3, 64);
     def.capacity.two_way = true;
     return def;
 }

@@ -15,12 +15,7 @@ constexpr float kCell = 0.005F;
 constexpr float kLevel = 20 * kCell;
 
 WorldDef pool_def(std::int32_t wall_edges) {
-    WorldDef def;
-    def.capacity.particles = 4096;
-    def.capacity.cells_x = 48;
-    def.capacity.cells_y = 40;
-    def.capacity.bodies = 2;
-    def.capacity.vertices = 16;
+    WorldDef def = tank_def(48, 40, 4096, 2, 16);
     def.capacity.two_way = true;
     def.capacity.wall_edges = wall_edges;
     def.cell_m = kCell;

@@ -12,11 +12,7 @@ namespace {
 constexpr float kDt = 1.0F / 30.0F;
 
 WorldDef dam_def() {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 24;
-    def.capacity.particles = 4 * 12 * 18;
-    return def;
+    return tank_def(32, 24, 4 * 12 * 18);
 }
 
 WEIR_SUITE(LadderOf, EveryScalar);

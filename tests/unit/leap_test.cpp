@@ -127,10 +127,7 @@ TEST(Leap, PathsBendWhereThePressureDoesNotSeeToIt) {
 /// What falls freely keeps its energy to rounding, as long steps as they may be: velocities are
 /// half a step behind positions, and so is the potential energy that is told.
 TEST(Leap, EnergyIsToldForTheTimeOfTheVelocities) {
-    WorldDef def;
-    def.capacity.particles = 64;
-    def.capacity.cells_x = 16;
-    def.capacity.cells_y = 40;
+    WorldDef def = tank_def(16, 40, 64);
     def.cell_m = 1.0F;
     def.gravity_mps2 = {0.0F, -10.0F};
     TestWorld<float> world(def);

@@ -12,12 +12,7 @@ namespace {
 constexpr float kDt = 1.0F / 60.0F;
 
 WorldDef pool_def(std::int32_t cells_x, std::int32_t cells_y) {
-    WorldDef def;
-    def.capacity.cells_x = cells_x;
-    def.capacity.cells_y = cells_y;
-    def.capacity.particles = 4 * cells_x * cells_y;
-    def.capacity.bodies = 2;
-    def.capacity.vertices = 8;
+    WorldDef def = tank_def(cells_x, cells_y, 4 * cells_x * cells_y, 2, 8);
     def.capacity.two_way = true;
     return def;
 }

@@ -294,10 +294,7 @@ TEST(Projection, APoolAtRestGetsHydrostaticPressure) {
 /// x = x0 − g (t² + t h) / 2 after each.
 template <class Real>
 void expect_free_fall(Pressure pressure, double tolerance) {
-    WorldDef def;
-    def.capacity.cells_x = 24;
-    def.capacity.cells_y = 48;
-    def.capacity.particles = 400;
+    WorldDef def = tank_def(24, 48, 400);
     def.pressure = pressure;
     def.volume_gain = 0.0F;
     def.sound_speed_mps = 4.0F;
@@ -345,10 +342,7 @@ TEST(FreeFall, IsCloseWithEquationOfState) {
 /// steps, cells.
 template <class Real>
 double asymmetry(std::int32_t width, std::int32_t steps) {
-    WorldDef def;
-    def.capacity.cells_x = width;
-    def.capacity.cells_y = 24;
-    def.capacity.particles = 2000;
+    WorldDef def = tank_def(width, 24, 2000);
     def.cell_m = 0.03125F;  // exact: both columns get mirrored lattices
     TestWorld<Real> world(def);
     const float cell = def.cell_m;

@@ -15,12 +15,7 @@ const Ring kSpinner = rectangle(0.04F, 0.04F);
 constexpr Box kAll{{0, 0}, {1, 1}};
 
 WorldDef regions_def() {
-    WorldDef def;
-    def.capacity.cells_x = 24;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 600;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 4;
+    WorldDef def = tank_def(24, 16, 600, 1, 4);
     def.capacity.sleeping_regions = true;
     def.sleep.speed_mps = 0.3F;
     def.sleep.after_s = 0.2F;

@@ -16,12 +16,7 @@ constexpr Vec2<Real> kFall{Real(0.5), Real(-2.0)};
 enum class Bodies { still, moving, sticking };
 
 WorldDef tank_with(Bodies bodies) {
-    WorldDef def;
-    def.capacity.cells_x = 24;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 1600;
-    def.capacity.bodies = 2;
-    def.capacity.vertices = 8;
+    WorldDef def = tank_def(24, 16, 1600, 2, 8);
     def.cell_m = 0.01F;
     def.viscosity_m2ps = bodies == Bodies::sticking ? 1.0e-5F : 0.0F;
     return def;

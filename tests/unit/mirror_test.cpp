@@ -14,12 +14,7 @@ double energy_kept(float degrees) {
     const float angle = degrees * 3.14159265F / 180.0F;
     const Vec2f along{std::cos(angle), std::sin(angle)};
     const Vec2f up{-along.y, along.x};
-    WorldDef def;
-    def.capacity.cells_x = 64;
-    def.capacity.cells_y = 64;
-    def.capacity.particles = 1600;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 4;
+    WorldDef def = tank_def(64, 64, 1600, 1, 4);
     def.cell_m = 0.01F;
     def.gravity_mps2 = {0.0F, 0.0F};
     TestWorld<Real> world(def);

@@ -17,12 +17,7 @@ struct CornerPool {
     World<Real> world;
 
     CornerPool(std::int32_t cells_x, std::int32_t cells_y) {
-        WorldDef def;
-        def.capacity.particles = 1200;
-        def.capacity.cells_x = cells_x;
-        def.capacity.cells_y = cells_y;
-        def.capacity.bodies = 1;
-        def.capacity.vertices = 4;
+        WorldDef def = tank_def(cells_x, cells_y, 1200, 1, 4);
         def.cell_m = 0.02F;
         memory = measure::memory_for<Real>(def);
         EXPECT_EQ(world.init(def, memory.data(), memory.size()), Status::ok);

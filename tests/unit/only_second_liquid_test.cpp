@@ -12,11 +12,8 @@
 namespace weir {
 namespace {
 
-WorldDef tank_def(float ratio) {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 2600;
+WorldDef second_def(float ratio) {
+    WorldDef def = tank_def(32, 32, 2600);
     def.capacity.second_liquid = true;
     def.second_density_ratio = ratio;
     return def;
@@ -36,8 +33,8 @@ void expect_same_places(const World<Real>& one, const World<Real>& other) {
 template <class Real>
 void expect_the_first_ones_bits(float ratio) {
     SCOPED_TRACE(ratio);
-    TestWorld<Real> first(tank_def(ratio));
-    TestWorld<Real> second(tank_def(ratio));
+    TestWorld<Real> first(second_def(ratio));
+    TestWorld<Real> second(second_def(ratio));
     const Box column{{0, 0}, {0.24F, 0.4F}};
     ASSERT_EQ(first->fill(column, nullptr, Liquid::first), Status::ok);
     ASSERT_EQ(second->fill(column, nullptr, Liquid::second), Status::ok);
@@ -59,7 +56,7 @@ TEST(OnlySecondLiquid, GoesAsTheFirstToTheBit) {
 /// What a wave, a fifth as high as the pool is deep, has of its energy after eight seconds.
 template <class Real>
 double kept_of_a_wave(float ratio, Liquid kind) {
-    TestWorld<Real> world(tank_def(ratio));
+    TestWorld<Real> world(second_def(ratio));
     for (int i = 0; i < 64; ++i) {
         for (int j = 0; j < 40; ++j) {
             const float x = 0.01F * (static_cast<float>(i) + 0.5F);

@@ -107,10 +107,7 @@ TEST(Packed, CrowdedFacesSaturateAndSaySo) {
 }
 
 TEST(Packed, ACrowdIsReportedAndComesApart) {
-    WorldDef def;
-    def.capacity.cells_x = 16;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 1000;
+    WorldDef def = tank_def(16, 16, 1000);
     def.gravity_mps2 = {0.0F, -100.0F};
     const auto memory = measure::memory_for<SmallFixed>(def);
     World<SmallFixed> world;
@@ -142,10 +139,7 @@ TEST(Packed, WhatIsAtRestStaysAsItIs) {
         int steps;
     };
     for (const Case& one : {Case{0.32, 0.16, 300}, Case{0.16, 0.20, 6000}}) {
-        WorldDef def;
-        def.capacity.cells_x = 16;
-        def.capacity.cells_y = 16;
-        def.capacity.particles = 600;
+        WorldDef def = tank_def(16, 16, 600);
         def.cell_m = 0.02F;
         const auto memory = measure::memory_for<SmallFixed>(def);
         World<SmallFixed> world;
@@ -174,10 +168,7 @@ TEST(Packed, WhatIsAtRestStaysAsItIs) {
 
 // What leads liquid to rest does not hold back what was at rest until now.
 TEST(Packed, WhatIsLetGoFallsAtOnce) {
-    WorldDef def;
-    def.capacity.cells_x = 16;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 64;
+    WorldDef def = tank_def(16, 16, 64);
     def.cell_m = 0.02F;
     const auto memory = measure::memory_for<SmallFixed>(def);
     World<SmallFixed> world;
@@ -268,10 +259,7 @@ TEST(Packed, SmallChangesAddUp) {
 TEST(Packed, GentleBendsOfViscousFlowAreFelt) {
     constexpr float kSpeed = 0.64F;
     constexpr std::int32_t kCells = 32;
-    WorldDef def;
-    def.capacity.cells_x = 8;
-    def.capacity.cells_y = kCells;
-    def.capacity.particles = 4 * 8 * kCells;
+    WorldDef def = tank_def(8, kCells, 4 * 8 * kCells);
     def.gravity_mps2 = {};
     def.periodic_x = true;
     def.walls.bottom.no_slip = true;

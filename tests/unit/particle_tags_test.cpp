@@ -16,10 +16,7 @@ constexpr float kWidth = kColumns * kCell_m;
 constexpr float kHeight = 16 * kCell_m;
 
 WorldDef tank() {
-    WorldDef def;
-    def.capacity.particles = 600;
-    def.capacity.cells_x = kColumns;
-    def.capacity.cells_y = 16;
+    WorldDef def = tank_def(kColumns, 16, 600);
     def.capacity.particle_tags = true;
     def.cell_m = kCell_m;
     return def;

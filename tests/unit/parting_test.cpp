@@ -11,13 +11,8 @@ constexpr float kSpeed = 2.0F;
 constexpr std::int32_t kWide = 4;  ///< of the jet, cells
 
 WorldDef weightless_tank() {
-    WorldDef def;
+    WorldDef def = tank_def(48, 32, 4000, 1, 4);
     def.cell_m = kCell;
-    def.capacity.cells_x = 48;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 4000;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 4;
     def.capacity.two_way = true;
     def.gravity_mps2 = {0.0F, 0.0F};
     return def;
@@ -73,13 +68,8 @@ TYPED_TEST(Parting, PlatesOffTheGridsLinesTakeAJetsMomentum) {
 constexpr float kCeiling = 32.0F;
 template <class Real>
 double fall_of_film(Pressure pressure, float thick, float at) {
-    WorldDef def;
+    WorldDef def = tank_def(64, 32, 100, 1, 4);
     def.cell_m = 1.0F / 16.0F;
-    def.capacity.cells_x = 64;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 100;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 4;
     def.pressure = pressure;
     def.sound_speed_mps = pressure == Pressure::equation_of_state ? 20.0F : 0.0F;
     TestWorld<Real> world{def};

@@ -26,10 +26,7 @@ double mean_height(const World<Real>& world) {
 TEST(PressedLiquid, DeepPoolsInSmallFixedStayDeep) {
     for (const std::int32_t rows : {32, 40, 64, 128}) {
         for (const float kick : {0.0F, 0.3F, 1.0F}) {
-            WorldDef def;
-            def.capacity.cells_x = 16;
-            def.capacity.cells_y = rows + 16;
-            def.capacity.particles = 4 * 16 * rows;
+            WorldDef def = tank_def(16, rows + 16, 4 * 16 * rows);
             TestWorld<SmallFixed> world{def};
             expect_ok(world->fill({{0, 0}, {16 * kCell, static_cast<float>(rows) * kCell}}));
             world->step(1.0F / 60.0F);
@@ -47,10 +44,7 @@ TEST(PressedLiquid, DeepPoolsInSmallFixedStayDeep) {
 /// full tanks lost from a tenth to two thirds of their height within a minute.
 TEST(PressedLiquid, ShakyGravityPressesNobodyTogether) {
     for (const std::int32_t sweeps : {2, 6}) {
-        WorldDef def;
-        def.capacity.cells_x = 16;
-        def.capacity.cells_y = 28;
-        def.capacity.particles = 4 * 16 * 25;
+        WorldDef def = tank_def(16, 28, 4 * 16 * 25);
         def.pressure_sweeps = sweeps;
         TestWorld<SmallFixed> world{def};
         expect_ok(world->fill({{0, 0}, {16 * kCell, 25 * kCell}}));

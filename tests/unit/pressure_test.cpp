@@ -14,11 +14,7 @@ constexpr double kCell = 0.02;
 constexpr float kStep = 1.0F / 60.0F;
 
 WorldDef tank(std::int32_t width, std::int32_t height, std::int32_t depth) {
-    WorldDef def;
-    def.capacity.cells_x = width;
-    def.capacity.cells_y = height;
-    def.capacity.particles = 4 * width * depth;
-    return def;
+    return tank_def(width, height, 4 * width * depth);
 }
 
 Box pool(std::int32_t width, std::int32_t depth) {

@@ -16,12 +16,7 @@ constexpr std::int32_t kMiddle = 32;  ///< of the divider between two pools, in 
 
 /// A tank of 64 × 24 cells with room for a divider and two more bodies.
 WorldDef pools_def() {
-    WorldDef def;
-    def.capacity.particles = 3000;
-    def.capacity.cells_x = 64;
-    def.capacity.cells_y = 24;
-    def.capacity.bodies = 3;
-    def.capacity.vertices = 12;
+    WorldDef def = tank_def(64, 24, 3000, 3, 12);
     def.capacity.sleeping_regions = true;
     def.sleep.speed_mps = 0.02F;
     def.sleep.after_s = 0.5F;

@@ -12,13 +12,8 @@ namespace {
 
 constexpr float kSize = 0.02F;
 
-WorldDef tank_def(bool solids, bool threads) {
-    WorldDef def;
-    def.capacity.particles = 4500;
-    def.capacity.cells_x = 300;
-    def.capacity.cells_y = 90;
-    def.capacity.bodies = solids ? 3 : 0;
-    def.capacity.vertices = solids ? 12 : 0;
+WorldDef wide_def(bool solids, bool threads) {
+    WorldDef def = tank_def(300, 90, 4500, solids ? 3 : 0, solids ? 12 : 0);
     def.cell_m = kSize;
     def.parallel_for = threads ? port::parallel_for : nullptr;
     return def;
@@ -95,11 +90,11 @@ private:
 /// Returns in how many steps rows were not worked on whole.
 std::int32_t expect_same_bits(bool solids, bool threads, std::uint64_t seed, std::int32_t steps) {
     SCOPED_TRACE(testing::Message() << "solids " << solids << " seed " << seed);
-    const WorldDef def = tank_def(solids, threads);
+    const WorldDef def = wide_def(solids, threads);
     TestWorld<float> first(def), second(def);
     TestWorld<float>* narrow = &first;
     TestWorld<float>* spare = &second;
-    WholeRows whole(tank_def(solids, false));
+    WholeRows whole(wide_def(solids, false));
     Life life(solids, seed);
     life.begin(*narrow);
     life.begin(whole);
@@ -135,8 +130,8 @@ TEST(RowSpans, HaveTheBitsOfWholeRows) {
 
 /// What is not worked on shows as empty to whoever looks.
 TEST(RowSpans, LeaveEmptyWhatLiquidLeft) {
-    TestWorld<float> narrow(tank_def(false, false));
-    WholeRows whole(tank_def(false, false));
+    TestWorld<float> narrow(wide_def(false, false));
+    WholeRows whole(wide_def(false, false));
     Life life(false, 1);
     life.begin(narrow);
     life.begin(whole);
@@ -156,7 +151,7 @@ TEST(RowSpans, LeaveEmptyWhatLiquidLeft) {
 }
 
 TEST(RowSpans, TakeNoMemoryInNarrowTanks) {
-    WorldDef def = tank_def(false, false);
+    WorldDef def = wide_def(false, false);
     const Layout wide = layout<float>(def.capacity);
     def.capacity.cells_x = kLeastSpanned - 1;
     const Layout narrow = layout<float>(def.capacity);

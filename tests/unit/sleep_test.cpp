@@ -17,12 +17,7 @@ constexpr float kGravity = 9.81F;
 /// A pool 6 cells deep in a tank of 16 × 16 cells of 2 cm, with bodies below
 /// and above its surface.
 WorldDef pool_def() {
-    WorldDef def;
-    def.capacity.particles = 600;
-    def.capacity.cells_x = 16;
-    def.capacity.cells_y = 16;
-    def.capacity.bodies = 4;
-    def.capacity.vertices = 16;
+    WorldDef def = tank_def(16, 16, 600, 4, 16);
     def.sleep.speed_mps = 0.02F;
     def.sleep.after_s = 0.5F;
     return def;

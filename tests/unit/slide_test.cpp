@@ -13,13 +13,8 @@ constexpr float kCell = 0.02F;
 WEIR_SUITE(Slide, EveryScalar);
 
 WorldDef tank(std::int32_t columns, std::int32_t rows) {
-    WorldDef def;
+    WorldDef def = tank_def(columns, rows, 4 * columns * rows, 2, 8);
     def.cell_m = kCell;
-    def.capacity.cells_x = columns;
-    def.capacity.cells_y = rows;
-    def.capacity.particles = 4 * columns * rows;
-    def.capacity.bodies = 2;
-    def.capacity.vertices = 8;
     return def;
 }
 

@@ -15,13 +15,7 @@ constexpr float kFrame = 1.0F / 60.0F;
 using Bytes = std::vector<std::byte>;
 
 WorldDef tank() {
-    WorldDef def;
-    def.capacity.particles = 900;
-    def.capacity.cells_x = 40;
-    def.capacity.cells_y = 24;
-    def.capacity.bodies = 16;
-    def.capacity.vertices = 64;
-    return def;
+    return tank_def(40, 24, 900, 16, 64);
 }
 
 template <class Real>

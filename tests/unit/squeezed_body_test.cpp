@@ -19,10 +19,7 @@ constexpr int kDriven = 3;
 constexpr std::uint64_t kLives = 16;
 
 WorldDef squeezed_def() {
-    WorldDef def;
-    def.capacity.cells_x = 18;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 4 * 18 * 16;
+    WorldDef def = tank_def(18, 16, 4 * 18 * 16);
     def.capacity.bodies = kLight + kDriven + 1;
     def.capacity.vertices = 4 * def.capacity.bodies;
     def.capacity.two_way = true;

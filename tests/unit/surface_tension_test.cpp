@@ -18,10 +18,7 @@ constexpr double kPi = 3.14159265358979;
 constexpr float kStep = 0.35F;
 
 WorldDef drop_def(std::int32_t cells) {
-    WorldDef def;
-    def.capacity.cells_x = cells;
-    def.capacity.cells_y = cells;
-    def.capacity.particles = 4 * cells * cells;
+    WorldDef def = tank_def(cells, cells, 4 * cells * cells);
     def.cell_m = 1.0F;
     def.gravity_mps2 = {0, 0};
     def.surface_tension_m3ps2 = 1.0F;
@@ -286,10 +283,7 @@ TEST(SurfaceTension, ADropStaysOnASolidThatCutsCells) {
 
 /// One cell of a millimetre, water, at 60 Hz: 11 substeps. With fewer the liquid is softer.
 TEST(SurfaceTension, IsLoweredToFitTheSubsteps) {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 1024;
+    WorldDef def = tank_def(32, 32, 1024);
     def.cell_m = 0.001F;
     def.surface_tension_m3ps2 = 7.3e-5F;
     def.gravity_mps2 = {0, 0};
@@ -320,10 +314,7 @@ TEST(SurfaceTension, IsLoweredToFitTheSubsteps) {
 /// The same tension makes ripples on a second liquid faster that is a 25th as heavy: a square of it
 /// swings as a drop and does not burst.
 TEST(SurfaceTension, TakesTheSubstepsThatTheLightestLiquidWants) {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 1024;
+    WorldDef def = tank_def(32, 32, 1024);
     def.capacity.second_liquid = true;
     def.second_density_ratio = 0.04F;
     def.cell_m = 0.002F;

@@ -7,10 +7,13 @@
 #include <initializer_list>
 #include <vector>
 
+#include "measure/tank_def.hpp"
 #include "measure/world_memory.hpp"
 #include "weir/weir.hpp"
 
 namespace weir {
+
+using measure::tank_def;
 
 using EveryScalar = testing::Types<float, double, Fixed, SmallFixed>;
 using RoomyScalars = testing::Types<float, double, Fixed>;
@@ -82,15 +85,7 @@ inline Ring rectangle(float width, float height) {
 }
 
 /// 16 × 16 cells of 2 cm, 200 particles, 3 bodies with 12 vertices.
-inline WorldDef small_def() {
-    WorldDef def;
-    def.capacity.particles = 200;
-    def.capacity.cells_x = 16;
-    def.capacity.cells_y = 16;
-    def.capacity.bodies = 3;
-    def.capacity.vertices = 12;
-    return def;
-}
+inline WorldDef small_def() { return tank_def(16, 16, 200, 3, 12); }
 
 inline void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
 

@@ -17,12 +17,7 @@ constexpr float kFloor = 5.88F;  ///< cells
 /// Height of the lowest particle over a floor of that kind after 4 s, cells; 0.87 at first.
 template <class Real>
 float height_over(bool open) {
-    WorldDef def;
-    def.capacity.particles = 1200;
-    def.capacity.cells_x = kColumns;
-    def.capacity.cells_y = 24;
-    def.capacity.bodies = 1;
-    def.capacity.vertices = 4;
+    WorldDef def = tank_def(kColumns, 24, 1200, 1, 4);
     def.capacity.wall_edges = open ? 600 : 0;
     def.cell_m = kCell;
     TestWorld<Real> world{def};

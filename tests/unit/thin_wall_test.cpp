@@ -18,12 +18,7 @@ constexpr float kCell = 0.02F;
 constexpr float kFrame = 1.0F / 60.0F;
 
 WorldDef tank(std::int32_t wall_edges = 800) {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 5000;
-    def.capacity.bodies = 4;
-    def.capacity.vertices = 64;
+    WorldDef def = tank_def(32, 32, 5000, 4, 64);
     def.capacity.wall_edges = wall_edges;
     return def;
 }

@@ -16,12 +16,7 @@ constexpr float kFrame = 1.0F / 60.0F;
 
 /// 32 × 32 cells without gravity; particles keep their own velocity (FLIP 1).
 WorldDef free_flight() {
-    WorldDef def;
-    def.capacity.cells_x = 32;
-    def.capacity.cells_y = 32;
-    def.capacity.particles = 4096;
-    def.capacity.bodies = 3;
-    def.capacity.vertices = 32;
+    WorldDef def = tank_def(32, 32, 4096, 3, 32);
     def.capacity.contacts = 2;
     def.gravity_mps2 = {0, 0};
     def.flip_ratio = 1.0F;

@@ -17,11 +17,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 
-WorldDef tank_def(std::int32_t cells_x, std::int32_t cells_y, float ratio) {
-    WorldDef def;
-    def.capacity.cells_x = cells_x;
-    def.capacity.cells_y = cells_y;
-    def.capacity.particles = 4 * cells_x * cells_y;
+WorldDef layers_def(std::int32_t cells_x, std::int32_t cells_y, float ratio) {
+    WorldDef def = tank_def(cells_x, cells_y, 4 * cells_x * cells_y);
     def.capacity.second_liquid = true;
     def.cell_m = 1.0F;
     def.gravity_mps2 = {0, -1.0F};
@@ -73,7 +70,7 @@ std::int32_t count(const World<float>& world, Liquid kind) {
 template <class Real>
 void expect_layers_at_rest(float ratio, std::int32_t sweeps) {
     SCOPED_TRACE(ratio);
-    WorldDef def = tank_def(24, 32, ratio);
+    WorldDef def = layers_def(24, 32, ratio);
     def.pressure_sweeps = sweeps;
     TestWorld<Real> world(def);
     ASSERT_EQ(world->fill({{0, 0}, {24, 14}}, nullptr, Liquid::second), Status::ok);
@@ -112,7 +109,7 @@ void expect_growth(float ratio, float dt_s) {
     SCOPED_TRACE(ratio);
     constexpr std::int32_t kWave = 24;
     constexpr double kStart = 0.5;
-    WorldDef def = tank_def(kWave, 2 * kWave + 4, ratio);
+    WorldDef def = layers_def(kWave, 2 * kWave + 4, ratio);
     def.pressure_sweeps = 300;
     TestWorld<float> world(def);
     const double k = 2.0 * kPi / kWave;
@@ -162,7 +159,7 @@ TEST(TwoLiquids, HeavyOverLightOverturnsAtRayleighsRate) {
 
 /// Left to itself the heavy liquid ends below, mostly, and no energy comes from nowhere.
 TEST(TwoLiquids, HeavyOverLightEndsBelow) {
-    WorldDef def = tank_def(24, 32, 4.0F);
+    WorldDef def = layers_def(24, 32, 4.0F);
     TestWorld<float> world(def);
     ASSERT_EQ(world->fill({{0, 0}, {24, 12}}), Status::ok);
     ASSERT_EQ(world->fill({{0, 12}, {24, 24}}, nullptr, Liquid::second), Status::ok);
@@ -184,7 +181,7 @@ TEST(TwoLiquids, HeavyOverLightEndsBelow) {
 
 /// What falls freely knows nothing of its densities.
 TEST(TwoLiquids, AMixedBlockFallsAsOne) {
-    WorldDef def = tank_def(24, 64, 8.0F);
+    WorldDef def = layers_def(24, 64, 8.0F);
     def.volume_gain = 0.0F;
     TestWorld<double> world(def);
     ASSERT_EQ(world->fill({{8, 40}, {12, 56}}, nullptr, Liquid::second), Status::ok);
@@ -279,10 +276,7 @@ void expect_same_bits(WorldDef def, int steps) {
 }
 
 TEST(TwoLiquids, EqualDensitiesAreOneLiquidToTheBit) {
-    WorldDef def;
-    def.capacity.cells_x = 30;
-    def.capacity.cells_y = 20;
-    def.capacity.particles = 1000;
+    WorldDef def = tank_def(30, 20, 1000);
     expect_same_bits<float>(def, 100);
     expect_same_bits<double>(def, 50);
     def.periodic_x = true;

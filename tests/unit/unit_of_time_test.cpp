@@ -290,10 +290,7 @@ TEST(UnitOfTime, SnapshotsKeepIt) {
 
 // Slow liquid whose unit suits it comes to rest to the bit as fast liquid does.
 TEST(UnitOfTime, WhatIsSlowComesToRest) {
-    WorldDef def;
-    def.capacity.cells_x = 16;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 600;
+    WorldDef def = tank_def(16, 16, 600);
     def.gravity_mps2.y = -0.1F;
     def.top_speed_mps = 0.4F;
     TestWorld<SmallFixed> world(def);

@@ -16,10 +16,7 @@ inline constexpr std::int32_t kAllKinds = 15;  ///< and with them
 
 /// Worlds in a tank that is large for their liquid.
 inline WorldDef wide_def(std::int32_t kind) {
-    WorldDef def;
-    def.capacity.particles = 500;
-    def.capacity.cells_x = 250;
-    def.capacity.cells_y = 150;
+    WorldDef def = tank_def(250, 150, 500);
     def.walls = every_wall({0.0F, 0.5F, false, 0.0F});
     switch (kind) {
         case 1:

@@ -95,13 +95,7 @@ TYPED_TEST(WorkBoundOf, AskingChangesNothing) {
 
 /// A tank of 24 × 16 cells as full as it can be.
 WorldDef full_def() {
-    WorldDef def;
-    def.capacity.cells_x = 24;
-    def.capacity.cells_y = 16;
-    def.capacity.particles = 4 * 24 * 16;
-    def.capacity.bodies = 8;
-    def.capacity.vertices = 64;
-    return def;
+    return tank_def(24, 16, 4 * 24 * 16, 8, 64);
 }
 
 void expect_tight(World<float>& world, const char* what) {
