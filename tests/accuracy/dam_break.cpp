@@ -204,12 +204,8 @@ void report_dam_break(Report& report, const Effort& effort) {
         {"energy_rise", "E0", {{16, 1e-4}, {32, 1e-4}, {64, 1e-4}, {128, 1e-4}}}};
     std::vector<Curve> curves[6];
     const char* const names[6] = {"front", "energy", "P1", "P2", "P3", "P4"};
-    const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
-    const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort), 3},
-                                     {Kind::equation_of_state, few, others},
-                                     {Kind::reference, few, others}};
-    for (const Plan& plan : chosen(effort, plans)) {
+    for (const Plan& plan : beside_others(effort, resolutions(effort),
+                                          {Kind::equation_of_state, Kind::reference})) {
         const auto last = sweep(report, effort, "R5A", plan, metrics, run_dam_break);
         for (std::size_t k = 0; k < last.size(); ++k) {
             const std::string title = title_of(plan, k);

@@ -127,18 +127,14 @@ Curve exact_axes(const Matrix& gradient) {
 }  // namespace
 
 void report_free_drop(Report& report, const Effort& effort) {
-    const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
-    const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
     for (const bool with_spin : {false, true}) {
         const Matrix gradient = with_spin ? kStrainAndSpin : kStrain;
         const std::string name = with_spin ? "R7b" : "R7a";
         report.heading(name + " free drop, " + (with_spin ? "strain and spin" : "strain"));
         std::vector<Curve> curves;
         const int most = 64;
-        const std::vector<Plan> plans = {{Kind::projection, resolutions(effort, most), 3},
-                                         {Kind::equation_of_state, few, others},
-                                         {Kind::reference, few, others}};
-        for (const Plan& plan : chosen(effort, plans)) {
+        for (const Plan& plan : beside_others(effort, resolutions(effort, most),
+                                              {Kind::equation_of_state, Kind::reference})) {
             const auto last =
                 sweep(report, effort, name, plan, metrics_of(with_spin),
                       [&](Scheme& s, const Case& c) { return run_free_drop(s, c, gradient); });

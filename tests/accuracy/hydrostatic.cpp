@@ -151,12 +151,8 @@ void report_hydrostatic(Report& report, const Effort& effort) {
         {"centre_height_error", "%", {}}};
     std::vector<Curve> profiles;
     std::vector<Curve> speeds;
-    const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
-    const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort), 3},
-                                     {Kind::equation_of_state, few, others},
-                                     {Kind::reference, few, others}};
-    for (const Plan& plan : chosen(effort, plans)) {
+    for (const Plan& plan : beside_others(effort, resolutions(effort),
+                                          {Kind::equation_of_state, Kind::reference})) {
         const auto last = sweep(report, effort, "R4a", plan, metrics, run_hydrostatic);
         for (std::size_t k = 0; k < last.size(); ++k) {
             const std::string title = title_of(plan, k);

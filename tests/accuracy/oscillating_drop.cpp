@@ -106,13 +106,9 @@ void report_oscillating_drop(Report& report, const Effort& effort) {
         {"angular_momentum", "rho A0 R^4", {{32, 1e-6}, {64, 1e-6}, {128, 1e-6}}}};
     std::vector<Curve> major;
     std::vector<Curve> energies;
-    const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
-    const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort, 64), 3},
-                                     {Kind::projection_double, few, others},
-                                     {Kind::equation_of_state, few, others},
-                                     {Kind::reference, few, others}};
-    for (const Plan& plan : chosen(effort, plans)) {
+    for (const Plan& plan :
+         beside_others(effort, resolutions(effort, 64),
+                       {Kind::projection_double, Kind::equation_of_state, Kind::reference})) {
         const auto last = sweep(
             report, effort, "R8", plan, metrics,
             [](Scheme& s, const Case& c) { return run_oscillating_drop(s, c, kPeriods); });

@@ -31,6 +31,10 @@ struct Plan {
 /// What runs: all plans, or with `effort.scheme` those of its method in float, in its format.
 std::vector<Plan> chosen(const Effort& effort, const std::vector<Plan>& plans);
 
+/// What runs where projection is measured, and others only stand beside it at one resolution.
+std::vector<Plan> beside_others(const Effort& effort, const std::vector<int>& cells,
+                                const std::vector<Kind>& others);
+
 /// Runs a plan and reports every metric, worst lattice counting, and the convergence orders.
 /// Resolutions end where the scheme is unable to hold the problem.
 /// @return the outcomes on the last lattice that was run, one for each resolution.

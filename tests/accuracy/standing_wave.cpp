@@ -104,13 +104,9 @@ void report_standing_wave(Report& report, const Effort& effort) {
         {"frequency_error", "%", {{32, 0.5}, {64, 0.2}, {128, 0.1}}},
         {"loss_per_period", "%", {{32, 1.0}, {64, 0.4}, {128, 0.1}}}};
     std::vector<Curve> curves;
-    const int others = effort.quick ? 3 : 1;  // lattices of the schemes that are only compared to
-    const std::vector<int> few = effort.quick ? std::vector<int>{16} : std::vector<int>{32};
-    const std::vector<Plan> plans = {{Kind::projection, resolutions(effort), 3},
-                                     {Kind::projection_double, few, others},
-                                     {Kind::equation_of_state, few, others},
-                                     {Kind::reference, few, others}};
-    for (const Plan& plan : chosen(effort, plans)) {
+    for (const Plan& plan :
+         beside_others(effort, resolutions(effort),
+                       {Kind::projection_double, Kind::equation_of_state, Kind::reference})) {
         const auto last = sweep(report, effort, "R6a", plan, metrics, run_standing_wave);
         for (std::size_t k = 0; k < last.size(); ++k) {
             const std::string title = title_of(plan, k);

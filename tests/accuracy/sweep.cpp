@@ -30,6 +30,15 @@ std::vector<Plan> chosen(const Effort& effort, const std::vector<Plan>& plans) {
     return result;
 }
 
+std::vector<Plan> beside_others(const Effort& effort, const std::vector<int>& cells,
+                                const std::vector<Kind>& others) {
+    std::vector<Plan> plans = {{Kind::projection, cells, 3}};
+    for (const Kind kind : others) {
+        plans.push_back({kind, {effort.quick ? 16 : 32}, effort.quick ? 3 : 1});
+    }
+    return chosen(effort, plans);
+}
+
 std::string title_of(const Plan& plan, std::size_t resolution) {
     return std::string(kind_name(plan.kind)) + " " + std::to_string(plan.cells[resolution]);
 }
