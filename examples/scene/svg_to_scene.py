@@ -41,20 +41,10 @@ from scene_header import header_text  # noqa: E402
 from svg_reader import DrawingError, read_drawing  # noqa: E402
 
 
-def whole_number(low, high):
-    """An argparse type: an integer in a range."""
+def within(kind, low, high):
+    """An argparse type: an int or float in a range."""
     def parse(text):
-        value = int(text)
-        if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"must be {low} .. {high}")
-        return value
-    return parse
-
-
-def number(low, high):
-    """An argparse type: a number in a range."""
-    def parse(text):
-        value = float(text)
+        value = kind(text)
         if not low <= value <= high:
             raise argparse.ArgumentTypeError(f"must be {low} .. {high}")
         return value
@@ -67,16 +57,17 @@ def parse_arguments(arguments):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("drawing", metavar="SCENE.svg", help="also .svgz")
     parser.add_argument("header", metavar="OUT.hpp", help="'-' writes to standard output")
-    parser.add_argument("--tolerance-cells", type=number(0.001, 1.0), default=0.1, metavar="T",
+    parser.add_argument("--tolerance-cells", type=within(float, 0.001, 1.0),
+                        default=0.1, metavar="T",
                         help="largest distance of polygons from curves, in cells (default 0.1)")
     size = parser.add_mutually_exclusive_group()
-    size.add_argument("--cells", type=whole_number(4, MAX_CELLS), default=0, metavar="N",
+    size.add_argument("--cells", type=within(int, 4, MAX_CELLS), default=0, metavar="N",
                       help="cells along the longer side; overrides data-cells")
-    size.add_argument("--particles", type=whole_number(1, 10_000_000), default=0, metavar="N",
+    size.add_argument("--particles", type=within(int, 1, 10_000_000), default=0, metavar="N",
                       help="choose the finest grid that needs at most N particles")
-    parser.add_argument("--min-opacity", type=number(0.0, 1.0), default=0.0, metavar="A",
+    parser.add_argument("--min-opacity", type=within(float, 0.0, 1.0), default=0.0, metavar="A",
                         help="ignore fainter shapes, such as shadows (default 0)")
-    parser.add_argument("--margin", type=number(0.0, 4.0), default=0.0, metavar="M",
+    parser.add_argument("--margin", type=within(float, 0.0, 4.0), default=0.0, metavar="M",
                         help="room on either side, as a share of the page's width (default 0): "
                         "lets liquid run past a drawing that fills its page")
     parser.add_argument("--name", help="the scene's name (default: the file's)")
