@@ -130,9 +130,7 @@ void print_totals(std::int32_t steps, const Totals& totals) {
     port::print("stack ", static_cast<std::uint64_t>(port::stack_high_water()), " ",
                 static_cast<std::uint64_t>(port::stack_bytes()), "\n");
     port::print("code ", static_cast<std::uint64_t>(port::code_bytes()), "\n");
-    const std::uint64_t hash = g_world.state_hash();
-    port::print("hash ", port::hex(static_cast<std::uint32_t>(hash >> 32U)),
-                port::hex(static_cast<std::uint32_t>(hash)), "\n");
+    port::print("hash ", port::hex(g_world.state_hash()), "\n");
 }
 
 }  // namespace

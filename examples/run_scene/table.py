@@ -46,7 +46,7 @@ def print_table(host, target, board):
             print(row("  " + name.split()[1], *map(thousands, values + target[name])))
     print()
     same = host["hash"] == target["hash"]
-    digits = [run["hash"][0].replace("0x", "") for run in (host, target)]
+    digits = [run["hash"][0][2:] for run in (host, target)]
     print(fact("state hash", f"{digits[0]} on this machine, {digits[1]} on {board}: "
                + ("equal" if same else "DIFFERENT")))
     if any(run["clamped"] != ["0"] for run in (host, target)):
