@@ -265,45 +265,31 @@ void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls,
 
 }  // namespace
 
-template <class Real>
+template <bool Solids, class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
                 const CoupledSolve<Real>* coupled, Work work) {
     // Packed worlds have one for both: little room for code.
-    const auto stage = Stored<Real>::coarse || walls.active ? make_incompressible<true, Real>
+    const auto stage = Stored<Real>::coarse || walls.active ? make_incompressible<Solids, Real>
                                                             : make_incompressible<false, Real>;
     stage(borders, walls, dt_s, sweeps, grid, fields, coupled, work);
 }
 
-template <class Real>
-void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                        Seconds<Real> dt_s, std::int32_t sweeps, StaggeredGrid<Real>& grid,
-                        PressureFields<Real>& fields, Work work) {
-    make_incompressible<false, Real>(borders, walls, dt_s, sweeps, grid, fields, nullptr, work);
-}
-
-template <class Real>
-const detail::SecondLiquid<Real>& detail::second_liquid_in_open() {
-    static constexpr SecondLiquid<Real> kStages = stages_of_two<false, Real>();
+template <bool Solids, class Real>
+const detail::SecondLiquid<Real>& detail::second_liquid() {
+    static constexpr SecondLiquid<Real> kStages = stages_of_two<Solids, Real>();
     return kStages;
 }
 
-template <class Real>
-const detail::SecondLiquid<Real>& detail::second_liquid_among_solids() {
-    static constexpr SecondLiquid<Real> kStages = stages_of_two<true, Real>();
-    return kStages;
-}
-
-#define WEIR_INSTANTIATE(Real)                                                                \
-    template const detail::SecondLiquid<Real>& detail::second_liquid_in_open<Real>();         \
-    template const detail::SecondLiquid<Real>& detail::second_liquid_among_solids<Real>();    \
-    template void projection(const Borders<Real>&, const Walls<Real>&, Seconds<Real>,         \
-                             std::int32_t, StaggeredGrid<Real>&, PressureFields<Real>&,       \
-                             const CoupledSolve<Real>*, Work);                                \
-    template void projection_in_open(const Borders<Real>&, const Walls<Real>&, Seconds<Real>, \
-                                     std::int32_t, StaggeredGrid<Real>&,                      \
-                                     PressureFields<Real>&, Work);
+#define WEIR_INSTANTIATE_PROJECTION(Solids, Real)                                                 \
+    template const detail::SecondLiquid<Real>& detail::second_liquid<Solids, Real>();             \
+    template void projection<Solids>(const Borders<Real>&, const Walls<Real>&, Seconds<Real>,     \
+                                     std::int32_t, StaggeredGrid<Real>&, PressureFields<Real>&,   \
+                                     const CoupledSolve<Real>*, Work);
+#define WEIR_INSTANTIATE(Real) \
+    WEIR_INSTANTIATE_PROJECTION(false, Real) WEIR_INSTANTIATE_PROJECTION(true, Real)
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
+#undef WEIR_INSTANTIATE_PROJECTION
 
 }  // namespace weir

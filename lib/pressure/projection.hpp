@@ -23,17 +23,11 @@ inline constexpr std::int32_t kColdStart = 8;
 /// is the same on every machine. Cost: about 10 operations a liquid cell and sweep.
 /// Compressible liquid (`fields.elasticity`) is not solved for: its pressure moves on by a step of
 /// the equation of state. `coupled`: free bodies that are solved for together with the pressure,
-/// or null.
-template <class Real>
+/// or null. Without `Solids`: a program that adds none links nothing of them.
+template <bool Solids, class Real>
 void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                 std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
                 const CoupledSolve<Real>* coupled = nullptr, Work work = {});
-
-/// The same where there are no solids: a program that adds none links nothing of them.
-template <class Real>
-void projection_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                        Seconds<Real> dt_s, std::int32_t sweeps, StaggeredGrid<Real>& grid,
-                        PressureFields<Real>& fields, Work work);
 
 /// Of some rows those that are so near to liquid, once there are equations; all across a seam.
 template <class Real>

@@ -154,32 +154,24 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
 
 }  // namespace
 
-template <class Real>
+template <bool Solids, class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
                        StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
-    const auto stage = Stored<Real>::coarse || walls.active ? keep_volume<true, Real>
+    const auto stage = Stored<Real>::coarse || walls.active ? keep_volume<Solids, Real>
                                                             : keep_volume<false, Real>;
     stage(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
 }
 
-template <class Real>
-void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                               Seconds<Real> dt_s, Real gain, Vec2<Real> weight,
-                               PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
-                               std::int32_t& overfull, Work work) {
-    keep_volume<false, Real>(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
-}
-
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template void volume_correction(const Borders<Real>&, const Walls<Real>&,               \
-                                    Seconds<Real>, Real, Vec2<Real>, PressureFields<Real>&, \
-                                    StaggeredGrid<Real>&, std::int32_t&, Work);             \
-    template void volume_correction_in_open(const Borders<Real>&, const Walls<Real>&,       \
-                                            Seconds<Real>, Real, Vec2<Real>,                \
-                                            PressureFields<Real>&, StaggeredGrid<Real>&,    \
+#define WEIR_INSTANTIATE_VOLUME(Solids, Real)                                                   \
+    template void volume_correction<Solids>(const Borders<Real>&, const Walls<Real>&,           \
+                                            Seconds<Real>, Real, Vec2<Real>,                    \
+                                            PressureFields<Real>&, StaggeredGrid<Real>&,        \
                                             std::int32_t&, Work);
+#define WEIR_INSTANTIATE(Real) \
+    WEIR_INSTANTIATE_VOLUME(false, Real) WEIR_INSTANTIATE_VOLUME(true, Real)
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
+#undef WEIR_INSTANTIATE_VOLUME
 
 }  // namespace weir

@@ -17,16 +17,10 @@ namespace weir {
 /// the drift, and only the change that particles gather the price.
 /// `overfull`: liquid cells in patches of 4 × 4 that hold far more than they have room for, which
 /// no drift cures; 0 with surface tension.
-template <class Real>
+/// Without `Solids`: a program that adds none links nothing of them.
+template <bool Solids, class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
                        Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
                        StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work = {});
-
-/// The same where there are no solids: a program that adds none links nothing of them.
-template <class Real>
-void volume_correction_in_open(const Borders<Real>& borders, const Walls<Real>& walls,
-                               Seconds<Real> dt_s, Real gain, Vec2<Real> weight,
-                               PressureFields<Real>& fields, StaggeredGrid<Real>& grid,
-                               std::int32_t& overfull, Work work);
 
 }  // namespace weir

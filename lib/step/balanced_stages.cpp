@@ -14,8 +14,7 @@ void balanced_substep(Simulation<Real>& simulation, const SubstepPlan<Real>& pla
     StageClock opening(simulation.ticks, work, report);
     simulation.two_way->open_ledger(simulation, work);
     opening.charge(Stage::particle_to_grid);
-    const Stages<Real>& stages = Solids ? solid_stages<Real>() : open_stages<Real>();
-    stages.substep(simulation, plan, work, report);
+    plain_stages<Solids, Real>().substep(simulation, plan, work, report);
     StageClock closing(simulation.ticks, work, report);
     simulation.two_way->close_ledger(simulation, plan.dt_s, work);
     closing.charge(Stage::collide);
@@ -23,19 +22,14 @@ void balanced_substep(Simulation<Real>& simulation, const SubstepPlan<Real>& pla
 
 }  // namespace
 
-template <class Real>
-const Stages<Real>& balanced_open_stages() {
-    return stages_in_open<Real, balanced_substep<false, Real>>();
+template <bool Solids, class Real>
+const Stages<Real>& balanced_stages() {
+    return stages_around<Solids, Real, balanced_substep<Solids, Real>>();
 }
 
-template <class Real>
-const Stages<Real>& balanced_solid_stages() {
-    return stages_among_solids<Real, balanced_substep<true, Real>>();
-}
-
-#define WEIR_INSTANTIATE(Real)                                 \
-    template const Stages<Real>& balanced_open_stages<Real>(); \
-    template const Stages<Real>& balanced_solid_stages<Real>();
+#define WEIR_INSTANTIATE(Real)                                   \
+    template const Stages<Real>& balanced_stages<false, Real>(); \
+    template const Stages<Real>& balanced_stages<true, Real>();
 WEIR_FOR_PACKED(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

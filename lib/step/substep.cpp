@@ -73,21 +73,15 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
                                       work);
         }
     }
-    if constexpr (Solids) {
-        const auto solve = [&](const CoupledSolve<Real>* coupled) {
-            projection(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
-                       simulation.pressure, coupled, work);
-        };
-        if (simulation.free_bodies != nullptr && elasticity == nullptr) {
-            const CoupledSolve<Real> coupled = simulation.two_way->coupled_solve(simulation,
-                                                                                 plan.dt_s);
-            solve(&coupled);
-        } else {
-            solve(nullptr);
-        }
+    const auto solve = [&](const CoupledSolve<Real>* coupled) {
+        projection<Solids>(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
+                           simulation.pressure, coupled, work);
+    };
+    if (Solids && simulation.free_bodies != nullptr && elasticity == nullptr) {
+        const CoupledSolve<Real> coupled = simulation.two_way->coupled_solve(simulation, plan.dt_s);
+        solve(&coupled);
     } else {
-        projection_in_open(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
-                           simulation.pressure, work);
+        solve(nullptr);
     }
     extrapolate(settings.borders, walls, simulation.pressure,
                 settings.surface_tension > Real(0), simulation.grid, work);
@@ -350,9 +344,9 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
     // In Fixed drift ends by itself: what does not make a last digit of a place is none.
     if (settings.volume_gain > Real(0) && !(Stored<Real>::coarse && plan.settling)) {
-        const auto stage = Solids ? volume_correction<Real> : volume_correction_in_open<Real>;
-        stage(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
-              dt_s * settings.gravity, simulation.pressure, grid, report.cells_overfull, work);
+        volume_correction<Solids>(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
+                                  dt_s * settings.gravity, simulation.pressure, grid,
+                                  report.cells_overfull, work);
     }
     clock.charge(Stage::volume);
 
@@ -376,19 +370,14 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
 
 }  // namespace
 
-template <class Real>
-const Stages<Real>& open_stages() {
-    return stages_in_open<Real, substep<false, Real>>();
+template <bool Solids, class Real>
+const Stages<Real>& plain_stages() {
+    return stages_around<Solids, Real, substep<Solids, Real>>();
 }
 
-template <class Real>
-const Stages<Real>& solid_stages() {
-    return stages_among_solids<Real, substep<true, Real>>();
-}
-
-#define WEIR_INSTANTIATE(Real)                        \
-    template const Stages<Real>& open_stages<Real>(); \
-    template const Stages<Real>& solid_stages<Real>();
+#define WEIR_INSTANTIATE(Real)                                \
+    template const Stages<Real>& plain_stages<false, Real>(); \
+    template const Stages<Real>& plain_stages<true, Real>();
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

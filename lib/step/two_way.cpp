@@ -172,25 +172,25 @@ constexpr Decompose<Real> decomposer() {
 
 }  // namespace
 
-template <class Real>
-const detail::TwoWay<Real>& detail::two_way_in_open() {
-    static constexpr TwoWay<Real> kStages{open_ledger<Real>, press_tank<Real>, close_ledger<Real>,
-                                          nullptr, nullptr, nullptr, nullptr, nullptr};
-    return kStages;
+template <bool Solids, class Real>
+const detail::TwoWay<Real>& detail::two_way() {
+    if constexpr (Solids) {
+        static constexpr TwoWay<Real> kStages{open_ledger<Real>,   press_tank<Real>,
+                                              close_ledger<Real>,  accelerate_bodies<Real>,
+                                              coupled_solve<Real>, press_bodies<Real>,
+                                              move_free_bodies<Real>, decomposer<Real>()};
+        return kStages;
+    } else {
+        static constexpr TwoWay<Real> kStages{open_ledger<Real>, press_tank<Real>,
+                                              close_ledger<Real>, nullptr, nullptr, nullptr,
+                                              nullptr, nullptr};
+        return kStages;
+    }
 }
 
-template <class Real>
-const detail::TwoWay<Real>& detail::two_way_among_solids() {
-    static constexpr TwoWay<Real> kStages{open_ledger<Real>,   press_tank<Real>,
-                                          close_ledger<Real>,  accelerate_bodies<Real>,
-                                          coupled_solve<Real>, press_bodies<Real>,
-                                          move_free_bodies<Real>, decomposer<Real>()};
-    return kStages;
-}
-
-#define WEIR_INSTANTIATE(Real)                                                 \
-    template const detail::TwoWay<Real>& detail::two_way_in_open<Real>();      \
-    template const detail::TwoWay<Real>& detail::two_way_among_solids<Real>();
+#define WEIR_INSTANTIATE(Real)                                           \
+    template const detail::TwoWay<Real>& detail::two_way<false, Real>(); \
+    template const detail::TwoWay<Real>& detail::two_way<true, Real>();
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

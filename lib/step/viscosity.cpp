@@ -69,21 +69,15 @@ void diffuse_faces(const Borders<Real>& borders, const Walls<Real>& walls,
 
 }  // namespace
 
-template <class Real>
-const detail::Viscosity<Real>& detail::viscosity_in_open() {
-    static constexpr Viscosity<Real> kStage{diffuse_faces<false, Real>};
+template <bool Solids, class Real>
+const detail::Viscosity<Real>& detail::viscosity() {
+    static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>};
     return kStage;
 }
 
-template <class Real>
-const detail::Viscosity<Real>& detail::viscosity_among_solids() {
-    static constexpr Viscosity<Real> kStage{diffuse_faces<true, Real>};
-    return kStage;
-}
-
-#define WEIR_INSTANTIATE(Real)                                               \
-    template const detail::Viscosity<Real>& detail::viscosity_in_open<Real>();\
-    template const detail::Viscosity<Real>& detail::viscosity_among_solids<Real>();
+#define WEIR_INSTANTIATE(Real)                                                \
+    template const detail::Viscosity<Real>& detail::viscosity<false, Real>(); \
+    template const detail::Viscosity<Real>& detail::viscosity<true, Real>();
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -263,7 +263,7 @@ double divergence_left(std::int32_t sweeps) {
     bench.mass_u.assign(bench.mass_u.size(), 0.0);  // at rest before: no divergence is asked for
     bench.mass_v.assign(bench.mass_v.size(), 0.0);
     const double before = divergence_of(bench);
-    projection(bench.borders, bench.walls, 0.01, sweeps, bench.grid, bench.fields);
+    projection<true>(bench.borders, bench.walls, 0.01, sweeps, bench.grid, bench.fields);
     return divergence_of(bench) / before;
 }
 
@@ -280,7 +280,7 @@ TEST(Projection, APoolAtRestGetsHydrostaticPressure) {
     bench.scatter();
     surface_level(bench.grid, bench.borders, bench.walls, 4.0, bench.fields);
     grid_update(bench.borders, {0, -4.9}, bench.fields, bench.grid);
-    projection(bench.borders, bench.walls, 0.01, 1000, bench.grid, bench.fields);
+    projection<true>(bench.borders, bench.walls, 0.01, 1000, bench.grid, bench.fields);
     // The level of a 2 × 2 lattice is a little off the drawn surface: 5 % of a cell.
     for (std::int32_t j = 0; j < 10; ++j) {
         const double depth = 10.0 - (j + 0.5);

@@ -11,15 +11,12 @@ namespace weir {
 
 template <class Real>
 struct Stages;
-template <class Real>
-const Stages<Real>& open_stages();
-template <class Real>
-const Stages<Real>& solid_stages();
+/// `Solids`, here and below: there is room for bodies.
+template <bool Solids, class Real>
+const Stages<Real>& plain_stages();
 /// The same in packed worlds with `Capacity::two_way`.
-template <class Real>
-const Stages<Real>& balanced_open_stages();
-template <class Real>
-const Stages<Real>& balanced_solid_stages();
+template <bool Solids, class Real>
+const Stages<Real>& balanced_stages();
 
 namespace detail {
 
@@ -41,20 +38,14 @@ template <class Real>
 const Elasticity<Real>& elasticity();
 template <class Real>
 const RowOrder<Real>& row_order();
-template <class Real>
-const SecondLiquid<Real>& second_liquid_in_open();
-template <class Real>
-const SecondLiquid<Real>& second_liquid_among_solids();
+template <bool Solids, class Real>
+const SecondLiquid<Real>& second_liquid();
 template <class Real>
 const Tension<Real>& tension();
-template <class Real>
-const TwoWay<Real>& two_way_in_open();
-template <class Real>
-const TwoWay<Real>& two_way_among_solids();
-template <class Real>
-const Viscosity<Real>& viscosity_in_open();
-template <class Real>
-const Viscosity<Real>& viscosity_among_solids();
+template <bool Solids, class Real>
+const TwoWay<Real>& two_way();
+template <bool Solids, class Real>
+const Viscosity<Real>& viscosity();
 
 /// Null: nothing in the definition asks for it, and it can never be called. A snapshot goes only
 /// into a world of the same definition.
@@ -75,7 +66,7 @@ template <class Real>
     const Capacity& room = def.capacity;
     const bool open = room.bodies == 0;
     Features<Real> features;
-    features.stages = open ? &open_stages<Real>() : &solid_stages<Real>();
+    features.stages = open ? &plain_stages<false, Real>() : &plain_stages<true, Real>();
     if (def.pressure == Pressure::equation_of_state) {
         features.elasticity = &elasticity<Real>();
     }
@@ -84,20 +75,20 @@ template <class Real>
     }
     if (room.second_liquid) {
         features.second_liquid =
-            open ? &second_liquid_in_open<Real>() : &second_liquid_among_solids<Real>();
+            open ? &second_liquid<false, Real>() : &second_liquid<true, Real>();
     }
     if (def.surface_tension_m3ps2 > 0.0F) {
         features.tension = &tension<Real>();
     }
     if (room.two_way) {
-        features.two_way = open ? &two_way_in_open<Real>() : &two_way_among_solids<Real>();
+        features.two_way = open ? &two_way<false, Real>() : &two_way<true, Real>();
         if constexpr (Stored<Real>::shares_momentum) {
             features.stages =
-                open ? &balanced_open_stages<Real>() : &balanced_solid_stages<Real>();
+                open ? &balanced_stages<false, Real>() : &balanced_stages<true, Real>();
         }
     }
     if (def.viscosity_m2ps > 0.0F) {
-        features.viscosity = open ? &viscosity_in_open<Real>() : &viscosity_among_solids<Real>();
+        features.viscosity = open ? &viscosity<false, Real>() : &viscosity<true, Real>();
     }
     return features;
 }

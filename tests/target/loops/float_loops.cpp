@@ -169,9 +169,9 @@ void project(bool solids) {
         walls.open_u = g_fields.open_u;
         walls.open_v = g_fields.open_v;
         walls.full_density = g_fields.open_u;  // as good as any
-        weir::projection<float>({}, walls, 0.01F, sweeps, to, fields);
+        weir::projection<true, float>({}, walls, 0.01F, sweeps, to, fields);
     } else {
-        weir::projection_in_open<float>({}, walls, 0.01F, sweeps, to, fields, {});
+        weir::projection<false, float>({}, walls, 0.01F, sweeps, to, fields);
     }
     for (std::int32_t j = 0; j < to.shape.ny; ++j) {
         for (std::int32_t i = 0; i < to.shape.nx; ++i) {
