@@ -27,12 +27,10 @@ const Ring kArrow = {{-0.1F, -0.08F}, {0.12F, 0.0F}, {-0.1F, 0.09F}, {-0.03F, 0.
 
 TEST(Names, GenerationsTellSuccessorsApart) {
     TestWorld<float> world(small_def());
-    BodyId first;
-    ASSERT_EQ(world->add_static_body(body_of(kTriangle, {0.1F, 0.1F}), &first), Status::ok);
+    const BodyId first = put_static(*world, body_of(kTriangle, {0.1F, 0.1F}));
     ASSERT_EQ(world->remove_body(first), Status::ok);
     EXPECT_EQ(world->remove_body(first), Status::stale_body);
-    BodyId second;
-    ASSERT_EQ(world->add_moving_body(body_of(kTriangle, {0.1F, 0.1F}), &second), Status::ok);
+    const BodyId second = put_moving(*world, body_of(kTriangle, {0.1F, 0.1F}));
     EXPECT_EQ(second.slot, first.slot);
     EXPECT_NE(second.generation, first.generation);
     Motion motion;
@@ -53,8 +51,7 @@ TEST(Names, EachBodyHasItsOwn) {
 
 TEST(Names, OldNamesStayStaleAfterInitOfTheSameMemory) {
     TestWorld<float> world(small_def());
-    BodyId old;
-    ASSERT_EQ(world->add_moving_body(body_of(kTriangle, {0.1F, 0.1F}), &old), Status::ok);
+    const BodyId old = put_moving(*world, body_of(kTriangle, {0.1F, 0.1F}));
     ASSERT_EQ(world.init_again(), Status::ok);
     Motion motion;
     EXPECT_EQ(world->motion(old, &motion), Status::stale_body) << "no body exists";
@@ -123,9 +120,8 @@ TEST(VertexPool, IsWholeAgainAfterAThousandBodies) {
     for (const BodyId id : alive) {
         ASSERT_EQ(world->remove_body(id), Status::ok);
     }
-    BodyId id;
     for (int k = 0; k < 3; ++k) {
-        ASSERT_EQ(world->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id), Status::ok);
+        put_static(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
     }
 }
 
@@ -133,8 +129,7 @@ TEST(Field, SignedDistanceIsExactNearTheWall) {
     for (const float angle : {0.0F, 0.4F, 1.9F, -2.7F}) {
         TestWorld<float> world(field_def(1, 4));
         const BodyDef def = body_of(kArrow, {0.41F, 0.29F}, angle);
-        BodyId id;
-        ASSERT_EQ(world->add_static_body(def, &id), Status::ok);
+        put_static(*world, def);
         expect_field(*world, {placed(kArrow, def.motion)});
     }
 }
@@ -144,10 +139,9 @@ TEST(Field, OverlappingBodiesAreTheirUnion) {
     const BodyDef a = body_of(kArrow, {0.41F, 0.29F}, 0.4F);
     const BodyDef b = body_of(kArrow, {0.45F, 0.27F}, 2.2F);
     const BodyDef c = body_of(kArrow, {0.35F, 0.33F}, -1.2F);
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(a, &id), Status::ok);
-    ASSERT_EQ(world->add_moving_body(b, &id), Status::ok);
-    ASSERT_EQ(world->add_moving_body(c, &id), Status::ok);
+    put_static(*world, a);
+    put_moving(*world, b);
+    put_moving(*world, c);
     expect_field(*world, {placed(kArrow, a.motion), placed(kArrow, b.motion),
                           placed(kArrow, c.motion)});
 }
@@ -157,9 +151,8 @@ TEST(Field, BodiesThatReachBeyondTheTank) {
     const Ring wide = rectangle(2.0F, 0.1F);
     const BodyDef a = body_of(wide, {0.4F, 0.0F}, 0.1F);
     const BodyDef b = body_of(wide, {0.8F, 0.3F}, 1.5F);
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(a, &id), Status::ok);
-    ASSERT_EQ(world->add_moving_body(b, &id), Status::ok);
+    put_static(*world, a);
+    put_moving(*world, b);
     expect_field(*world, {placed(wide, a.motion), placed(wide, b.motion)});
 }
 
@@ -168,8 +161,7 @@ TEST(Field, MidEdgeIsPlusOrMinusHalf) {
     def.contour = Contour::mid_edge;
     TestWorld<float> world(def);
     const BodyDef body = body_of(kArrow, {0.41F, 0.29F}, 0.4F);
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(body, &id), Status::ok);
+    put_static(*world, body);
     const std::vector<Point> ring = placed(kArrow, body.motion);
     const FieldView<float> field = world->signed_distance();
     const Point tank{double(world->cells_x()), double(world->cells_y())};
@@ -195,8 +187,7 @@ TEST(Field, MidEdgeKeepsAWallOnNodes) {
     def.cell_m = 0.03125F;  // exact in binary
     TestWorld<float> world(def);
     const Ring wall = {{0, 0}, {0.03125F, 0}, {0.03125F, 0.3125F}, {0, 0.3125F}};
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(body_of(wall, {0.3125F, 0}), &id), Status::ok);
+    put_static(*world, body_of(wall, {0.3125F, 0}));
     EXPECT_EQ(world->signed_distance().at(10, 5), -0.5F);
     EXPECT_EQ(world->signed_distance().at(11, 5), -0.5F);
 }
@@ -233,9 +224,8 @@ std::int32_t nodes_around(const std::vector<Point>& a, const std::vector<Point>&
 
 TEST(Cache, NothingMovedNothingIsRasterized) {
     TestWorld<float> world(field_def(2, 8));
-    BodyId fixed;
     BodyId moving;
-    ASSERT_EQ(world->add_static_body(body_of(kArrow, {0.2F, 0.2F}), &fixed), Status::ok);
+    put_static(*world, body_of(kArrow, {0.2F, 0.2F}));
     ASSERT_EQ(world->add_moving_body(body_of(kSquare4cm, {0.5F, 0.3F}), &moving), Status::ok);
     ASSERT_EQ(world->fill({{0, 0}, {0.3F, 0.2F}}), Status::ok);
     for (int step = 0; step < 10; ++step) {
@@ -249,10 +239,9 @@ TEST(Cache, NothingMovedNothingIsRasterized) {
 
 TEST(Cache, AMovedBodyTouchesItsRectanglesOnly) {
     TestWorld<float> world(field_def(3, 12));
-    BodyId id;
     BodyId moving;
     const BodyDef fixed = body_of(kArrow, {0.2F, 0.2F});
-    ASSERT_EQ(world->add_static_body(fixed, &id), Status::ok);
+    put_static(*world, fixed);
     BodyDef def = body_of(kSquare4cm, {0.3F, 0.3F}, 0.2F);
     ASSERT_EQ(world->add_moving_body(def, &moving), Status::ok);
     std::vector<Point> before = placed(kSquare4cm, def.motion);
@@ -274,14 +263,13 @@ TEST(Cache, AMovedBodyTouchesItsRectanglesOnly) {
 
 TEST(Cache, AMoveAppearsAlsoIfABodyIsAddedBeforeTheStep) {
     TestWorld<float> world(field_def(3, 12));
-    BodyId id;
     BodyId moving;
     BodyDef def = body_of(kSquare4cm, {0.3F, 0.3F});
     ASSERT_EQ(world->add_moving_body(def, &moving), Status::ok);
     def.motion.position_m = {0.5F, 0.4F};
     ASSERT_EQ(world->set_motion(moving, def.motion), Status::ok);
     const BodyDef other = body_of(kArrow, {0.15F, 0.15F});
-    ASSERT_EQ(world->add_moving_body(other, &id), Status::ok);
+    put_moving(*world, other);
     world->step(kFrame);
     expect_field(*world, {placed(kSquare4cm, def.motion), placed(kArrow, other.motion)});
 }
@@ -308,8 +296,7 @@ TEST(Motion, ConstantVelocityAndSpinGoOn) {
     BodyDef def = body_of(kArrow, {0.3F, 0.25F}, 0.1F);
     def.motion.velocity_mps = {0.1F, 0.05F};
     def.motion.spin_radps = 3.0F;
-    BodyId id;
-    ASSERT_EQ(world->add_moving_body(def, &id), Status::ok);
+    const BodyId id = put_moving(*world, def);
     for (int step = 1; step <= 120; ++step) {
         EXPECT_GT(world->step(kFrame).nodes_rasterized, 0);
         Motion now;
@@ -332,8 +319,7 @@ TEST(Motion, AStaticBodyIgnoresVelocity) {
     BodyDef def = body_of(kArrow, {0.3F, 0.25F}, 0.1F);
     def.motion.velocity_mps = {0.1F, 0.05F};
     def.motion.spin_radps = 3.0F;
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(def, &id), Status::ok);
+    const BodyId id = put_static(*world, def);
     EXPECT_EQ(world->step(kFrame).nodes_rasterized, 0);
     Motion now;
     ASSERT_EQ(world->motion(id, &now), Status::ok);
@@ -345,8 +331,7 @@ TEST(Motion, AStaticBodyIgnoresVelocity) {
 TEST(Motion, ABodyMayLeaveTheTankAndComeBack) {
     TestWorld<float> world(field_def(2, 8));
     BodyDef def = body_of(kSquare4cm, {0.3F, 0.3F});
-    BodyId id;
-    ASSERT_EQ(world->add_moving_body(def, &id), Status::ok);
+    const BodyId id = put_moving(*world, def);
     for (const Vec2f at : {Vec2f{-1.0F, 0.3F}, Vec2f{1500.0F, -1500.0F}, Vec2f{0.8F, 0.6F},
                            Vec2f{0.4F, 0.2F}}) {
         def.motion.position_m = at;
@@ -367,8 +352,7 @@ void check_comes_in() {
     ASSERT_EQ(world->add_moving_body(paddle, &id), Status::ok);
     const Motion begins = paddle.motion;
     paddle.motion.position_m = {0.3F, 0.3F};
-    BodyId led_id;
-    ASSERT_EQ(led->add_moving_body(paddle, &led_id), Status::ok);
+    const BodyId led_id = put_moving(*led, paddle);
     ASSERT_EQ(led->set_motion(led_id, begins), Status::ok);
     std::vector<std::byte> kept(snapshot_bytes<Real>(def.capacity));
     ASSERT_EQ(world->save(kept.data(), kept.size()), Status::ok);

@@ -113,8 +113,7 @@ TYPED_TEST(BodyContacts, OfTheTankCarryAndAreToldFromSplashes) {
     TestWorld<TypeParam> world{dry_def(4)};
     BodyDef crate = body_of(kCrate, {0.4F, 0.05F});
     crate.density_ratio = 3.0F;
-    BodyId id;
-    expect_ok(world->add_free_body(crate, &id));
+    const BodyId id = put_free(*world, crate);
     const float mass = mass_of(*world, id);
     for (int step = 0; step < 30; ++step) {
         const float dt = world->step(kDt).dt_s;
@@ -141,8 +140,7 @@ TYPED_TEST(BodyContacts, OfTheTankCarryAndAreToldFromSplashes) {
 /// While a step goes on they are sums that mean nothing yet: none is shown.
 TYPED_TEST(BodyContacts, AreShownOnceTheStepIsDone) {
     TestWorld<TypeParam> world{dry_def(4)};
-    BodyId id;
-    expect_ok(world->add_free_body(body_of(kCrate, {0.4F, 0.05F}), &id));
+    put_free(*world, body_of(kCrate, {0.4F, 0.05F}));
     for (int step = 0; step < 5; ++step) {
         StepReport report;
         expect_ok(world->begin_step(kDt, &report));
@@ -161,9 +159,7 @@ TYPED_TEST(BodyContacts, WithoutRoomChangeNothing) {
     for (const std::int32_t room : {0, 1}) {
         TestWorld<TypeParam> world{dry_def(room)};
         for (int k = 0; k < 3; ++k) {
-            BodyId id;
-            expect_ok(world->add_free_body(
-                body_of(kCrate, {0.4F, 0.05F + 0.1F * static_cast<float>(k)}), &id));
+            put_free(*world, body_of(kCrate, {0.4F, 0.05F + 0.1F * static_cast<float>(k)}));
         }
         std::int32_t missed = 0;
         for (int step = 0; step < 20; ++step) {

@@ -26,7 +26,7 @@ struct Splash {
         def.motion.position_m = {29.3F * kCell, 22.0F * kCell};
         def.motion.angle_rad = 0.2F;
         def.density_ratio = 0.4F;
-        expect_ok(world->add_free_body(def, &box));
+        box = put_free(*world, def);
         expect_ok(world->add_free_body(body_of(kSquare4cm, {0.7F, 0.7F}), &crate));
         expect_ok(world->fill({{0.0F, 0.0F}, {60 * kCell, 14 * kCell}}));
     }

@@ -42,7 +42,6 @@ BodyDef half_plane(Ring& ring, double normal_angle, float restitution) {
 struct Stand {
     TestWorld<float> world{free_flight()};
     Ring ring;
-    BodyId id;
     GridShape shape{32, 32, 34};
     std::vector<float> distance = std::vector<float>(34 * 34, kBand<float>);
     std::vector<std::uint16_t> nearest = std::vector<std::uint16_t>(34 * 34, 0);
@@ -52,7 +51,7 @@ struct Stand {
 
     Stand(double normal_angle, float restitution) {
         const BodyDef def = half_plane(ring, normal_angle, restitution);
-        EXPECT_EQ(world->add_static_body(def, &id), Status::ok);
+        put_static(*world, def);
         const FieldView<float> field = world->signed_distance();
         for (std::int32_t j = 0; j <= 32; ++j) {
             for (std::int32_t i = 0; i <= 32; ++i) {
@@ -217,8 +216,7 @@ TEST(Collide, AMovingWallLendsItsVelocity) {
 Vec2<double> thrown(double normal_angle, Vec2<double> v_mps, double& nearest) {
     TestWorld<float> world(free_flight());
     Ring ring;
-    BodyId id;
-    EXPECT_EQ(world->add_static_body(half_plane(ring, normal_angle, 1.0F), &id), Status::ok);
+    put_static(*world, half_plane(ring, normal_angle, 1.0F));
     const Vec2<double> n = unit(normal_angle);
     const Vec2<double> middle{16.0, 16.0};
     const Vec2<float> start = convert<float>(middle + 3.0 * n);
@@ -264,8 +262,7 @@ TEST(Collide, ARampFlushWithTheTankIsTight) {
     def.flip_ratio = 0.97F;
     TestWorld<float> world(def);
     const Ring ramp = {{0, 0}, {9 * kCell, 0}, {9 * kCell, 4.5F * kCell}};
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(body_of(ramp, {23 * kCell, 0}), &id), Status::ok);
+    put_static(*world, body_of(ramp, {23 * kCell, 0}));
     ASSERT_EQ(world->fill({{0, 0}, {0.24F, 0.4F}}), Status::ok);
     double deepest = 0.0;
     for (int step = 0; step < 180; ++step) {
@@ -285,8 +282,7 @@ TEST(Collide, AMovingWallPushesALayerOfLiquid) {
     Ring ring = rectangle(4 * kCell, 64 * kCell);
     BodyDef wall = body_of(ring, {4 * kCell, 16 * kCell});
     wall.motion.velocity_mps = {0.2F, 0};
-    BodyId id;
-    ASSERT_EQ(world->add_moving_body(wall, &id), Status::ok);
+    const BodyId id = put_moving(*world, wall);
     std::int32_t added = 0;
     ASSERT_EQ(world->fill({{6 * kCell, 0}, {8 * kCell, 0.64F}}, &added), Status::ok);
     ASSERT_EQ(added, 2 * 32 * 4);
@@ -313,8 +309,7 @@ TEST(Collide, NothingStaysInsideABodyPutOverLiquid) {
         std::int32_t added = 0;
         ASSERT_EQ(world->fill({{0, 0}, {0.64F, 0.24F}}, &added), Status::ok);
         const Ring ring = rectangle(width * kCell, 8 * kCell);
-        BodyId id;
-        ASSERT_EQ(world->add_static_body(body_of(ring, {0.31F, 0.13F}), &id), Status::ok);
+        put_static(*world, body_of(ring, {0.31F, 0.13F}));
         for (int step = 0; step < 240; ++step) {
             world->step(1.0F / 60.0F);
         }

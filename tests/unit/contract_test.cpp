@@ -138,8 +138,7 @@ TYPED_TEST(Contract, BoundsOfContoursHold) {
         body.polygon = {ring, 60};
         body.motion.position_m = {0.3F, 0.3F};
         body.motion.velocity_mps = {speed, 0};
-        BodyId id;
-        expect_ok(world->add_moving_body(body, &id));
+        put_moving(*world, body);
         for (int k = 0; k < 2; ++k) {
             WorkBound bound;
             expect_ok(world->work_bound(kDt, &bound));
@@ -207,8 +206,7 @@ TEST(ContractOfPackedWorlds, WhatIsTooFastSaturates) {
     const Ring ring = rectangle(0.32F, 0.06F);
     BodyDef bar = body_of(ring, {0.3F, 0.3F});
     bar.motion.spin_radps = 9999.0F;
-    BodyId id;
-    expect_ok(spun->add_moving_body(bar, &id));
+    put_moving(*spun, bar);
     for (int k = 0; k < 20; ++k) {
         spun->step(kDt);
     }
@@ -248,8 +246,7 @@ TYPED_TEST(ContractOfFreeBodies, TheLastOneLeavesNothing) {
     TestWorld<TypeParam> other{def};
     expect_ok(world->fill({{0, 0}, {0.3F, 0.2F}}));
     BodyDef body = body_of(kSquare4cm, {0.1F, 0.1F});
-    BodyId id;
-    expect_ok(world->add_free_body(body, &id));
+    BodyId id = put_free(*world, body);
     expect_ok(world->remove_body(id));
     body.motion.velocity_mps = {0.1F, 0};
     expect_ok(world->add_moving_body(body, &id));

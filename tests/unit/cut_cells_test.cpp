@@ -37,8 +37,7 @@ TEST(CutCells, FullDensityIsTheKernelOverTheOpenPart) {
         const float angle = 0.55F * static_cast<float>(trial);
         const Ring box = rectangle(6.3F * kCell, 9.7F * kCell);
         const Vec2f at{12.13F, 11.78F};  // cells
-        BodyId id;
-        ASSERT_EQ(world->add_moving_body(body_of(box, kCell * at, angle), &id), Status::ok);
+        put_moving(*world, body_of(box, kCell * at, angle));
         world->step(kFrame);
         const Walls<float>& walls = inside(world).layers.walls;
         const GridShape& s = inside(world).layers.shape;

@@ -86,8 +86,7 @@ TEST(Display, MayBeOfAnOddWidth) {
 TEST(Display, ShowsAPartOfTheTank) {
     const WorldDef def = small_def();
     TestWorld<float> world(def);
-    BodyId id;
-    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.2F, 0.1F}), &id));
+    put_static(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
     expect_ok(world->fill({{0.0F, 0.0F}, {0.13F, 0.1F}}));
     world->step(0.01F);
     const std::int32_t columns = 4 * world->cells_x();

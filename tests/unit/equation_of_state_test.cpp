@@ -119,8 +119,7 @@ TYPED_TEST(ElasticArithmetic, LosesEnergyThatFallsOntoABar) {
     body.polygon = {bar, 4};
     body.motion.position_m = {12.03F * kBarCell, 7.4F * kBarCell};
     body.motion.angle_rad = kBarAngle;
-    BodyId id;
-    expect_ok(world->add_static_body(body, &id));
+    put_static(*world, body);
     expect_ok(world->fill({{8 * kBarCell, 13 * kBarCell}, {16 * kBarCell, 23 * kBarCell}}));
     const double gravity = 9.81 / static_cast<double>(kBarCell);
     const double start = energy_of(*world, gravity);

@@ -113,8 +113,7 @@ TEST(FreeBody, StopsAtTheTanksWalls) {
         TestWorld<float> world{def};
         BodyDef body = body_of(kSquare4cm, {0.3F, 0.3F}, 0.3F);
         body.motion.velocity_mps = {3.0F, 0.0F};
-        BodyId id;
-        expect_ok(world->add_free_body(body, &id));
+        const BodyId id = put_free(*world, body);
         Motion m;
         for (int k = 0; k < 600; ++k) {
             world->step(kDt);
@@ -134,10 +133,9 @@ TEST(Force, MeasuringChangesNoBits) {
         WorldDef def = two_way_def();
         def.capacity.two_way = two_way;
         TestWorld<float> world{def};
-        BodyId id;
         BodyDef wheel = body_of(kSquare4cm, {0.4F, 0.06F});
         wheel.motion.spin_radps = 5.0F;
-        expect_ok(world->add_moving_body(wheel, &id));
+        put_moving(*world, wheel);
         expect_ok(world->fill({{0, 0}, {0.2F, 0.3F}}));
         for (int k = 0; k < 100; ++k) {
             world->step(kDt);
@@ -153,8 +151,7 @@ TEST(Force, ArchimedesHoldsAtAnyPlace) {
         for (const float angle : {0.0F, 0.3F}) {
             TestWorld<float> world{two_way_def()};
             const Ring box = rectangle(0.16F, 0.12F);
-            BodyId id;
-            expect_ok(world->add_static_body(body_of(box, {0.32F, y}, angle), &id));
+            const BodyId id = put_static(*world, body_of(box, {0.32F, y}, angle));
             expect_ok(world->fill({{0, 0}, {0.64F, 0.4F}}));
             float lift = 0;
             BodyForce force;
@@ -268,8 +265,7 @@ TEST(FreeBody, TakesExactlyWhatItReceives) {
     TestWorld<double> world{two_way_def()};
     const Ring box = rectangle(0.1F, 0.08F);
     BodyDef floating = body_of(box, {0.45F, 0.3F});
-    BodyId id;
-    expect_ok(world->add_free_body(floating, &id));
+    const BodyId id = put_free(*world, floating);
     expect_ok(world->fill({{0, 0}, {0.64F, 0.2F}}));
     BodyMass mass;
     expect_ok(world->mass(id, &mass));
@@ -303,8 +299,7 @@ TEST(FreeBody, AnyDensityIsStable) {
             const Ring box = rectangle(0.12F, 0.08F);
             BodyDef body = body_of(box, {0.45F, 0.3F}, 0.2F);
             body.density_ratio = density;
-            BodyId id;
-            expect_ok(world->add_free_body(body, &id));
+            const BodyId id = put_free(*world, body);
             expect_ok(world->fill({{0, 0}, {0.25F, 0.4F}}));
             const std::int32_t particles = world->particle_positions().size;
             Motion m;
@@ -350,8 +345,7 @@ TYPED_TEST(FreeBodyOf, SmallOnesComeToRest) {
             const Vec2f at{0.2F + 0.0013F * static_cast<float>(start), 0.18F};
             BodyDef body = body_of(square, at, 0.3F);
             body.density_ratio = kind.density_ratio;
-            BodyId id;
-            expect_ok(world->add_free_body(body, &id));
+            const BodyId id = put_free(*world, body);
             expect_ok(world->fill({{0, 0}, {0.4F, 0.22F}}));
             for (int step = -kSteps; step < kSteps; ++step) {
                 world->step(2.0F * kDt);

@@ -212,8 +212,7 @@ TYPED_TEST(FreeContact, BouncesAsHighAsItsRestitution) {
     const Ring slab = rectangle(0.4F, 0.06F);
     BodyDef floor = body_of(slab, {0.4F, 0.1F});
     floor.surface.restitution = 0.7F;
-    BodyId id;
-    expect_ok(world->add_static_body(floor, &id));
+    BodyId id = put_static(*world, floor);
     expect_ok(world->add_free_body(body_of(kSquare4cm, {0.4F, 0.45F}), &id));
     float lowest = 1;
     float highest = 0;
@@ -415,8 +414,7 @@ TYPED_TEST(FreeContact, LightBodyRisesFromTheFloor) {
         const Ring box = rectangle(0.1F, 0.06F);
         BodyDef body = body_of(box, {0.24F, 0.03F});
         body.density_ratio = density;
-        BodyId id;
-        expect_ok(world->add_free_body(body, &id));
+        const BodyId id = put_free(*world, body);
         expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
         for (int k = 0; k < 300; ++k) {
             world->step(kDt);

@@ -28,8 +28,7 @@ TYPED_TEST(HeldBody, ARodSwingsAboutItsEnd) {
     def.polygon = {rod, 4};
     def.motion.position_m = {0.32F, 0.4F};
     def.hold = Hold::hinge;
-    BodyId id;
-    expect_ok(world->add_free_body(def, &id));
+    const BodyId id = put_free(*world, def);
     float fastest = 0;
     Motion start;
     Motion now;
@@ -51,8 +50,7 @@ TYPED_TEST(HeldBody, AHingeGoesAsTold) {
     BodyDef def = body_of(kTriangle, {0.2F, 0.3F});
     def.hold = Hold::hinge;
     def.motion.velocity_mps = {0.25F, 0.0F};
-    BodyId id;
-    expect_ok(world->add_free_body(def, &id));
+    const BodyId id = put_free(*world, def);
     double t = 0;
     for (int k = 0; k < 120; ++k) {
         t += static_cast<double>(world->step(kDt).dt_s);
@@ -72,8 +70,7 @@ TYPED_TEST(HeldBody, ARailLeadsAFloat) {
     const Ring box = rectangle(0.16F, 0.16F);
     BodyDef body = body_of(box, {0.31F, 0.3F}, 0.2F);
     body.hold = Hold::rail_y;
-    BodyId id;
-    expect_ok(world->add_free_body(body, &id));
+    const BodyId id = put_free(*world, body);
     expect_ok(world->fill({{0, 0}, {0.64F, 0.28F}}));
     double mean = 0;
     Motion now;
@@ -110,8 +107,7 @@ TYPED_TEST(HeldBody, ALightWheelTurnsWithTheStream) {
         body.motion.position_m = {0.7F, 0.2F};
         body.density_ratio = density;
         body.hold = Hold::hinge;
-        BodyId id;
-        expect_ok(world->add_free_body(body, &id));
+        const BodyId id = put_free(*world, body);
         expect_ok(world->fill({{0, 0}, {0.4F, 0.4F}}));  // breaks, and runs beneath it
         float least = 0;
         float most = 0;
@@ -159,8 +155,7 @@ TYPED_TEST(HeldBody, IsKeptInSnapshotsAndInTheHash) {
         TestWorld<TypeParam> world{held_def()};
         BodyDef body = body_of(kTriangle, {0.3F, 0.3F});
         body.hold = holds[n];
-        BodyId id;
-        expect_ok(world->add_free_body(body, &id));
+        put_free(*world, body);
         hash[n] = world->state_hash();
         TestWorld<TypeParam> other{held_def()};
         world->step(kDt);
@@ -223,8 +218,7 @@ TEST(SetSurface, StickingIsSeenAtOnce) {
         TestWorld<float> world{def};
         BodyDef body = body_of(kTriangle, {0.3F, 0.05F});
         body.surface.no_slip = !later;
-        BodyId id;
-        expect_ok(world->add_static_body(body, &id));
+        const BodyId id = put_static(*world, body);
         if (later) {
             Surface sticky = body.surface;
             sticky.no_slip = true;

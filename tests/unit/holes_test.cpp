@@ -312,13 +312,12 @@ TEST(Holes, RepeatedVerticesAndStraightCornersAreNotKept) {
                        {-0.02F, 0.0F},   {-0.02F, -0.02F}};
     Ring backwards(busy.rbegin(), busy.rend());
     TestWorld<float> plain(small_def());
-    BodyId id;
-    ASSERT_EQ(plain->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id), Status::ok);
+    put_static(*plain, body_of(kSquare4cm, {0.1F, 0.1F}));
     for (const Ring& ring : {busy, backwards}) {
         TestWorld<float> world(small_def());
-        ASSERT_EQ(world->add_static_body(body_of(ring, {0.1F, 0.1F}), &id), Status::ok);
-        ASSERT_EQ(world->add_static_body(body_of(kSquare4cm, {0.2F, 0.1F}), &id), Status::ok);
-        ASSERT_EQ(world->add_static_body(body_of(kSquare4cm, {0.2F, 0.2F}), &id), Status::ok);
+        put_static(*world, body_of(ring, {0.1F, 0.1F}));
+        put_static(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
+        put_static(*world, body_of(kSquare4cm, {0.2F, 0.2F}));
         for (std::int32_t i = 0; i < 8; ++i) {
             for (std::int32_t j = 0; j < 16; ++j) {
                 ASSERT_EQ(world->signed_distance().at(i, j), plain->signed_distance().at(i, j));

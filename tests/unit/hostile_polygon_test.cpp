@@ -205,8 +205,7 @@ TEST(HostilePolygons, UglyOnesBecomeBodies) {
         expect_place(fault, {});
         TestWorld<float> world(roomy_def());
         ASSERT_EQ(world->fill({{0, 10}, {16, 13}}), Status::ok);
-        BodyId id;
-        EXPECT_EQ(world->add_static_body(def, &id), Status::ok);
+        const BodyId id = put_static(*world, def);
         for (int step = 0; step < 60; ++step) {
             world->step(0.02F);
         }

@@ -35,8 +35,7 @@ Way release_ring(const Ring& outline, float density, float offset, std::int32_t 
     TestWorld<Real> world{pool_def(wall_edges)};
     BodyDef body = body_of(outline, {(24 + offset) * kCell, 10 * kCell});
     body.density_ratio = density;
-    BodyId id;
-    expect_ok(world->add_free_body(body, &id));
+    const BodyId id = put_free(*world, body);
     expect_ok(world->fill({{0, 0}, {48 * kCell, kLevel}}));
     Way way;
     way.highest = -100;
@@ -132,8 +131,7 @@ TYPED_TEST(Immersion, NothingTurnsBalls) {
             const Ring outline = ball(2.0F, corners);
             BodyDef body = body_of(outline, {8 * kCell, 8 * kCell});
             body.density_ratio = density;
-            BodyId id;
-            expect_ok(world->add_free_body(body, &id));
+            const BodyId id = put_free(*world, body);
             expect_ok(world->fill({{0, 0}, {16 * kCell, 8 * kCell}}));
             float spin = 0.0F;
             for (int step = -kSteps; step < kSteps; ++step) {
@@ -152,8 +150,7 @@ TYPED_TEST(Immersion, GoesOnFromASnapshot) {
     const WorldDef def = pool_def(0);
     TestWorld<TypeParam> world{def};
     const Ring box = rectangle(8 * kCell, 0.5F * kCell);
-    BodyId id;
-    expect_ok(world->add_free_body(body_of(box, {24 * kCell, 18 * kCell}), &id));
+    put_free(*world, body_of(box, {24 * kCell, 18 * kCell}));
     expect_ok(world->fill({{0, 0}, {20 * kCell, kLevel}}));
     for (int step = 0; step < 20; ++step) {
         world->step(kDt);

@@ -28,8 +28,7 @@ TYPED_TEST(LedBody, SunkenBodyLeavesTheLiquidItsVolume) {
             const Ring box = rectangle(0.1F, 0.06F);
             BodyDef body = body_of(box, {x, 0.3F}, angle);
             body.density_ratio = 2.0F;
-            BodyId id;
-            expect_ok(world->add_free_body(body, &id));
+            const BodyId id = put_free(*world, body);
             Motion m;
             for (int k = 0; k < 900; ++k) {
                 world->step(kDt);
@@ -49,8 +48,7 @@ TYPED_TEST(LedBody, LightBodyLeavesTheFloor) {
     const Ring box = rectangle(0.1F, 0.06F);
     BodyDef body = body_of(box, {0.05F, 0.03F});
     body.density_ratio = 0.4F;
-    BodyId id;
-    expect_ok(world->add_free_body(body, &id));
+    const BodyId id = put_free(*world, body);
     expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
     // Beneath it there is no liquid to press: it is lifted so far that some comes in.
     Motion m;
@@ -128,8 +126,7 @@ void expect_wading_keeps_volume() {
     TestWorld<Real> world{def};
     expect_ok(world->fill({{0, 0}, {0.96F, 0.24F}}));
     const Ring hero = {{-0.04F, 0}, {0.04F, 0}, {0.04F, 0.16F}, {-0.04F, 0.16F}};
-    BodyId id;
-    expect_ok(world->add_moving_body(body_of(hero, {0.2F, 0.0F}), &id));
+    const BodyId id = put_moving(*world, body_of(hero, {0.2F, 0.0F}));
     for (int k = 0; k < 1200; ++k) {
         const float phase = std::fmod(static_cast<float>(k) * kDt * 0.6F, 1.12F);
         const float x = 0.2F + (phase < 0.56F ? phase : 1.12F - phase);
@@ -209,8 +206,7 @@ TYPED_TEST(FarLedBody, CatchesUp) {
     WorldDef def = pool_def(200, 20);
     def.capacity.particles = 100;
     TestWorld<TypeParam> world(def);
-    BodyId id;
-    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.2F, 0.1F}), &id));
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
     const Vec2f to{3.8F, 0.3F};
     constexpr float kShort = 1.0F / 8000.0F;  // 180 cells, 1.4 million a second
     Motion motion;
@@ -231,8 +227,7 @@ TYPED_TEST(FarLedBody, CatchesUp) {
 /// However short the step is that it has for its way.
 TYPED_TEST(FarLedBody, GoesAsFastAsItCan) {
     TestWorld<TypeParam> world{pool_def(24, 20)};
-    BodyId id;
-    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.2F, 0.1F}), &id));
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
     Motion fast;
     expect_ok(world->move_body(id, {0.3F, 0.1F}, 0.0F, 1e-12F));
     expect_ok(world->motion(id, &fast));

@@ -124,8 +124,7 @@ TEST(NarrowGap, GivesNoEnergyThatNothingLost) {
         for (Vec2f& corner : stone) {
             corner = def.cell_m * corner;
         }
-        BodyId id;
-        ASSERT_EQ(world->add_static_body(body_of(stone, {}), &id), Status::ok);
+        put_static(*world, body_of(stone, {}));
     }
     ASSERT_EQ(world->fill({{def.cell_m * 7.188F, def.cell_m * 20.942F},
                            {def.cell_m * 9.459F, def.cell_m * 42.043F}}),

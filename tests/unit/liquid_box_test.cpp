@@ -108,8 +108,7 @@ WorldDef wide_tank() {
 template <class Real>
 void fill_both_sides(World<Real>& world) {
     const Ring wall = rectangle(8 * kCell_m, kSide);
-    BodyId id;
-    expect_ok(world.add_static_body(body_of(wall, {kWide / 2, kSide / 2}), &id));
+    put_static(world, body_of(wall, {kWide / 2, kSide / 2}));
     expect_ok(world.let_regions_sleep());
     expect_ok(world.fill({{0.0F, 0.0F}, {28 * kCell_m, 0.08F}}));
     expect_ok(world.fill({{36 * kCell_m, 0.0F}, {kWide, 0.08F}}));

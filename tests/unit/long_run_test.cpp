@@ -37,9 +37,7 @@ double restless(double tilt, std::int32_t cells_along = kSide, Vec2f stone = {})
     const float side = def.cell_m * static_cast<float>(cells_along);
     if (stone.x > 0.0F) {
         const Ring square = rectangle(3.0F * def.cell_m, 3.0F * def.cell_m);
-        BodyId ignored;
-        expect_ok(world->add_static_body(
-            body_of(square, {stone.x * def.cell_m, stone.y * def.cell_m}), &ignored));
+        put_static(*world, body_of(square, {stone.x * def.cell_m, stone.y * def.cell_m}));
     }
     expect_ok(world->fill({{0.0F, 0.0F}, {side, side / 2}}));
     expect_ok(world->set_gravity(leaning(tilt)));
@@ -136,8 +134,7 @@ TYPED_TEST(LongRunOf, LiquidThatABodyStampedOnRecovers) {
     expect_ok(world->fill({{0.0F, 0.0F}, {side, side / 2}}));
     const Ring square = rectangle(0.3F * side, 0.3F * side);
     BodyDef body = body_of(square, {side / 2, 0.8F * side});
-    BodyId id;
-    expect_ok(world->add_moving_body(body, &id));
+    const BodyId id = put_moving(*world, body);
     std::mt19937 random(5);
     const auto anywhere = [&] {
         return (0.1F + 0.8e-3F * static_cast<float>(random() % 1000U)) * side;

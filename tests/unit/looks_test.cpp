@@ -51,7 +51,7 @@ struct Sleepers {
         expect_ok(world->let_regions_sleep());
         BodyDef body = body_of(kSpinner, {0.4F, 0.28F});
         body.motion.spin_radps = 1.0F;
-        expect_ok(world->add_moving_body(body, &spinner));
+        spinner = put_moving(*world, body);
         expect_ok(world->fill({{0, 0}, {0.2F, 0.1F}}));
     }
     void fall_asleep() {

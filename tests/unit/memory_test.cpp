@@ -232,12 +232,11 @@ TEST(Memory, NothingIsWrittenBeyondTheBlock) {
     World<float> world;
     ASSERT_EQ(world.init(def, base + skip, bytes), Status::ok);
     ASSERT_EQ(world.fill({{0, 0}, {0.1F, 0.16F}}), Status::ok);
-    BodyId id;
     BodyDef body = body_of(kTriangle, {0.2F, 0.08F});
-    ASSERT_EQ(world.add_static_body(body, &id), Status::ok);
+    put_static(world, body);
     body.motion.spin_radps = 5.0F;
     body.motion.position_m = {0.1F, 0.15F};
-    ASSERT_EQ(world.add_moving_body(body, &id), Status::ok);
+    put_moving(world, body);
     for (int step = 0; step < 60; ++step) {
         world.step(1.0F / 60.0F);
         ASSERT_EQ(world.set_gravity({step % 2 == 0 ? 900.0F : -900.0F, 500.0F}), Status::ok);

@@ -28,15 +28,14 @@ class MirroredTank {
 public:
     /// `at_once`: both fields in one look at each face, as in a step that is not cut.
     explicit MirroredTank(Bodies bodies, bool at_once = false) : world_(tank_with(bodies)) {
-        BodyId id;
         BodyDef leaning = body_of(kTriangle, {0.03F, 0.02F}, 0.3F);
         leaning.surface.no_slip = bodies == Bodies::sticking;
-        expect_ok(world_->add_static_body(leaning, &id));
+        put_static(*world_, leaning);
         const Ring bar = {{0, 0}, {0.015F, 0}, {0.015F, 0.06F}, {0, 0.06F}};
         BodyDef thin = body_of(bar, {0.155F, 0.03F}, -0.2F);
         thin.motion.velocity_mps = {0.0F, bodies == Bodies::moving ? 0.02F : 0.0F};
         thin.motion.spin_radps = bodies == Bodies::moving ? 1.0F : 0.0F;
-        expect_ok(world_->add_moving_body(thin, &id));
+        put_moving(*world_, thin);
         expect_ok(world_->fill({{0.0F, 0.0F}, {0.24F, 0.15F}}));
         world_->step(1.0e-4F);
         for (std::int32_t c = 0; c < shape().size(); ++c) {

@@ -21,8 +21,7 @@ double energy_kept(float degrees) {
     const Vec2f foot{0.32F, 0.25F};
     const auto at = [&](float x, float y) { return foot + x * along + y * up; };
     const Ring wall = {at(-1.0F, 0.0F), at(-1.0F, -1.0F), at(1.0F, -1.0F), at(1.0F, 0.0F)};
-    BodyId id;
-    expect_ok(world->add_static_body(body_of(wall, {}), &id));
+    put_static(*world, body_of(wall, {}));
     for (int j = 0; j < 128; ++j) {
         for (int i = 0; i < 128; ++i) {
             const Vec2f p{0.005F * (static_cast<float>(i) + 0.5F),

@@ -24,8 +24,7 @@ struct CornerPool {
         const Vec2f wall[] = {{0.50F, -0.02F}, {0.60F, -0.02F}, {0.60F, 2.10F}, {0.50F, 2.10F}};
         BodyDef body;
         body.polygon = {wall, 4};
-        BodyId id;
-        EXPECT_EQ(world.add_static_body(body, &id), Status::ok);
+        put_static(world, body);
         EXPECT_EQ(world.fill({{0.0F, 0.0F}, {0.16F, 0.40F}}), Status::ok);
     }
 };

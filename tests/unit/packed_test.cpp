@@ -189,8 +189,7 @@ TEST(Packed, OneBodyAloneHasTheBitsOfOneWithRoomForMore) {
         BodyDef bar = body_of(ring, {0.17F, 0.07F}, 0.4F);
         bar.surface.no_slip = true;
         bar.motion.spin_radps = 6.0F;
-        BodyId id;
-        ASSERT_EQ(world->add_moving_body(bar, &id), Status::ok);
+        const BodyId id = put_moving(*world, bar);
         ASSERT_EQ(world->fill({{0.0F, 0.0F}, {0.09F, 0.18F}}), Status::ok);
         for (int step = 0; step < 200; ++step) {
             if (step == 150) {

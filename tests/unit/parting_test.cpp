@@ -74,9 +74,8 @@ double fall_of_film(Pressure pressure, float thick, float at) {
     def.sound_speed_mps = pressure == Pressure::equation_of_state ? 20.0F : 0.0F;
     TestWorld<Real> world{def};
     if (at < kCeiling) {
-        BodyId id;
         const Ring ring = rectangle(40 * def.cell_m, 4 * def.cell_m);
-        expect_ok(world->add_static_body(body_of(ring, {32 * def.cell_m, (at + 2) * def.cell_m}), &id));
+        put_static(*world, body_of(ring, {32 * def.cell_m, (at + 2) * def.cell_m}));
     }
     expect_ok(world->fill({{20 * def.cell_m, (at - thick) * def.cell_m},
                            {30 * def.cell_m, at * def.cell_m}}));

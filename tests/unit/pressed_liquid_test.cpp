@@ -82,8 +82,7 @@ TYPED_TEST(Drum, LeavesTheLiquidItsVolume) {
     BodyDef drum = body_of(block, {11 * kCell, 11 * kCell});
     drum.holes = {holes, 1};
     drum.motion.spin_radps = 25.0F;
-    BodyId id;
-    expect_ok(world->add_moving_body(drum, &id));
+    put_moving(*world, drum);
     expect_ok(world->fill({{3 * kCell, 3 * kCell}, {19 * kCell, 11 * kCell}}));
     const double before = volume_left(*world);
     for (int step = 0; step < 600; ++step) {

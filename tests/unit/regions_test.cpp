@@ -35,8 +35,7 @@ struct Pools {
         if (regions) {
             expect_ok(world->let_regions_sleep());
         }
-        BodyId id;
-        expect_ok(world->add_static_body(divider(), &id));
+        put_static(*world, divider());
         expect_ok(world->fill({{36 * kCell, 0}, {64 * kCell, 8 * kCell}}, &right));
     }
     World<Real>& operator*() { return *world; }
@@ -46,8 +45,7 @@ struct Pools {
     void add_spinner() {
         BodyDef def = body_of(kSquare4cm, {2 * kCell, 20 * kCell});
         def.motion.spin_radps = 1.0F;
-        BodyId id;
-        expect_ok(world->add_moving_body(def, &id));
+        put_moving(*world, def);
     }
     void pour_left() { expect_ok(world->fill({{0, 0}, {28 * kCell, 6 * kCell}})); }
     /// A splash that is small enough to stay on its side.
@@ -193,13 +191,11 @@ TYPED_TEST(RegionsOf, WhatComesNearWakes) {
         {"particle removed", [](Pools<TypeParam>& p) { expect_ok(p->remove_particle(3)); }},
         {"body put there",
          [](Pools<TypeParam>& p) {
-             BodyId id;
-             expect_ok(p->add_moving_body(body_of(kSquare4cm, {50 * kCell, 8 * kCell}), &id));
+             put_moving(*p, body_of(kSquare4cm, {50 * kCell, 8 * kCell}));
          }},
         {"static body put there",
          [](Pools<TypeParam>& p) {
-             BodyId id;
-             expect_ok(p->add_static_body(body_of(kSquare4cm, {50 * kCell, 8 * kCell}), &id));
+             put_static(*p, body_of(kSquare4cm, {50 * kCell, 8 * kCell}));
          }},
         {"divider taken away",
          [](Pools<TypeParam>& p) {
@@ -209,8 +205,7 @@ TYPED_TEST(RegionsOf, WhatComesNearWakes) {
          }},
         {"body put nearer",
          [](Pools<TypeParam>& p) {
-             BodyId id;
-             expect_ok(p->add_moving_body(body_of(kSquare4cm, {50 * kCell, 20 * kCell}), &id));
+             const BodyId id = put_moving(*p, body_of(kSquare4cm, {50 * kCell, 20 * kCell}));
              EXPECT_EQ(p->step(kDt).particles_asleep, p.right) << "not yet";
              Motion motion;
              expect_ok(p->motion(id, &motion));
@@ -274,8 +269,7 @@ TYPED_TEST(RegionsOf, BodiesThatComeNearWake) {
     pools.rest_right();
     BodyDef bar = body_of(kSquare4cm, {50 * kCell, 20 * kCell});
     bar.motion.velocity_mps = {0.0F, -0.6F};
-    BodyId id;
-    expect_ok(pools->add_moving_body(bar, &id));
+    const BodyId id = put_moving(*pools, bar);
     for (int step = 0; step < 60; ++step) {
         const StepReport report = pools->step(kDt);
         Motion motion;
@@ -456,9 +450,8 @@ History history(std::int32_t kind, Way way, ParallelFor parallel_for = nullptr) 
     Dice dice(static_cast<std::uint64_t>(kind) + 5);
     Dice budgets(99);
     History history;
-    BodyId id;
     const Ring wall = rectangle(9 * kCell, 20 * kCell);
-    expect_ok(world->add_static_body(body_of(wall, {24 * kCell, 0}), &id));
+    put_static(*world, body_of(wall, {24 * kCell, 0}));
     expect_ok(world->fill({{0.0F, 0.0F}, {0.2F, 0.06F}}));
     expect_ok(world->fill({{29 * kCell, 0.0F}, {48 * kCell, 0.08F}}));
     for (std::int32_t step = 0; step < kSteps; ++step) {

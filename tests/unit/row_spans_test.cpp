@@ -40,10 +40,9 @@ public:
         const Ring bar = rectangle(0.6F, 0.1F);
         const Ring stone = rectangle(0.3F, 0.3F);
         if (solids_) {
-            BodyId ignored;
-            expect_ok(world->add_static_body(body_of(bar, {2.0F, 0.1F}, 0.3F), &ignored));
-            expect_ok(world->add_moving_body(body_of(bar, {3.0F, 0.3F}), &ignored));
-            expect_ok(world->add_moving_body(body_of(stone, {5.0F, 1.4F}), &ignored));
+            put_static(*world, body_of(bar, {2.0F, 0.1F}, 0.3F));
+            put_moving(*world, body_of(bar, {3.0F, 0.3F}));
+            put_moving(*world, body_of(stone, {5.0F, 1.4F}));
         }
         expect_ok(world->fill({{2.5F, 0.9F}, {3.0F, 1.6F}}));
         expect_ok(world->fill({{5.5F, 1.5F}, {5.6F, 1.6F}}));

@@ -38,8 +38,8 @@ struct Pool {
     BodyId fixed;
 
     explicit Pool(const WorldDef& def = pool_def()) : world(def) {
-        expect_ok(world->add_moving_body(body_of(rectangle(0.04F, 0.04F), {0.16F, 0.10F}), &still));
-        expect_ok(world->add_static_body(body_of(rectangle(0.04F, 0.04F), {0.06F, 0.02F}), &fixed));
+        still = put_moving(*world, body_of(rectangle(0.04F, 0.04F), {0.16F, 0.10F}));
+        fixed = put_static(*world, body_of(rectangle(0.04F, 0.04F), {0.06F, 0.02F}));
         expect_ok(world->fill({{0, 0}, {0.32F, 0.12F}}));
     }
     /// Steps until it is asleep; how many that took.
@@ -78,8 +78,7 @@ TYPED_TEST(SleepOf, AtRestItFallsAsleepAndNothingChanges) {
 /// slept.
 TYPED_TEST(SleepOf, DropThatLiesOnASolidIsAtRest) {
     Pool<TypeParam> pool;
-    BodyId table;
-    expect_ok(pool->add_static_body(body_of(rectangle(0.08F, 0.04F), {0.163F, 0.23F}), &table));
+    put_static(*pool, body_of(rectangle(0.08F, 0.04F), {0.163F, 0.23F}));
     expect_ok(pool->add_particle({0.15F, 0.253F}, {}));
     expect_ok(pool->add_particle({0.17F, 0.253F}, {}));
     pool.fall_asleep();
@@ -129,13 +128,11 @@ TYPED_TEST(SleepOf, EveryChangeWakesWithinOneStep) {
          }},
         {"moving body added",
          [](Pool<TypeParam>& p) {
-             BodyId id;
-             expect_ok(p->add_moving_body(body_of(kSquare4cm, {0.28F, 0.08F}), &id));
+             put_moving(*p, body_of(kSquare4cm, {0.28F, 0.08F}));
          }},
         {"static body added",
          [](Pool<TypeParam>& p) {
-             BodyId id;
-             expect_ok(p->add_static_body(body_of(kSquare4cm, {0.28F, 0.08F}), &id));
+             put_static(*p, body_of(kSquare4cm, {0.28F, 0.08F}));
          }},
         {"moving body removed", [](Pool<TypeParam>& p) { expect_ok(p->remove_body(p.still)); }},
         {"static body removed", [](Pool<TypeParam>& p) { expect_ok(p->remove_body(p.fixed)); }},
@@ -337,8 +334,7 @@ TEST(Sleep, FloatingBodiesSleepTooAndForcesStay) {
     def.capacity.two_way = true;
     def.viscosity_m2ps = 2.0e-3F;
     Pool<float> pool(def);
-    BodyId floating;
-    expect_ok(pool->add_free_body(body_of(rectangle(0.06F, 0.04F), {0.25F, 0.12F}), &floating));
+    const BodyId floating = put_free(*pool, body_of(rectangle(0.06F, 0.04F), {0.25F, 0.12F}));
     pool.fall_asleep();
     BodyForce before;
     expect_ok(pool->force(floating, &before));

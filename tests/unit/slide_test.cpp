@@ -22,9 +22,7 @@ WorldDef tank(std::int32_t columns, std::int32_t rows) {
 template <class Real>
 void add_block(TestWorld<Real>& world, float left, float low, float right, float high) {
     const Ring ring = rectangle(kCell * (right - left), kCell * (high - low));
-    BodyId id;
-    expect_ok(world->add_static_body(
-        body_of(ring, {0.5F * kCell * (left + right), 0.5F * kCell * (low + high)}), &id));
+    put_static(*world, body_of(ring, {0.5F * kCell * (left + right), 0.5F * kCell * (low + high)}));
 }
 
 template <class Real>

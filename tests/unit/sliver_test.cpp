@@ -27,8 +27,7 @@ void add_wall(TestWorld<Real>& world, Vec2<double> n) {
     }
     BodyDef body = body_of(ring, {0, 0});
     body.surface.restitution = 1.0F;
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(body, &id), Status::ok);
+    put_static(*world, body);
 }
 
 /// Error of the velocity with which a particle leaves, of its speed: 16 cells/s, from 6 cells off.

@@ -130,9 +130,8 @@ void fall_asleep(World<Real>& world) {
     BodyDef spinner = body_of(kSquare4cm, {0.1F, 0.2F});
     spinner.motion.spin_radps = 1.0F;
     const Ring divider = rectangle(0.2F, 0.28F);
-    BodyId id;
-    EXPECT_EQ(world.add_moving_body(spinner, &id), Status::ok);
-    EXPECT_EQ(world.add_static_body(body_of(divider, {0.4F, 0.0F}), &id), Status::ok);
+    put_moving(world, spinner);
+    put_static(world, body_of(divider, {0.4F, 0.0F}));
     EXPECT_EQ(world.fill({{0.7F, 0}, {0.8F, 0.02F}}), Status::ok);
     StepReport report;
     for (int step = 0; step < 600 && report.particles_asleep == 0; ++step) {

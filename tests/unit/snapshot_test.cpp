@@ -184,13 +184,12 @@ TEST(Snapshot, HoldsNothingOfABodyThatIsGone) {
         const Bytes empty = saved(*world, def.capacity);
         BodyDef after = body_of(kSquare4cm, {0.1F, 0.1F});
         after.open = open;
-        BodyId id;
-        expect_ok(world->add_static_body(after, &id));
+        put_static(*world, after);
         const Bytes expected = saved(*world, def.capacity);
         expect_ok(world->restore(empty.data(), empty.size()));
-        expect_ok(world->add_static_body(before, &id));
+        put_static(*world, before);
         expect_ok(world->restore(empty.data(), empty.size()));
-        expect_ok(world->add_static_body(after, &id));
+        put_static(*world, after);
         EXPECT_EQ(saved(*world, def.capacity), expected);
     }
 }
@@ -198,8 +197,7 @@ TEST(Snapshot, HoldsNothingOfABodyThatIsGone) {
 /// A call that asks where solids are has the picture drawn, and may be refused.
 TEST(Snapshot, DoesNotTellWhetherBodiesWereDrawn) {
     TestWorld<float> world(small_def());
-    BodyId id;
-    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id));
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
     Motion motion = motion_of(*world, id);
     motion.position_m = {0.2F, 0.2F};
     expect_ok(world->set_motion(id, motion));
@@ -212,9 +210,8 @@ TEST(Snapshot, FullestWorldFitsItsRoom) {
     WorldDef def = small_def();
     def.capacity.second_liquid = true;
     TestWorld<double> world(def);
-    BodyId id;
     for (int k = 0; k < 3; ++k) {
-        ASSERT_EQ(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id), Status::ok);
+        put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
     }
     for (int k = 0; k < 200; ++k) {
         ASSERT_EQ(world->add_particle({0.3F, 0.3F}, {}), Status::ok);
@@ -336,9 +333,8 @@ TEST(Snapshot, EveryFlippedBitIsNoticed) {
     def.capacity.particles = 12;
     def.capacity.cells_x = def.capacity.cells_y = 6;
     TestWorld<float> world(def);
-    BodyId id;
     ASSERT_EQ(world->fill({{0, 0}, {0.03F, 0.03F}}), Status::ok);
-    ASSERT_EQ(world->add_moving_body(body_of(kSquare4cm, {0.08F, 0.08F}), &id), Status::ok);
+    put_moving(*world, body_of(kSquare4cm, {0.08F, 0.08F}));
     world->step(0.01F);
     const std::uint64_t hash = world->state_hash();
     Bytes snapshot = saved(*world, def.capacity);

@@ -20,7 +20,7 @@ struct Pool {
     BodyId paddle;
 
     explicit Pool(Pressure pressure = Pressure::projection) : world(def(pressure)) {
-        EXPECT_EQ(world->add_moving_body(body_of(kSquare4cm, {0.22F, 0.1F}), &paddle), Status::ok);
+        paddle = put_moving(*world, body_of(kSquare4cm, {0.22F, 0.1F}));
         EXPECT_EQ(world->fill({{0, 0}, {0.12F, 0.14F}}, &particles), Status::ok);
     }
     static WorldDef def(Pressure pressure) {

@@ -85,8 +85,7 @@ TEST(Surface, BodiesRubAndCarry) {
         BodyDef body = body_of(square, {0.32F, 0.32F});
         body.surface.friction = 100.0F;
         body.surface.conveyor_mps = 0.1F;
-        BodyId id;
-        ASSERT_EQ(world->add_static_body(body, &id), Status::ok);
+        put_static(*world, body);
         ASSERT_EQ(world->add_particle(start[k], thrown[k]), Status::ok);
         for (int step = 0; step < 30; ++step) {
             world->step(0.01F);
@@ -111,8 +110,7 @@ float speed_above_a_belt(bool no_slip, bool viscous, float* drag) {
     BodyDef belt = body_of(slab, {0.16F, 0.05F}, 0.1F);
     belt.surface.no_slip = no_slip;
     belt.surface.conveyor_mps = -0.1F;  // to the right on its upper side
-    BodyId id;
-    EXPECT_EQ(world->add_static_body(belt, &id), Status::ok);
+    const BodyId id = put_static(*world, belt);
     EXPECT_EQ(world->fill({{0, 0}, {0.32F, 0.32F}}), Status::ok);
     for (int k = 0; k < 60; ++k) {
         world->step(1.0F / 60.0F);
@@ -185,8 +183,7 @@ TEST(Surface, ATurningDiscIsBraked) {
     outer.holes = {holes, 1};
     outer.surface.no_slip = inner.surface.no_slip = true;
     inner.motion.spin_radps = kSpin;
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(outer, &id), Status::ok);
+    BodyId id = put_static(*world, outer);
     ASSERT_EQ(world->add_moving_body(inner, &id), Status::ok);
     ASSERT_EQ(world->fill({{0, 0}, {0.8F, 0.8F}}), Status::ok);
     float impulse = 0, time = 0;

@@ -89,6 +89,25 @@ inline WorldDef small_def() { return tank_def(16, 16, 200, 3, 12); }
 
 inline void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
 
+template <class Real>
+BodyId put_static(World<Real>& world, const BodyDef& def) {
+    BodyId id;
+    expect_ok(world.add_static_body(def, &id));
+    return id;
+}
+template <class Real>
+BodyId put_moving(World<Real>& world, const BodyDef& def) {
+    BodyId id;
+    expect_ok(world.add_moving_body(def, &id));
+    return id;
+}
+template <class Real>
+BodyId put_free(World<Real>& world, const BodyDef& def) {
+    BodyId id;
+    expect_ok(world.add_free_body(def, &id));
+    return id;
+}
+
 /// A snapshot, no longer than it has to be.
 template <class Real>
 std::vector<std::byte> saved(const World<Real>& world, const Capacity& capacity) {

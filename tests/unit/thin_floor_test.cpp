@@ -29,8 +29,7 @@ float height_over(bool open) {
     }
     BodyDef floor = body_of(ring, {0, 0});
     floor.open = open;
-    BodyId id;
-    expect_ok(world->add_static_body(floor, &id));
+    put_static(*world, floor);
     expect_ok(world->fill({{0, 6.6F * kCell}, {right * kCell, 16.6F * kCell}}));
     for (int step = 0; step < 240; ++step) {
         world->step(1.0F / 60.0F);

@@ -109,9 +109,8 @@ std::uint64_t bury(ParallelFor parallel_for, std::int32_t* removed) {
     TestWorld<float> world(wide_def(8, parallel_for));
     EXPECT_EQ(world->fill({{0.0F, 0.0F}, {1.6F, 1.0F}}), Status::ok);
     const Ring ring = rectangle(1.5F, 1.5F);
-    BodyId id;
     const BodyDef block = body_of(ring, {0.8F, 1.0F});
-    EXPECT_EQ(world->add_static_body(block, &id), Status::ok);
+    put_static(*world, block);
     for (std::int32_t step = 0; step < 3; ++step) {
         *removed += world->step(1.0F / 60.0F).particles_removed_stuck;
     }

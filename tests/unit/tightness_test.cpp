@@ -290,8 +290,7 @@ void press_a_full_tank() {
     const Ring piston = rectangle(32 * kCell, 64 * kCell);
     BodyDef body = body_of(piston, {-16 * kCell, 16 * kCell});
     body.motion.velocity_mps = {0.2F, 0};
-    BodyId id;
-    ASSERT_EQ(world->add_moving_body(body, &id), Status::ok);
+    put_moving(*world, body);
     ASSERT_EQ(world->fill({{0, 0}, {32 * kCell, 32 * kCell}}), Status::ok);
     StepReport report = world->step(kFrame);
     EXPECT_EQ(report.cells_overfull, 0);

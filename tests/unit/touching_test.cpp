@@ -29,8 +29,7 @@ Ring box(float left, float right, float top) {
 template <class Real>
 void add_all(TestWorld<Real>& world, const std::vector<Ring>& rings) {
     for (const Ring& ring : rings) {
-        BodyId id;
-        ASSERT_EQ(world->add_static_body(body_of(ring, {0, 0}), &id), Status::ok);
+        put_static(*world, body_of(ring, {0, 0}));
     }
 }
 

@@ -303,8 +303,7 @@ TEST(TwoLiquids, SolidsAndAGreatRatio) {
         def.capacity.second_liquid = true;
         def.second_density_ratio = ratio;
         TestWorld<float> world(def);
-        BodyId id;
-        ASSERT_EQ(world->add_static_body(body_of(kTriangle, {0.12F, 0.0F}), &id), Status::ok);
+        put_static(*world, body_of(kTriangle, {0.12F, 0.0F}));
         ASSERT_EQ(world->fill({{0, 0}, {0.1F, 0.24F}}, nullptr, Liquid::second), Status::ok);
         ASSERT_EQ(world->fill({{0.2F, 0.0F}, {0.32F, 0.2F}}), Status::ok);
         const std::int32_t before[] = {count(*world, Liquid::first), count(*world, Liquid::second)};

@@ -163,11 +163,10 @@ TEST(UnitOfTime, RegionsFallAsleepAtTheSameStep) {
         def.sleep = {0.1F / by, 0.5F * by, 0.0F};
         TestWorld<SmallFixed> world(def);
         const Ring block = rectangle(0.2F, 0.4F);
-        BodyId id;
-        expect_ok(world->add_static_body(body_of(block, {0.34F, 0.0F}), &id));
+        put_static(*world, body_of(block, {0.34F, 0.0F}));
         BodyDef bar = body_of(kSquare4cm, {0.62F, 0.06F});
         bar.motion.spin_radps = 6.0F / by;
-        expect_ok(world->add_moving_body(bar, &id));
+        put_moving(*world, bar);
         expect_ok(world->let_regions_sleep());
         expect_ok(world->fill({{0.0F, 0.0F}, {0.24F, 0.06F}}));
         expect_ok(world->fill({{0.44F, 0.0F}, {0.8F, 0.1F}}));

@@ -58,8 +58,7 @@ TYPED_TEST(Views, ShowLiquidThatWasJustPutIn) {
         const WorldDef def = roomy_def(kind);
         TestWorld<TypeParam> world(def);
         if (def.capacity.bodies > 0) {
-            BodyId id;
-            expect_ok(world->add_static_body(body_of(kSquare4cm, {0.25F, 0.08F}, 0.3F), &id));
+            put_static(*world, body_of(kSquare4cm, {0.25F, 0.08F}, 0.3F));
         }
         fill_pool(*world);
         const std::vector<double> before = densities(*world);

@@ -90,7 +90,6 @@ TYPED_TEST(WindowBodies, OpenWaysNeedNoPicture) {
 TYPED_TEST(WindowBodies, HoldWhatIsBeyond) {
     using Real = TypeParam;
     TestWorld<Real> world(windowed(wide_def(9), 66 * 42));
-    BodyId dam;
     BodyId bowl;
     BodyId plate;
     const Ring wall = rectangle(0.1F, 1.0F);
@@ -98,7 +97,7 @@ TYPED_TEST(WindowBodies, HoldWhatIsBeyond) {
     const Ring ring = {{-0.5F, 0.0F}, {0.5F, 0.0F}, {0.5F, 0.4F}, {0.4F, 0.1F}, {-0.4F, 0.1F},
                        {-0.5F, 0.4F}};
     expect_ok(world->add_static_body(body_of(ring, {4.0F, 0.6F}), &bowl));
-    expect_ok(world->add_static_body(body_of(wall, {0.35F, 0.5F}), &dam));
+    put_static(*world, body_of(wall, {0.35F, 0.5F}));
     BodyDef lift = body_of(table, {4.0F, 1.5F});
     lift.motion.velocity_mps = {0.0F, 0.4F};
     expect_ok(world->add_moving_body(lift, &plate));

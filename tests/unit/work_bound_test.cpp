@@ -66,8 +66,7 @@ TEST(WorkBound, HoldsForFreeBodies) {
     for (const float x : {0.08F, 0.2F, 0.3F}) {
         BodyDef body = body_of(bar, {x, 0.15F});
         body.surface.no_slip = true;
-        BodyId id;
-        expect_ok(world->add_free_body(body, &id));
+        put_free(*world, body);
     }
     expect_ok(world->fill({{0, 0}, {0.2F, 0.18F}}));
     for (std::int32_t step = 0; step < 60; ++step) {
@@ -136,8 +135,7 @@ TEST(WorkBound, IsReachedWithinAFactorOfTwo) {
             BodyDef wheel = body_of(bar, {0.06F + 0.12F * static_cast<float>(k % 4),
                                           0.08F + 0.16F * static_cast<float>(k / 4)});
             wheel.motion.spin_radps = 3.0F;
-            BodyId id;
-            expect_ok(crowd->add_moving_body(wheel, &id));
+            put_moving(*crowd, wheel);
         }
         expect_ok(crowd->fill({{0, 0}, {0.48F, 0.32F}}));
         expect_tight(*crowd, "all bodies moving");
