@@ -33,15 +33,39 @@ struct LastFirst {
 };
 constexpr LastFirst kLastFirst;
 
-struct EightLanes {
-    using Floats = float __attribute__((vector_size(32)));
-    using Ints = std::int32_t __attribute__((vector_size(32)));
+/// What more than four lanes have alike, whatever their number.
+template <std::int32_t N>
+struct WideGroups {
+    typedef float Floats __attribute__((vector_size(4 * N)));  // g++ takes no alias of N
+    typedef std::int32_t Ints __attribute__((vector_size(4 * N)));
+    using Four = float __attribute__((vector_size(16)));
+    static constexpr std::int32_t kGroups = N / 4;
+    static constexpr std::int32_t kLanes = N;
+
+    template <int G>
+    static Four group(Floats a) {
+        return __builtin_shufflevector(a, a, 4 * G, 4 * G + 1, 4 * G + 2, 4 * G + 3);
+    }
+    static Floats load(const float* from) {
+        Floats lanes;
+        __builtin_memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    }
+    static void store(float* to, Floats lanes) { __builtin_memcpy(to, &lanes, sizeof lanes); }
+    static Floats absolute(Floats a) {
+        return reinterpret_cast<Floats>(reinterpret_cast<Ints>(a) & (Ints{} + 0x7FFFFFFF));
+    }
+    static Floats minimum(Floats a, Floats b) { return b < a ? b : a; }
+    static Floats maximum(Floats a, Floats b) { return a < b ? b : a; }
+    static Floats clamp(Floats a, Floats low, Floats high) {
+        return a < low ? low : (high < a ? high : a);
+    }
+};
+
+struct EightLanes : WideGroups<8> {
     using UpToEight = EightLanes;
     using Shorts = std::int16_t __attribute__((vector_size(32)));
-    using Four = float __attribute__((vector_size(16)));
     using FourInts = std::int32_t __attribute__((vector_size(16)));
-    static constexpr std::int32_t kGroups = 2;
-    static constexpr std::int32_t kLanes = 8;
     static constexpr std::integral_constant<std::int32_t, 0> kFirstGroup{};
 
     template <class Body>
@@ -49,25 +73,15 @@ struct EightLanes {
         body(std::integral_constant<std::int32_t, 0>{});
         body(std::integral_constant<std::int32_t, 1>{});
     }
-    template <int G>
-    static Four group(Floats a) {
-        return __builtin_shufflevector(a, a, 4 * G, 4 * G + 1, 4 * G + 2, 4 * G + 3);
-    }
     static Floats all(float x) { return Floats{x, x, x, x, x, x, x, x}; }
     static Floats repeat(float a, float b, float c, float d) {
         return Floats{a, b, c, d, a, b, c, d};
-    }
-    static Floats load(const float* from) {
-        Floats lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return lanes;
     }
     static Floats load_some(const float* from, std::int32_t count) {
         Floats lanes{};
         __builtin_memcpy(&lanes, from, static_cast<std::size_t>(count) * sizeof *from);
         return lanes;
     }
-    static void store(float* to, Floats lanes) { __builtin_memcpy(to, &lanes, sizeof lanes); }
     static Four load_four(const float* from) {
         Four lanes;
         __builtin_memcpy(&lanes, from, sizeof lanes);
@@ -238,15 +252,7 @@ struct EightLanes {
         return __builtin_shufflevector(before, odd, 7, 8, 13, 10, 9, 12, 11, 14);
     }
     static Ints alternate_from(std::int32_t k) { return Ints{0, 1, 4, 5, 2, 3, 6, 7} >= k; }
-    static Floats absolute(Floats a) {
-        return reinterpret_cast<Floats>(reinterpret_cast<Ints>(a) & (Ints{} + 0x7FFFFFFF));
-    }
     static Floats square_root(Floats a) { return __builtin_ia32_sqrtps256(a); }
-    static Floats minimum(Floats a, Floats b) { return b < a ? b : a; }
-    static Floats maximum(Floats a, Floats b) { return a < b ? b : a; }
-    static Floats clamp(Floats a, Floats low, Floats high) {
-        return a < low ? low : (high < a ? high : a);
-    }
     static std::uint32_t signs(Floats a) {
         return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(a));
     }

@@ -15,13 +15,8 @@ namespace weir {
 // No other file may be given what is compiled here.
 namespace {
 
-struct SixteenLanes {
-    using Floats = float __attribute__((vector_size(64)));
-    using Ints = std::int32_t __attribute__((vector_size(64)));
+struct SixteenLanes : WideGroups<16> {
     using UpToEight = EightLanes;
-    using Four = float __attribute__((vector_size(16)));
-    static constexpr std::int32_t kGroups = 4;
-    static constexpr std::int32_t kLanes = 16;
 
     template <class Body>
     static void each_group(const Body& body) {
@@ -30,20 +25,10 @@ struct SixteenLanes {
         body(std::integral_constant<std::int32_t, 2>{});
         body(std::integral_constant<std::int32_t, 3>{});
     }
-    template <int G>
-    static Four group(Floats a) {
-        return __builtin_shufflevector(a, a, 4 * G, 4 * G + 1, 4 * G + 2, 4 * G + 3);
-    }
     static Floats all(float x) { return Floats{x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x}; }
     static Floats repeat(float a, float b, float c, float d) {
         return Floats{a, b, c, d, a, b, c, d, a, b, c, d, a, b, c, d};
     }
-    static Floats load(const float* from) {
-        Floats lanes;
-        __builtin_memcpy(&lanes, from, sizeof lanes);
-        return lanes;
-    }
-    static void store(float* to, Floats lanes) { __builtin_memcpy(to, &lanes, sizeof lanes); }
     static Floats one_a_group(const float* from) {
         Four four;
         __builtin_memcpy(&four, from, sizeof four);
@@ -95,20 +80,12 @@ struct SixteenLanes {
                                        27, 28, 29, 30);
     }
     static Ints alternate_from(std::int32_t k) { return numbers() >= k; }
-    static Floats absolute(Floats a) {
-        return reinterpret_cast<Floats>(reinterpret_cast<Ints>(a) & (Ints{} + 0x7FFFFFFF));
-    }
     static Floats square_root(Floats a) {
 #if defined(__clang__)
         return __builtin_ia32_sqrtps512(a, 4);
 #else
         return __builtin_ia32_sqrtps512_mask(a, Floats{}, -1, 4);
 #endif
-    }
-    static Floats minimum(Floats a, Floats b) { return b < a ? b : a; }
-    static Floats maximum(Floats a, Floats b) { return a < b ? b : a; }
-    static Floats clamp(Floats a, Floats low, Floats high) {
-        return a < low ? low : (high < a ? high : a);
     }
     static std::uint32_t bits_of(Ints mask) {
         return static_cast<std::uint16_t>(__builtin_ia32_cvtd2mask512(mask));

@@ -6,12 +6,7 @@
 
 namespace weir {
 
-const CutLoops cuts_by_eight{8,
-                             contour_groups<EightLanes>,
-                             list_groups<EightLanes>,
-                             look_at_eight<EightLanes>,
-                             areas_of_group<EightLanes>,
-                             shares_of_group<EightLanes>};
+const CutLoops cuts_by_eight = kCutLoops<EightLanes>;
 
 }  // namespace weir
 
