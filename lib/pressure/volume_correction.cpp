@@ -140,7 +140,7 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 
 template <bool Solids, class Real>
 void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                 Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
+                 Real gain, Vec2<Real> gravity, PressureFields<Real>& fields,
                  StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
     if constexpr (Stored<Real>::coarse) {
         correct_packed<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
@@ -148,7 +148,7 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
         if (work.once(1)) {
             overfull = 0;
         }
-        correct<Solids>(borders, walls, gain / dt_s, weight, fields, grid, overfull, work);
+        correct<Solids>(borders, walls, gain / dt_s, dt_s * gravity, fields, grid, overfull, work);
     }
 }
 
@@ -156,11 +156,11 @@ void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds
 
 template <bool Solids, class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
+                       Real gain, Vec2<Real> gravity, PressureFields<Real>& fields,
                        StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
     const auto stage = Stored<Real>::coarse || walls.active ? keep_volume<Solids, Real>
                                                             : keep_volume<false, Real>;
-    stage(borders, walls, dt_s, gain, weight, fields, grid, overfull, work);
+    stage(borders, walls, dt_s, gain, gravity, fields, grid, overfull, work);
 }
 
 #define WEIR_INSTANTIATE_VOLUME(Solids, Real)                                                   \

@@ -10,9 +10,8 @@ namespace weir {
 /// Particles drift apart where they are too dense and together where they are too thin: positions
 /// move by −gain ∇density a substep, velocities stay, so no kinetic energy enters. Without it a
 /// liquid that has splashed loses a third of its volume. Local: each face looks at its two cells.
-/// `weight`: dt times gravity, of a cell of liquid as a pressure. What the drift lifts, which falls
-/// again, costs its patch of 4 × 4 cells velocity; what hangs is not lifted. Without weight neither
-/// is looked at.
+/// What the drift lifts, which falls again, costs its patch of 4 × 4 cells velocity; what hangs is
+/// not lifted. Without gravity neither is looked at.
 /// `divergence` is used as scratch. Called after blend_change: only the advecting velocity sees
 /// the drift, and only the change that particles gather the price.
 /// `overfull`: liquid cells in patches of 4 × 4 that hold far more than they have room for, which
@@ -20,7 +19,7 @@ namespace weir {
 /// Without `Solids`: a program that adds none links nothing of them.
 template <bool Solids, class Real>
 void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, Vec2<Real> weight, PressureFields<Real>& fields,
+                       Real gain, Vec2<Real> gravity, PressureFields<Real>& fields,
                        StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work = {});
 
 }  // namespace weir

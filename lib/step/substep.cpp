@@ -345,7 +345,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     // In Fixed drift ends by itself: what does not make a last digit of a place is none.
     if (settings.volume_gain > Real(0) && !(Stored<Real>::coarse && plan.settling)) {
         volume_correction<Solids>(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
-                                  dt_s * settings.gravity, simulation.pressure, grid,
+                                  settings.gravity, simulation.pressure, grid,
                                   report.cells_overfull, work);
     }
     clock.charge(Stage::volume);
