@@ -9,6 +9,9 @@ namespace weir {
 
 namespace {
 
+// Kinds of fixed-point numbers are converted by public headers alone.
+static_assert(FixedPoint<8>(Fixed(-2.5)).raw == -640 && FixedPoint<24>(Fixed(300)).raw == kMostRaw);
+
 template <class Real>
 Status init(const WorldDef& def) {
     const auto memory = measure::memory_for<Real>(def);
