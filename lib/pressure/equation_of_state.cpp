@@ -29,8 +29,8 @@ Real counted_flow(const PressureFields<Real>& fields, std::int32_t c) {
     }
 }
 
-/// What bulk viscosity makes of a flow out of a cell. It does not hold liquid to a wall that air can
-/// come to.
+/// What bulk viscosity makes of a flow out of a cell. It does not hold liquid to a wall that air
+/// can come to.
 template <class Real>
 Real resistance(const GridShape& s, const Walls<Real>& walls, const PressureFields<Real>& fields,
                 std::int32_t c, Real flow) {

@@ -28,8 +28,8 @@ template <class Real>
 void carry_pressure(const OpenWeights<Real>& weights, PressureFields<Real>& fields, Work work);
 
 /// Advances it, and adds for this step a bulk viscosity of 3/8 c cells, which takes ringing out.
-/// Surface cells, whose diagonal is large, and thin ones, which hold less, are as much softer. Where
-/// air can come between liquid and a wall, it does not resist that they part.
+/// Surface cells, whose diagonal is large, and thin ones, which hold less, are as much softer. It
+/// does not resist that liquid parts from a wall, where air can come in between.
 template <class Real>
 void compress(const Borders<Real>& borders, const GridShape& shape, const Walls<Real>& walls,
               PressureFields<Real>& fields, Work work);

@@ -141,8 +141,8 @@ struct PackedRelaxTask {
           of_3(step / 384) {}
 };
 
-/// A cell at the surface or at a wall, with its diagonal and what flows out of it. (`relax_weighted`
-/// says why walls do not pull.)
+/// A cell at the surface or at a wall, with its diagonal and what flows out of it. Walls do not
+/// pull: `relax_weighted` says why.
 template <bool Solids, class Real>
 [[gnu::noinline]] void relax_rare(const PackedRelaxTask<Real>& task, Real* at, std::int32_t kept,
                                   std::int32_t flow) {
