@@ -5,10 +5,7 @@
 namespace weir {
 namespace {
 
-template <class Real>
-class BodyMotion : public testing::Test {};
-using Scalars = testing::Types<float, double, Fixed, SmallFixed>;
-TYPED_TEST_SUITE(BodyMotion, Scalars, );
+WEIR_SUITE(BodyMotion, EveryScalar);
 
 /// In float, whose metres are rounded, the place was another one for 4 bodies in 9, and in double
 /// for all: blows were leaps.
