@@ -144,13 +144,25 @@ inline constexpr Real kEmptyLevel =
     Real(Stored<Real>::coarse ? -1.5 - kHeadRaw / 64.0 : -1.55);
 
 /// Velocity before the step of a face that no particle reaches: 0, though not the 0 of one where
-/// all is at rest. Fixed point has one 0, and does not know.
+/// all is at rest. Fixed point has one 0, and gives up a last digit; packed worlds do not know.
 template <class Real>
-inline constexpr Real kNoVelocity = Real(-0.0);
+inline constexpr Real kNoVelocity =
+    Real(std::is_floating_point<Real>::value || Stored<Real>::coarse ? -0.0 : 1.0 / 65536.0);
 
 template <class Real>
 inline bool is_no_velocity(Real velocity) {
     return __builtin_memcmp(&velocity, &kNoVelocity<Real>, sizeof velocity) == 0;
+}
+
+/// What stands for the velocity before the step of a face that particles reach: never what stands
+/// for those that none reaches, nor, so that what is mirrored stays so, that turned round.
+template <class Real>
+inline Real reached_velocity(Real velocity, Real unreached) {
+    if constexpr (std::is_floating_point<Real>::value || Stored<Real>::coarse) {
+        return velocity;
+    } else {
+        return absolute(velocity) == unreached ? Real(0) : velocity;
+    }
 }
 
 template <class Real>

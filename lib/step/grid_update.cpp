@@ -35,7 +35,7 @@ inline void for_each_run_of_faces(const GridShape& s, const Part& rows, Visit vi
 /// Ascending, so that a velocity may stand where the momenta of faces before it stood.
 template <class Real>
 void update(const Real* momentum, VelocityOf<Real>* mass, const Part& faces, Real gained,
-            VelocityOf<Real>* velocity) {
+            Real unreached, VelocityOf<Real>* velocity) {
     std::int32_t face = faces.first;
     if constexpr (kHasLanes<Real>) {
         face = velocity_lanes(momentum, mass, gained, face, faces.end, velocity);
@@ -43,8 +43,8 @@ void update(const Real* momentum, VelocityOf<Real>* mass, const Part& faces, Rea
     for (; face < faces.end; ++face) {
         const Real m = mass[face];
         const Real before =
-            m > Real(0) ? momentum_at(momentum, face) / m : kNoVelocity<Real>;
-        mass[face] = before;
+            m > Real(0) ? momentum_at(momentum, face) / m : unreached;
+        mass[face] = m > Real(0) ? reached_velocity(before, unreached) : before;
         velocity[face] = m > Real(0) ? before + gained : Real(0);
     }
 }
@@ -83,13 +83,14 @@ void update_packed(const SmallFixed* momentum, VelocityOf<SmallFixed>* mass, con
 /// as dense as the first liquid.
 template <class Real>
 void update_mixed(const Real* momentum, VelocityOf<Real>* volume, VelocityOf<Real>* mass,
-                  const Part& faces, Real gained, VelocityOf<Real>* velocity) {
+                  const Part& faces, Real gained, Real unreached,
+                  VelocityOf<Real>* velocity) {
     for (std::int32_t face = faces.first; face < faces.end; ++face) {
         const Real m = mass[face];
         const Real before =
-            m > Real(0) ? momentum_at(momentum, face) / m : kNoVelocity<Real>;
+            m > Real(0) ? momentum_at(momentum, face) / m : unreached;
         mass[face] = m > Real(0) ? volume[face] / m : Real(1);
-        volume[face] = before;
+        volume[face] = m > Real(0) ? reached_velocity(before, unreached) : before;
         velocity[face] = m > Real(0) ? before + gained : Real(0);
     }
 }
@@ -229,7 +230,8 @@ void extrapolate_component(const Component<Real>& component, const PressureField
 
 template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
-                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work) {
+                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work,
+                 Real unreached) {
     const GridShape& s = grid.shape;
     // One component after the other: packed velocities take the place of momenta.
     const auto component = [&](const Real* momentum, VelocityOf<Real>* mass,
@@ -239,9 +241,10 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
             if constexpr (Stored<Real>::coarse) {
                 update_packed(momentum, mass, faces, gained, velocity);
             } else if (inverse_density != nullptr) {
-                update_mixed(momentum, mass, inverse_density, faces, gained, velocity);
+                update_mixed(momentum, mass, inverse_density, faces, gained, unreached,
+                             velocity);
             } else {
-                update(momentum, mass, faces, gained, velocity);
+                update(momentum, mass, faces, gained, unreached, velocity);
             }
         };
         const Part rows = work.take(s.ny + 1, s.nx + 2);
@@ -296,7 +299,8 @@ void extrapolate_by_face(const Borders<Real>& borders, const Walls<Real>& walls,
 
 #define WEIR_INSTANTIATE(Real)                                                           \
     template void grid_update(const Borders<Real>&, Vec2<Real>,                          \
-                              const PressureFields<Real>&, StaggeredGrid<Real>&, Work);  \
+                              const PressureFields<Real>&, StaggeredGrid<Real>&, Work,   \
+                              Real);                                                     \
     template void extrapolate(const Borders<Real>&, const Walls<Real>&,                  \
                               const PressureFields<Real>&, bool, StaggeredGrid<Real>&,   \
                               Work);                                                     \

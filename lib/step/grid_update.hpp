@@ -11,10 +11,12 @@ namespace weir {
 /// cells/s. Where the mass was stands the velocity before gravity from now on: grid-to-particle
 /// needs the change (FLIP). With two liquids the mass gives way to the inverse density.
 /// Normal velocity on the tank's walls is 0 but where liquid parts from them.
+/// `unreached`: what then stands where no particle reaches.
 /// Order: by row. Cost: one division a face.
 template <class Real>
 void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
-                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work = {});
+                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work = {},
+                 Real unreached = kNoVelocity<Real>);
 
 /// Faces in air beside the liquid take from the pressure what the liquid's open faces next to them
 /// do on average: particles at the surface read both. It is the acceleration that goes on smoothly

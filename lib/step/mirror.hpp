@@ -127,15 +127,15 @@ template <class Real>
     return sum / weight;
 }
 
-/// Fixed point cannot tell who is reached from who is at rest.
+/// Packed worlds cannot tell who is reached from who is at rest.
 template <class Real>
 Real at_mirror(const VelocityOf<Real>* field, const VelocityOf<Real>* was, std::int32_t stride,
                const Stencil<Real>& at, bool all_count) {
-    if constexpr (std::is_floating_point<Real>::value) {
-        const Real* low = was + at.base;
-        const Real* high = low + stride;
-        if (!all_count && (is_no_velocity(low[0]) || is_no_velocity(low[1]) ||
-                           is_no_velocity(high[0]) || is_no_velocity(high[1]))) {
+    if constexpr (!Stored<Real>::coarse) {
+        const VelocityOf<Real>* low = was + at.base;
+        const VelocityOf<Real>* high = low + stride;
+        if (!all_count && (is_no_velocity(Real(low[0])) || is_no_velocity(Real(low[1])) ||
+                           is_no_velocity(Real(high[0])) || is_no_velocity(Real(high[1])))) {
             return of_reached<Real>(field, was, stride, at);
         }
     }

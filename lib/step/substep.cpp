@@ -112,8 +112,10 @@ template <class Real>
 void update_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     const Vec2<Real> exact = plan.dt_s * simulation.settings.gravity;
     const Real most = most_owed(simulation, plan);
+    // Only beside solids does it matter who is reached: elsewhere 0 is exact in fixed point, too.
+    const Real unreached = simulation.layers.walls.active ? kNoVelocity<Real> : Real(-0.0);
     grid_update(simulation.settings.borders, simulation.fall.of(exact, most),
-                simulation.pressure, simulation.grid, work);
+                simulation.pressure, simulation.grid, work, unreached);
     if (work.once(1)) {
         simulation.fall.give(exact, most);
     }
