@@ -34,8 +34,7 @@ Real counted_flow(const PressureFields<Real>& fields, std::int32_t c) {
 template <class Real>
 Real resistance(const GridShape& s, const Walls<Real>& walls, const PressureFields<Real>& fields,
                 std::int32_t c, Real flow) {
-    const bool parts = flow > Real(0) && fields.inverse_diagonal[c] < VelocityOf<Real>(0) &&
-                       may_part(fields) && has_air_around(fields, walls.full_density, s, c);
+    const bool parts = flow > Real(0) && parts_from_wall(fields, walls.full_density, s, c);
     return parts ? Real(0) : kBulkViscosity<Real> * flow;
 }
 

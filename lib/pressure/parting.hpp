@@ -38,6 +38,15 @@ inline bool may_part(const PressureFields<Real>& fields) {
     return !fields.on_surface;
 }
 
+/// Whether liquid in a cell may part from a wall that the cell touches, as its mark says.
+template <class Real>
+[[gnu::always_inline]] inline bool parts_from_wall(const PressureFields<Real>& fields,
+                                                   const ShareOf<Real>* full_density,
+                                                   const GridShape& s, std::int32_t c) {
+    return fields.inverse_diagonal[c] < VelocityOf<Real>(0) && may_part(fields) &&
+           has_air_around(fields, full_density, s, c);
+}
+
 /// Pressure of no larger size neither holds liquid to a wall nor pulls at it: there is none but for
 /// what a solve leaves. Below 0: no liquid may part.
 template <class Real>

@@ -36,8 +36,8 @@ template <bool Solids, bool Mixed, class Real>
         Real& p = fields.pressure[c];
         relax_cell<Real>(p, weights.weighted(fields.pressure, c, inverse),
                          fields.divergence[c], Solids ? absolute(inverse) : inverse);
-        if (Solids && inverse < Real(0) && p < Real(0) && may_part(fields) &&
-            has_air_around(fields, weights.walls.full_density, weights.grid.shape, c)) {
+        if (Solids && p < Real(0) &&
+            parts_from_wall(fields, weights.walls.full_density, weights.grid.shape, c)) {
             p = Real(0);
         }
     }
