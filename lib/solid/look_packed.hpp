@@ -78,7 +78,8 @@ inline bool is_path_open(const CasesAt& at, std::uint32_t from, std::uint32_t to
         const std::uint32_t place = word_at(places + n);
         const std::uint32_t from = word_at(before + n);
         if (at.cases[at.cell(place)] != kCellOutside ||
-            (goes_beyond(from, place, kPast) && !is_path_open(at, from, place))) {
+            (goes_further(from, place) && goes_beyond(from, place, kPast) &&
+             !is_path_open(at, from, place))) {
             return n;
         }
     }

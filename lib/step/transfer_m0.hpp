@@ -262,7 +262,7 @@ struct WayBounds {
     std::uint32_t low;
     std::uint32_t high;
     std::uint32_t half;
-    std::uint32_t one;
+    std::uint32_t most;
     std::uint32_t far;
 };
 
@@ -274,11 +274,9 @@ struct Stop {
 
 /// Along y, from `place` on: velocities, and there they go, up to one that does not simply go.
 /// Where they come from takes the place of the ways along x.
-inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_given,
-                           const char*& place, std::int32_t& fastest_yet) {
-    const GatherTask task = given;
-    const WayBounds bounds = bounds_given;
-    std::int32_t fastest = fastest_yet;
+/// Inline: what it is told is addressed by the stack pointer, as no register is left.
+[[gnu::always_inline]] inline Stop gather_along_v(const GatherTask& task, const WayBounds& bounds,
+                                                  const char*& place, std::int32_t& fastest) {
     register std::uint32_t way __asm__("lr");
     std::uint32_t at, low, ll, ul, ur, t, z, g;
     __asm__(".syntax unified\n"
@@ -317,7 +315,7 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
             "subs %[ul], %[ul], %[low]\n\t"
             "orrs %[g], %[ul]\n\t"
             "bics %[g], %[at]\n\t"
-            "ldr %[ul], %[one]\n\t"
+            "ldr %[ul], %[most]\n\t"
             "adds %[ll], %[ll], %[ul]\n\t"
             "ldr %[ul], %[far]\n\t"
             "ands %[ll], %[ul]\n\t"
@@ -336,9 +334,8 @@ inline Stop gather_along_v(const GatherTask& given, const WayBounds& bounds_give
             "5:\n\t"
             : WEIR_FOUND, [a] "=&h"(way), [fastest] "+m"(fastest) : WEIR_TOLD,
               [lowest] "m"(bounds.low), [highest] "m"(bounds.high), [half] "m"(bounds.half),
-              [one] "m"(bounds.one), [far] "m"(bounds.far)
+              [most] "m"(bounds.most), [far] "m"(bounds.far)
             : "cc", "memory");
-    fastest_yet = fastest;
     return {g, {static_cast<std::int32_t>(ur), static_cast<std::int32_t>(way)}};
 }
 

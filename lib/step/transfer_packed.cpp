@@ -1,6 +1,7 @@
 #include "step/transfer_packed.hpp"
 
 #include "math/packed_arithmetic.hpp"
+#include "solid/collide.hpp"
 #include "step/places_packed.hpp"
 #include "step/tank_walls.hpp"
 #include "step/transfer_m0.hpp"
@@ -159,15 +160,52 @@ inline Real limit_of(const Transfer<Real>& transfer) {
     }
 }
 
-/// Those few that go further than a cell, or come to the tank's walls. `way`: 256ths.
-[[gnu::noinline]] void advect_rare(const Gather& gather, Vec2<std::int32_t> way,
+/// Of ways and places in a word: halves of both.
+constexpr std::uint32_t kHalves = 0x7FFF7FFFU;
+
+/// What goes no further than a cell or, among solids, than half a cell: less than kLongWay.
+struct Bounds {
+    std::uint32_t most;
+    std::uint32_t far;  ///< bits that the sum of a way and `most` does not have
+};
+constexpr Bounds bounds_of(bool among_solids) {
+    return among_solids ? Bounds{0x800080U, 0xFF00FF00U} : Bounds{0x1000100U, 0xFE00FE00U};
+}
+
+/// Whether a particle goes from `from` by `both` to a place inside the tank, no further than
+/// `bounds` allow: both axes in a word. Halves leave a bit that tells which of them is out.
+inline bool simply_goes(const Bounds& bounds, std::uint32_t high, std::uint32_t from,
+                        std::uint32_t both) {
+    const std::uint32_t half = ((from + both) >> 1U) & kHalves;
+    const std::uint32_t out = (half - kLowest) | (high - half);
+    return ((both + bounds.most) & bounds.far) == 0 && (out & ~kHalves) == 0;
+}
+
+inline std::uint32_t both_in_word(std::int32_t x, std::int32_t y) {
+    return static_cast<std::uint32_t>(x) + static_cast<std::uint32_t>(y) * 0x10000U;
+}
+
+/// Among solids most only go further than half a cell. False: it is not one of those.
+[[gnu::noinline]] bool goes_far(const Gather& gather, Vec2<std::int32_t> way, const Strip& strip,
+                                std::ptrdiff_t at, TransferResult<Real>& result) {
+    constexpr std::int32_t kNear = kLongWay<Real>.raw >> 8;
+    const auto is_far = [](std::int32_t part) { return part < -kNear || part > kNear; };
+    result.far += is_far(way.x) || is_far(way.y) ? 1 : 0;
+    const std::uint32_t both = both_in_word(way.x, way.y);
+    const bool goes = simply_goes(bounds_of(false), gather.high, strip.word(at), both);
+    if (goes) {
+        put_word(strip.places + at, strip.word(at) + both);
+    }
+    return goes;
+}
+
+/// Those few that come to the tank's walls, or go further than a cell. `way`: 256ths.
+[[gnu::noinline]] void meet_rare(const Gather& gather, Vec2<std::int32_t> way,
                                    const Strip& strip, std::ptrdiff_t at,
                                    TransferResult<Real>& result) {
     Vec2<Place>& place = strip.place(at);
     Vec2<Speed>& speed = strip.velocity(at);
     const GridShape& s = gather.grid.shape;
-    const auto is_far = [](std::int32_t part) { return part < -256 || part > 256; };
-    result.far += is_far(way.x) || is_far(way.y) ? 1 : 0;
     constexpr std::int32_t kLongest = 2 * 256;
     Vec2<Real> x{Real(place.x) + Real::of_raw(256 * clamp(way.x, -kLongest, kLongest)),
                  Real(place.y) + Real::of_raw(256 * clamp(way.y, -kLongest, kLongest))};
@@ -184,11 +222,6 @@ inline Real limit_of(const Transfer<Real>& transfer) {
     }
     result.max_speed = maximum(result.max_speed, minimum(fastest, most));
 }
-
-// Of ways and places in a word: halves of both, and what goes no further than a cell.
-constexpr std::uint32_t kHalves = 0x7FFF7FFFU;
-constexpr std::uint32_t kOneCell = 0x1000100U;
-constexpr std::uint32_t kFarBits = 0xFE00FE00U;
 
 #if defined(WEIR_LOOPS_OF_M0)
 /// `first`: the first face. `between`: to the same one of the other field.
@@ -260,13 +293,17 @@ template <bool Keeps>
 #if defined(WEIR_LOOPS_OF_M0)
     const GatherTask task = task_of(gather, particles, ways, further(gather.grid.v, row),
                                     bytes_between(gather.grid.v, gather.grid.mass_v), kSpeedBytes);
-    const WayBounds bounds{kLowest, gather.high, kHalves, kOneCell, kFarBits};
+    const bool keeps = gather.transfer.keeps_places;
+    const Bounds most = bounds_of(keeps);
+    const WayBounds bounds{kLowest, gather.high, kHalves, most.most, most.far};
     const Strip strip(particles);
     for (const auto* place = reinterpret_cast<const char*>(particles.position);
          place != task.end;) {
         const Stop stop = gather_along_v(task, bounds, place, fastest);
         if (stop.stops != 0) {
-            advect_rare(gather, stop.way, strip, place - task.end, result);
+            if (!keeps || !goes_far(gather, stop.way, strip, place - task.end, result)) {
+                meet_rare(gather, stop.way, strip, place - task.end, result);
+            }
             place += Strip::kStep;
         }
     }
@@ -289,19 +326,16 @@ template <bool Keeps>
         const Speed* gained = further(along, to_gained);
         fastest = maximum(fastest, change(strip.velocity(k).y.raw, flip,
                                           weighed(gained, further(along, to_upper), w)));
-        // Both axes in a word. Halves leave a bit that tells which of them is out of its bounds.
         const std::uint32_t way_x = word_at(way + k);
         if (Keeps) {
             put_word(way + k, from);
         }
-        const std::uint32_t both = way_x + static_cast<std::uint32_t>(way_y) * 0x10000U;
-        const std::uint32_t to = from + both;
-        const std::uint32_t half = (to >> 1U) & kHalves;
-        const std::uint32_t out = (half - kLowest) | (high - half);
-        if (((both + kOneCell) & kFarBits) == 0 && (out & ~kHalves) == 0) {
-            put_word(strip.places + k, to);
-        } else {
-            advect_rare(gather, {static_cast<std::int32_t>(way_x), way_y}, strip, k, result);
+        const std::uint32_t both = both_in_word(static_cast<std::int32_t>(way_x), way_y);
+        if (simply_goes(bounds_of(Keeps), high, from, both)) {
+            put_word(strip.places + k, from + both);
+        } else if (const Vec2<std::int32_t> gone{static_cast<std::int32_t>(way_x), way_y};
+                   !Keeps || !goes_far(gather, gone, strip, k, result)) {
+            meet_rare(gather, gone, strip, k, result);
         }
     }
 #endif

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/vec2.hpp"
+#include "measure/random.hpp"
 #include "solid/way_out.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
@@ -122,6 +123,46 @@ TEST(Tightness, AWallOfACellHoldsAtAnyAngle) {
     throw_at_walls_of_a_cell<double>();
     throw_at_walls_of_a_cell<Fixed>();
     throw_at_walls_of_a_cell<SmallFixed>();
+}
+
+/// Particles that fly at a wall, each by itself, beside one that goes `companion` cells.
+template <class Real>
+std::vector<Vec2f> after_a_step(std::uint64_t seed, float companion) {
+    TestWorld<Real> world(free_flight());
+    constexpr float kAngle = 2.3F;
+    const Ring wall = rectangle(0.8F * kCell, 120 * kCell);
+    const BodyDef plate = body_of(wall, kCell * Vec2f{16.2F, 15.7F}, kAngle);
+    BodyId id;
+    expect_ok(world->add_static_body(plate, &id));
+    expect_ok(world->add_particle(kCell * Vec2f{4, 4}, (kCell / kFrame) * Vec2f{companion, 0}));
+    measure::Random dice(seed);
+    for (float along = -10; along <= 10; along += 4) {
+        const Vec2f at{16.2F - along * std::tan(kAngle) + dice.uniform(-1.5F, 1.5F), 15.7F + along};
+        const Vec2f way{dice.uniform(-0.95F, 0.95F), dice.uniform(-0.95F, 0.95F)};
+        static_cast<void>(world->add_particle(kCell * at, (kCell / kFrame) * way));
+    }
+    EXPECT_EQ(world->step(kFrame).substeps, 1);
+    std::vector<Vec2f> places;
+    for (const auto x : world->particle_positions()) {
+        places.push_back(convert<float>(x));
+    }
+    places.erase(places.begin());
+    return places;
+}
+
+/// Blocks of particles are whatever slices and memory leave of them.
+WEIR_SUITE(TightnessOf, EveryScalar);
+
+TYPED_TEST(TightnessOf, AParticleMeetsAWallWhoeverFliesBeside) {
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        const std::vector<Vec2f> slow = after_a_step<TypeParam>(seed, 0.3F);
+        const std::vector<Vec2f> fast = after_a_step<TypeParam>(seed, 1.9F);
+        ASSERT_EQ(slow.size(), fast.size());
+        for (std::size_t k = 0; k < slow.size(); ++k) {
+            EXPECT_EQ(slow[k].x, fast[k].x) << seed;
+            EXPECT_EQ(slow[k].y, fast[k].y) << seed;
+        }
+    }
 }
 
 /// And elsewhere each time it is drawn. (Where it presses liquid against the tank some may pass.)
