@@ -2,11 +2,14 @@
 
 namespace weir {
 
+double turn_in_double(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
+    return turn(convert<double>(a), convert<double>(b), convert<double>(c));
+}
+
 double twice_area_in_double(View<Vec2f> ring) {
-    const Vec2<double> origin = convert<double>(ring[0]);
     double sum = 0.0;
     for (std::int32_t i = 2; i < ring.size; ++i) {
-        sum += turn(origin, convert<double>(ring[i - 1]), convert<double>(ring[i]));
+        sum += turn_in_double(ring[0], ring[i - 1], ring[i]);
     }
     return sum;
 }
@@ -17,8 +20,7 @@ bool within_ring(View<Vec2f> ring, Vec2f point) {
         const Vec2f from = ring[i];
         const Vec2f to = ring[i + 1 < ring.size ? i + 1 : 0];
         if ((from.y > point.y) != (to.y > point.y)) {
-            const double side = turn(convert<double>(from), convert<double>(to),
-                                     convert<double>(point));
+            const double side = turn_in_double(from, to, point);
             inside = (to.y > from.y ? side > 0.0 : side < 0.0) != inside;
         }
     }

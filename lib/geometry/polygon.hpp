@@ -20,6 +20,10 @@ constexpr Product<Real> turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
     return cross(b - a, c - a);
 }
 
+/// The same in double, where products of floats are exact and squares cannot overflow. By itself,
+/// and of references: without an FPU for double each operation is a call.
+double turn_in_double(const Vec2f& a, const Vec2f& b, const Vec2f& c);
+
 /// Whether a point is in a triangle that turns left, or on its rim.
 inline bool in_triangle(Vec2<double> a, Vec2<double> b, Vec2<double> c, Vec2<double> p) {
     return turn(c, a, p) >= 0.0 && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0;
@@ -28,8 +32,6 @@ inline bool in_triangle(Vec2<double> a, Vec2<double> b, Vec2<double> c, Vec2<dou
 /// Twice the enclosed area, in squares of the ring's unit; positive if counter-clockwise.
 template <class Real>
 Real twice_signed_area(const Vec2<Real>* ring, std::int32_t count);
-
-/// The same in double, where products of floats are exact and squares cannot overflow.
 double twice_area_in_double(View<Vec2f> ring);
 
 /// Whether a point is within a ring, either way round: how often a ray from it meets the ring. On

@@ -12,8 +12,8 @@ namespace {
 /// Edges that are held while all others pass by: 24 bytes each on the stack.
 constexpr std::int32_t kEdgesHeld = 16;
 
-int sign_of_turn(Vec2f a, Vec2f b, Vec2f c) {
-    const double t = turn(convert<double>(a), convert<double>(b), convert<double>(c));
+int sign_of_turn(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
+    const double t = turn_in_double(a, b, c);
     return t > 0.0 ? 1 : (t < 0.0 ? -1 : 0);
 }
 
@@ -27,11 +27,11 @@ bool edges_meet(const Edge& e, const Edge& f, Meeting meeting) {
            sign_of_turn(f.a, f.b, e.a) * sign_of_turn(f.a, f.b, e.b) <= most;
 }
 
+Vec2<double> along(const Edge& e) { return convert<double>(e.b) - convert<double>(e.a); }
+
 /// Whether the way turns back on itself where edge e ends.
 bool folds(const Edge& e, const Edge& f) {
-    const Vec2<double> in = convert<double>(e.b) - convert<double>(e.a);
-    const Vec2<double> out = convert<double>(f.b) - convert<double>(f.a);
-    return sign_of_turn(e.a, e.b, f.b) == 0 && dot(in, out) < 0.0;
+    return sign_of_turn(e.a, e.b, f.b) == 0 && dot(along(e), along(f)) < 0.0;
 }
 
 /// Whether two edges meet where they must not: neighbours do share a vertex.
@@ -43,22 +43,6 @@ bool clash(const PolygonRings& rings, const Edge& e, const Edge& f, Meeting meet
         return folds(e, f);
     }
     return follows(rings, f, e) ? folds(f, e) : true;
-}
-
-Vec2f meeting_place(const Edge& e, const Edge& f) {
-    const Vec2<double> a = convert<double>(e.a);
-    const Vec2<double> along = convert<double>(e.b) - a;
-    const Vec2<double> across = convert<double>(f.b) - convert<double>(f.a);
-    const double both = cross(along, across);
-    if (both != 0.0) {
-        const double share = cross(convert<double>(f.a) - a, across) / both;
-        return convert<float>(a + clamp(share, 0.0, 1.0) * along);
-    }
-    // On one line: an end of one lies on the other.
-    if (overlap(box_of(e), {f.a, f.a})) {
-        return f.a;
-    }
-    return overlap(box_of(e), {f.b, f.b}) ? f.b : e.a;
 }
 
 /// The first pair of edges that clash. All edges are taken in groups; a group that another one
@@ -112,14 +96,35 @@ double squared_diagonal(View<Vec2f> ring) {
     return dot(diagonal, diagonal);
 }
 
+/// What is told of a fault. Who does not ask where edges meet does not link what finds it.
+struct Finding : PolygonFault {
+    Vec2f (*meeting_place)(const Edge& e, const Edge& f) = [](const Edge&, const Edge&) {
+        return Vec2f{};
+    };
+};
+
+Vec2f meeting_place(const Edge& e, const Edge& f) {
+    const Vec2<double> a = convert<double>(e.a);
+    const double both = cross(along(e), along(f));
+    if (both != 0.0) {
+        const double share = cross(convert<double>(f.a) - a, along(f)) / both;
+        return convert<float>(a + clamp(share, 0.0, 1.0) * along(e));
+    }
+    // On one line: an end of one lies on the other.
+    if (overlap(box_of(e), {f.a, f.a})) {
+        return f.a;
+    }
+    return overlap(box_of(e), {f.b, f.b}) ? f.b : e.a;
+}
+
 void blame(PolygonFault& fault, std::int32_t ring, std::int32_t edge, Vec2f place) {
     fault.ring_a = ring;
     fault.edge_a = edge;
     fault.place_m = place;
 }
 
-void blame(PolygonFault& fault, const Edge& e, const Edge& f) {
-    blame(fault, e.ring, e.index, meeting_place(e, f));
+void blame(Finding& fault, const Edge& e, const Edge& f) {
+    blame(fault, e.ring, e.index, fault.meeting_place(e, f));
     fault.ring_b = f.ring;
     fault.edge_b = f.index;
 }
@@ -161,7 +166,7 @@ Status check_vertices(const PolygonRings& rings, PolygonFault& fault) {
     return Status::ok;
 }
 
-[[gnu::noinline]] Status check_areas(const PolygonRings& rings, PolygonFault& fault) {
+[[gnu::noinline]] Status check_areas(const PolygonRings& rings, Finding& fault) {
     for (std::int32_t ring = 0; ring < rings.count(); ++ring) {
         const View<Vec2f> vertices = rings[ring];
         if (absolute(twice_area_in_double(vertices)) >
@@ -196,7 +201,7 @@ Status check_nesting(const PolygonRings& rings, PolygonFault& fault) {
     return Status::ok;
 }
 
-Status check_rings(const PolygonRings& rings, PolygonFault& fault) {
+Status check_rings(const PolygonRings& rings, Finding& fault) {
     Status status = check_sizes(rings, fault);
     if (status == Status::ok) {
         status = check_vertices(rings, fault);
@@ -216,11 +221,20 @@ Status check_rings(const PolygonRings& rings, PolygonFault& fault) {
 
 }  // namespace
 
+Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes) {
+    Finding ignored;
+    return check_rings({polygon, holes}, ignored);
+}
+
 Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes, PolygonFault* fault) {
-    PolygonFault ignored;
-    PolygonFault& found = fault != nullptr ? *fault : ignored;
-    found = PolygonFault{};
-    return check_rings({polygon, holes}, found);
+    if (fault == nullptr) {
+        return check_polygon(polygon, holes);
+    }
+    Finding found;
+    found.meeting_place = meeting_place;
+    const Status status = check_rings({polygon, holes}, found);
+    *fault = found;
+    return status;
 }
 
 }  // namespace weir

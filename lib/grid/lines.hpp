@@ -30,23 +30,28 @@ void fill_ghosts(void* field, std::size_t size, const GridShape& shape, bool sea
                  bool seams_only);
 
 template <class Field>
-void add(Field* field, const Line& to, const Line& from) {
+[[gnu::noinline]] void add(Field* field, const Line& to, const Line& from) {
     for (std::int32_t k = 0; k < to.count; ++k) {
         field[to.first + k * to.step] += field[from.first + k * from.step];
     }
 }
 
-template <class Field>
-void set_zero(Field* field, const Line& line) {
-    for (std::int32_t k = 0; k < line.count; ++k) {
-        field[line.first + k * line.step] = Field(0);
-    }
-}
-
+/// Adds to the first line, and empties the other.
 template <class Field>
 void move(Field* field, const Line& to, const Line& from) {
     add(field, to, from);
-    set_zero(field, from);
+    for (std::int32_t k = 0; k < from.count; ++k) {
+        field[from.first + k * from.step] = Field(0);
+    }
+}
+
+/// Moves ghosts onto the line before them or, across a seam, onto the tank's other side.
+template <class Field>
+[[gnu::noinline]] void move_ghosts(Field* field, const GridShape& s,
+                                   Line (*line)(const GridShape&, std::int32_t),
+                                   std::int32_t last, bool seam) {
+    move(field, line(s, seam ? last : 0), line(s, -1));
+    move(field, line(s, seam ? 0 : last), line(s, last + 1));
 }
 
 }  // namespace weir

@@ -16,9 +16,7 @@ Status check_gravity(Vec2f gravity) {
     if (!is_finite(gravity)) {
         return Status::gravity_not_finite;
     }
-    const bool in_range = within(gravity.x, -kMaxGravity, kMaxGravity) &&
-                          within(gravity.y, -kMaxGravity, kMaxGravity);
-    return in_range ? Status::ok : Status::gravity_out_of_range;
+    return within(gravity, kMaxGravity) ? Status::ok : Status::gravity_out_of_range;
 }
 
 Status check_numerics(const WorldDef& def) {
@@ -63,9 +61,10 @@ Status check_liquids(const WorldDef& def) {
 }
 
 Status check_borders(const WorldDef& def, const Reach& reach) {
-    const Surface walls[] = {def.walls.bottom, def.walls.right, def.walls.top, def.walls.left};
-    for (const Surface& wall : walls) {
-        const Status surface = check_surface(wall, def.cell_m, reach);
+    const Surface* const walls[] = {&def.walls.bottom, &def.walls.right, &def.walls.top,
+                                    &def.walls.left};
+    for (const Surface* wall : walls) {
+        const Status surface = check_surface(*wall, def.cell_m, reach);
         if (surface != Status::ok) {
             return surface;
         }
@@ -125,9 +124,7 @@ Status check_reach(const WorldDef& def, const Reach& reach) {
     if (!within(def.top_speed_mps, 0.0F, reach.top_speed * def.cell_m)) {
         return Status::top_speed_out_of_range;
     }
-    const float strongest = reach.gravity * def.cell_m;
-    if (!within(def.gravity_mps2.x, -strongest, strongest) ||
-        !within(def.gravity_mps2.y, -strongest, strongest)) {
+    if (!within(def.gravity_mps2, reach.gravity * def.cell_m)) {
         return Status::gravity_out_of_range;
     }
     if (!reach.everything && def.capacity.second_liquid) {
@@ -170,6 +167,11 @@ Status check_polyline(const BodyDef& def) {
 }
 
 }  // namespace
+
+bool within(float value, float low, float high) { return low <= value && value <= high; }
+bool within(Vec2f value, float most) {
+    return within(value.x, -most, most) && within(value.y, -most, most);
+}
 
 Status check_capacity(const Capacity& capacity) {
     if (!within(capacity.cells_x, kMinCells, kMaxCells) ||
@@ -246,14 +248,10 @@ Status check_motion(const Motion& motion, float cell_m, const Reach& reach) {
         !is_finite(motion.angle_rad) || !is_finite(motion.spin_radps)) {
         return Status::motion_not_finite;
     }
-    const float furthest = reach.furthest * cell_m;
-    if (!within(motion.position_m.x, -furthest, furthest) ||
-        !within(motion.position_m.y, -furthest, furthest)) {
+    if (!within(motion.position_m, reach.furthest * cell_m)) {
         return Status::position_out_of_range;
     }
-    const float fastest = reach.speed * cell_m;
-    const bool in_range = within(motion.velocity_mps.x, -fastest, fastest) &&
-                          within(motion.velocity_mps.y, -fastest, fastest) &&
+    const bool in_range = within(motion.velocity_mps, reach.speed * cell_m) &&
                           within(motion.angle_rad, -kMaxAngle, kMaxAngle) &&
                           within(motion.spin_radps, -reach.spin, reach.spin);
     return in_range ? Status::ok : Status::motion_out_of_range;
@@ -267,7 +265,7 @@ Status check_body(const BodyDef& def, float cell_m, const Reach& reach) {
     }
     const float furthest = reach.furthest * cell_m;
     for (const Vec2f& vertex : def.polygon) {
-        if (!within(vertex.x, -furthest, furthest) || !within(vertex.y, -furthest, furthest)) {
+        if (!within(vertex, furthest)) {
             return Status::position_out_of_range;
         }
     }

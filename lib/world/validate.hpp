@@ -42,5 +42,9 @@ template <class T>
 constexpr bool within(T value, SameAs<T> low, SameAs<T> high) {
     return low <= value && value <= high;
 }
+/// Without an FPU a comparison is a call: there is one place for both.
+[[gnu::noinline]] bool within(float value, float low, float high);
+/// Both parts, from −most to most.
+bool within(Vec2f value, float most);
 
 }  // namespace weir

@@ -78,7 +78,7 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
     }
     layers.walls.body = bodies.body;
     layers.walls.bodies = static_cast<std::int16_t>(capacity.bodies);
-    if (capacity.bodies > 0 && capacity.wall_edges > 0) {
+    if (kHasThinWalls<Real> && capacity.bodies > 0 && capacity.wall_edges > 0) {
         ThinWalls<Real>& thin = layers.thin;
         carver.take(Block::wall_edge, thin.edge);
         carver.take(Block::wall_edge_of_cell, thin.first);
@@ -269,8 +269,7 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
         return fits;
     }
     std::memset(memory, 0, plan.total_bytes);
-    state_ = new (memory) State();
-    state_->def = def;
+    state_ = new (memory) State(def);
     state_->tag = tag_of(memory);
     state_->still_gravity_mps2 = def.gravity_mps2;
     state_->cells_per_m = Face<Real>(1) / static_cast<Face<Real>>(def.cell_m);
@@ -297,7 +296,9 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {
         new (simulation.bodies.body + slot) Body<Real>();
     }
-    clear_thin_walls(simulation.layers.thin, simulation.grid.shape, def.capacity.bodies);
+    if constexpr (kHasThinWalls<Real>) {
+        clear_thin_walls(simulation.layers.thin, simulation.grid.shape, def.capacity.bodies);
+    }
     if (def.capacity.two_way) {
         for (std::int32_t slot = 0; slot < load_records<Real>(def.capacity.bodies); ++slot) {
             new (simulation.bodies.load + slot) BodyLoad<Real>();

@@ -86,22 +86,26 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
     const GridShape& shape = simulation.grid.shape;
     const Walls<Real>& walls = simulation.layers.walls;
     simulation.stages->draw_moved(simulation.layers, simulation.bodies);
-    const auto each_seed = [&](auto visit) {
+    const auto seed = [&](bool adding) {
+        std::int32_t seeds = 0;
         for_each_seed(shape, box.low, box.high, per_axis, [&](Vec2<Real> at) {
             if (!walls.active || !simulation.stages->inside_solid(shape, walls, at)) {
-                visit(at);
+                ++seeds;
+                if (adding) {
+                    add(simulation, at, {}, kind);
+                }
             }
         });
+        return seeds;
     };
-    std::int32_t seeds = 0;
-    each_seed([&](Vec2<Real>) { ++seeds; });
+    const std::int32_t seeds = seed(false);
     if (added != nullptr) {
         *added = seeds;
     }
     if (seeds > particles.capacity - particles.count) {
         return Status::no_free_particle;
     }
-    each_seed([&](Vec2<Real> at) { add(simulation, at, {}, kind); });
+    seed(true);
     note_changed(*state_);
     return Status::ok;
 }

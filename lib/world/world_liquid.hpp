@@ -31,7 +31,7 @@ bool in_tank(const detail::WorldState<Real>& state, Vec2f place_m) {
 template <class Real>
 bool in_range(const detail::WorldState<Real>& state, Vec2f velocity_mps) {
     const float fastest = reach_of<Real>(state.unit_exponent).speed * state.def.cell_m;
-    return within(velocity_mps.x, -fastest, fastest) && within(velocity_mps.y, -fastest, fastest);
+    return within(velocity_mps, fastest);
 }
 
 template <class Real>

@@ -9,12 +9,15 @@ namespace weir::detail {
 
 template <class Real>
 struct WorldState {
+    explicit WorldState(const WorldDef& definition)
+        : def(definition), stepping(false), density_stale(false) {}
+
     Simulation<Real> simulation;
     WorldDef def;
     Face<Real> cells_per_m = Face<Real>(0);
     float stepped_s = 0.0F;        ///< in the last step
     std::uint16_t tag = 0;         ///< this world's own, in the names of its bodies
-    // A byte for both: none is left. `State()` makes them 0.
+    // A byte for both: none is left.
     bool stepping : 1;       ///< a step was begun and is not yet done
     bool density_stale : 1;  ///< particles are others than the last substep's
     std::int8_t unit_exponent = 0;  ///< of the unit of time, a power of 2 s; ask `unit_of`

@@ -29,8 +29,8 @@ struct PolygonFault {
 /// Cost for n edges: of the order of n^1.5 box tests, n² if most edges are as long as the polygon;
 /// holes × n for holes.
 /// @param fault may be null.
-Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes = {},
-                     PolygonFault* fault = nullptr);
+Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes = {});
+Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes, PolygonFault* fault);
 
 /// Pieces that a curve is cut into at most.
 inline constexpr std::int32_t kMaxCurvePieces = 4096;
