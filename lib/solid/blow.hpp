@@ -41,8 +41,9 @@ void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
     const Vec2<Real> before = particles.velocity[k];
     particles.velocity[k] = after;
     const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
-    if (scene.contacts.capacity > 0) {
-        record_blow(scene.contacts, scene.walls.body[slot], slot, kind, x, before - after);
+    if (scene.contacts.blows != nullptr) {
+        scene.contacts.blows->record(scene.contacts, scene.walls.body[slot], slot, kind, x,
+                                     before - after);
     }
     if (scene.walls.load != nullptr) {
         receive_blow(scene.walls, slot, kind, x, before - after);

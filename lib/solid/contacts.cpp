@@ -54,9 +54,6 @@ void record(Contacts<Real>& contacts, const Contact& met) {
 template <class Real>
 void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
                  Liquid kind, Vec2<Real> place, Vec2<Real> lost) {
-    if (contacts.capacity == 0) {
-        return;
-    }
     const float mass = kind == Liquid::second ? contacts.second_density * contacts.particle_m2
                                               : contacts.particle_m2;
     Contact met;
@@ -74,7 +71,14 @@ void finish(Contacts<Real>& contacts) {
     }
 }
 
+template <class Real>
+const detail::Blows<Real>& detail::blows() {
+    static constexpr Blows<Real> kBlows{record_blow<Real>};
+    return kBlows;
+}
+
 #define WEIR_INSTANTIATE(Real)                                                           \
+    template const detail::Blows<Real>& detail::blows();                                 \
     template void record(Contacts<Real>&, const Contact&);                               \
     template void record_blow(Contacts<Real>&, const Body<Real>&, std::uint16_t, Liquid, \
                               Vec2<Real>, Vec2<Real>);                                   \

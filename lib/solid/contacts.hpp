@@ -4,12 +4,29 @@
 
 #include "solid/walls.hpp"
 #include "weir/contact.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
+
+template <class Real>
+struct Contacts;
+
+/// A blow of a particle: the velocity that one of a liquid lost at a place, in cells and units of
+/// time.
+template <class Real>
+void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
+                 Liquid kind, Vec2<Real> place, Vec2<Real> lost);
+
+/// By itself: linked where there is room for contacts.
+template <class Real>
+struct detail::Blows {
+    decltype(&record_blow<Real>) record;
+};
 
 /// Without room (`capacity` 0) nothing is recorded and nothing is looked at.
 template <class Real>
 struct Contacts {
+    const detail::Blows<Real>* blows = nullptr;  ///< null: there is no room
     Contact* entry = nullptr;
     std::uint16_t capacity = 0;
     std::uint16_t used = 0;
@@ -34,12 +51,6 @@ void clear(Contacts<Real>& contacts) {
 /// Cost: a search among the step's entries, from the last one that was hit.
 template <class Real>
 void record(Contacts<Real>& contacts, const Contact& met);
-
-/// A blow of a particle: the velocity that one of a liquid lost at a place, in cells and units of
-/// time.
-template <class Real>
-void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
-                 Liquid kind, Vec2<Real> place, Vec2<Real> lost);
 
 /// Sums of places become means, once the step is over.
 template <class Real>

@@ -197,10 +197,9 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
 template <class Real>
 [[gnu::noinline]] void deepen(const Layers<Real>& layers, const BodyTable<Real>& table,
                               const NodeBox& box) {
-    if (layers.contour != Contour::mid_edge) {
-        deepen_where_bodies_touch(
-            layers.shape, DrawnBodies<Real>(table), box,
-            field_of(layers, layers.static_distance, layers.static_nearest));
+    if (layers.touching != nullptr && layers.contour != Contour::mid_edge) {
+        layers.touching->deepen(layers.shape, DrawnBodies<Real>(table), box,
+                                field_of(layers, layers.static_distance, layers.static_nearest));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "solid/walls.hpp"
 #include "weir/config.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -17,6 +18,7 @@ struct Layers {
     SlotOf<Real>* static_nearest = nullptr;
     Walls<Real> walls;        ///< the merged layer
     ThinWalls<Real> thin;     ///< what its nodes cannot show
+    const detail::Touching<Real>* touching = nullptr;  ///< null: room for one body at most
     Real* nodes = nullptr;                ///< a node field that is free before a substep
     VelocityOf<Real>* scratch = nullptr;  ///< a cell field that is free between steps
 };

@@ -29,7 +29,7 @@ inline constexpr Real kThrough = Real(0.25);
 
 /// Blows that are to be answered once it is clear that the particle can stay where they put it.
 template <class Real>
-struct Blows {
+struct DueBlows {
     std::uint16_t slot[kMostWalls] = {};
     Vec2<Real> normal[kMostWalls];
     std::int32_t count = 0;
@@ -73,7 +73,7 @@ template <class Real>
 template <class Real>
 struct PlaceBack {
     Vec2<Real> to;
-    Blows<Real> blows;
+    DueBlows<Real> blows;
 };
 
 /// On the line of its cell, and on that of the cell where it gets. False: it is too deep, or comes
@@ -82,7 +82,7 @@ template <class Real>
 [[gnu::noinline]] bool find_place_back(const Scene<Real>& scene, Standing<Real> at,
                                        Vec2<Real> from, PlaceBack<Real>& back) {
     const bool binary = scene.walls.binary;
-    Blows<Real>& blows = back.blows;
+    DueBlows<Real>& blows = back.blows;
     while (at.inside && blows.count < (binary ? 1 : kMostWalls)) {
         const Real way = kClearance<Real> - at.hit.distance;
         if (way > kFastestWayOut<Real> && !binary) {

@@ -168,7 +168,14 @@ void deepen_where_bodies_touch(const GridShape& tank, const DrawnBodies<Real>& a
     });
 }
 
+template <class Real>
+const detail::Touching<Real>& detail::touching() {
+    static constexpr Touching<Real> kTouching{deepen_where_bodies_touch<Real>};
+    return kTouching;
+}
+
 #define WEIR_INSTANTIATE(Real)                                                                \
+    template const detail::Touching<Real>& detail::touching();                                \
     template void deepen_where_bodies_touch(const GridShape&, const DrawnBodies<Real>&,       \
                                             const NodeBox&, const NodeField<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

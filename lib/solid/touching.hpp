@@ -3,6 +3,7 @@
 
 #include "grid/staggered_grid.hpp"
 #include "solid/drawn_bodies.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -17,5 +18,11 @@ namespace weir {
 template <class Real>
 void deepen_where_bodies_touch(const GridShape& tank, const DrawnBodies<Real>& all,
                                const NodeBox& box, const NodeField<Real>& field);
+
+/// By itself: bodies touch where there is room for several.
+template <class Real>
+struct detail::Touching {
+    decltype(&deepen_where_bodies_touch<Real>) deepen;
+};
 
 }  // namespace weir

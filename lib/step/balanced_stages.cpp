@@ -8,13 +8,13 @@ namespace weir {
 
 namespace {
 
-template <bool Solids, class Real>
+template <Bodies Room, class Real>
 void balanced_substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
                       StepReport& report) {
     StageClock opening(simulation.ticks, work, report);
     simulation.two_way->open_ledger(simulation, work);
     opening.charge(Stage::particle_to_grid);
-    plain_stages<Solids, Real>().substep(simulation, plan, work, report);
+    plain_stages<Room, Real>().substep(simulation, plan, work, report);
     StageClock closing(simulation.ticks, work, report);
     simulation.two_way->close_ledger(simulation, plan.dt_s, work);
     closing.charge(Stage::collide);
@@ -22,14 +22,15 @@ void balanced_substep(Simulation<Real>& simulation, const SubstepPlan<Real>& pla
 
 }  // namespace
 
-template <bool Solids, class Real>
+template <Bodies Room, class Real>
 const Stages<Real>& balanced_stages() {
-    return stages_around<Solids, Real, balanced_substep<Solids, Real>>();
+    return stages_around<Room, Real, balanced_substep<Room, Real>>();
 }
 
-#define WEIR_INSTANTIATE(Real)                                   \
-    template const Stages<Real>& balanced_stages<false, Real>(); \
-    template const Stages<Real>& balanced_stages<true, Real>();
+#define WEIR_INSTANTIATE(Real)                                           \
+    template const Stages<Real>& balanced_stages<Bodies::none, Real>();  \
+    template const Stages<Real>& balanced_stages<Bodies::still, Real>(); \
+    template const Stages<Real>& balanced_stages<Bodies::moving, Real>();
 WEIR_FOR_PACKED(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

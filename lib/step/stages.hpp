@@ -11,12 +11,17 @@ namespace weir {
 template <class Real>
 using SubstepFunction = void (*)(Simulation<Real>&, const SubstepPlan<Real>&, Work, StepReport&);
 
-template <bool Solids, class Real, SubstepFunction<Real> Substep>
+template <Bodies Room, class Real, SubstepFunction<Real> Substep>
 const Stages<Real>& stages_around() {
-    if constexpr (Solids) {
+    constexpr auto kNothing = [](auto&, auto&) -> std::int32_t { return 0; };
+    if constexpr (Room != Bodies::none) {
+        constexpr bool kMoving = Room == Bodies::moving;
+        constexpr decltype(Stages<Real>::draw_moved) kDrawn = kNothing;
+        constexpr decltype(Stages<Real>::most_moved) kMost = kNothing;
         static constexpr Stages<Real> kStages{Substep,
                                               inside_solid<Real>,
-                                              merge_moving<Real>,
+                                              kMoving ? merge_moving<Real> : kDrawn,
+                                              kMoving ? most_nodes<Real> : kMost,
                                               draw_stored<Real>,
                                               empty_lone_slivers<Real>,
                                               end_leads<Real>,
@@ -26,8 +31,7 @@ const Stages<Real>& stages_around() {
         constexpr auto kNowhere = [](const GridShape&, const Walls<Real>&, Vec2<Real>) {
             return false;
         };
-        constexpr auto kNothing = [](Layers<Real>&, auto&) -> std::int32_t { return 0; };
-        static constexpr Stages<Real> kStages{Substep, kNowhere, kNothing, kNothing,
+        static constexpr Stages<Real> kStages{Substep, kNowhere, kNothing, kNothing, kNothing,
                                               nullptr, nullptr,  nullptr};
         return kStages;
     }

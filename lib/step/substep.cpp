@@ -278,14 +278,17 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         move_bodies(simulation.bodies, walls, moved_s);
     }
     if (work.once(simulation.bodies.capacity)) {
-        const std::int32_t nodes = merge_moving(simulation.layers, simulation.bodies);
+        const std::int32_t nodes =
+            simulation.stages->draw_moved(simulation.layers, simulation.bodies);
         report.nodes_rasterized += nodes;
         work.spend(nodes);
     }
     if (work.foreseeing()) {
         const BodyTable<Real>& table = simulation.bodies;
         work.expect(1, cost_with(maximum(std::int32_t{table.capacity}, table.vertices_used + 1),
-                                 plan.walls_held ? 0 : most_nodes(simulation.layers, table)));
+                                 plan.walls_held ? 0
+                                                 : simulation.stages->most_moved(
+                                                       simulation.layers, table)));
     }
 }
 
@@ -372,14 +375,15 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
 
 }  // namespace
 
-template <bool Solids, class Real>
+template <Bodies Room, class Real>
 const Stages<Real>& plain_stages() {
-    return stages_around<Solids, Real, substep<Solids, Real>>();
+    return stages_around<Room, Real, substep<Room != Bodies::none, Real>>();
 }
 
-#define WEIR_INSTANTIATE(Real)                                \
-    template const Stages<Real>& plain_stages<false, Real>(); \
-    template const Stages<Real>& plain_stages<true, Real>();
+#define WEIR_INSTANTIATE(Real)                                        \
+    template const Stages<Real>& plain_stages<Bodies::none, Real>();  \
+    template const Stages<Real>& plain_stages<Bodies::still, Real>(); \
+    template const Stages<Real>& plain_stages<Bodies::moving, Real>();
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

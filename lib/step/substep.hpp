@@ -17,6 +17,8 @@ struct Stages {
     bool (*inside_solid)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point);
     /// Draws the bodies that were put elsewhere since the last step: somebody looks at them.
     std::int32_t (*draw_moved)(Layers<Real>& layers, BodyTable<Real>& table);
+    /// The most nodes that this can be in a substep (solid/layers.hpp).
+    std::int32_t (*most_moved)(const Layers<Real>& layers, const BodyTable<Real>& table);
     /// Draws all bodies: another part of the tank is stored.
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
     EmptySlivers<Real> empty_slivers;

@@ -1,6 +1,7 @@
 #include "step/two_way.hpp"
 
 #include "geometry/convex_decomposition.hpp"
+#include "geometry/moments.hpp"
 #include "pressure/make_room.hpp"
 #include "step/momentum_ledger.hpp"
 
@@ -170,6 +171,31 @@ constexpr Decompose<Real> decomposer() {
     }
 }
 
+/// Nothing smaller than a thousandth of a cell does: its inverse would be noise.
+template <class Real>
+bool weighs_something(const BodyLoad<Real>& load) {
+    constexpr Face<Real> kLeast = Face<Real>(1.0e-12);
+    return load.mass > kLeast && load.inertia > kLeast;
+}
+
+template <class Real>
+bool weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& body,
+           BodyLoad<Real>& load) {
+    load = BodyLoad<Real>{};
+    if (def.open) {
+        return true;
+    }
+    Outline<Real> outline = table.outline(body);
+    outline.vertex = table.local + body.first_vertex;
+    const Moments<Real> moments = moments_of(outline);
+    const auto density = static_cast<Face<Real>>(def.density_ratio);
+    load.centre = moments.centroid;
+    load.area = moments.area;
+    load.mass = density * moments.area;
+    load.inertia = density * moments.inertia;
+    return weighs_something(load);
+}
+
 }  // namespace
 
 template <bool Solids, class Real>
@@ -178,12 +204,13 @@ const detail::TwoWay<Real>& detail::two_way() {
         static constexpr TwoWay<Real> kStages{open_ledger<Real>,   press_tank<Real>,
                                               close_ledger<Real>,  accelerate_bodies<Real>,
                                               coupled_solve<Real>, press_bodies<Real>,
-                                              move_free_bodies<Real>, decomposer<Real>()};
+                                              move_free_bodies<Real>, decomposer<Real>(),
+                                              weigh<Real>};
         return kStages;
     } else {
         static constexpr TwoWay<Real> kStages{open_ledger<Real>, press_tank<Real>,
                                               close_ledger<Real>, nullptr, nullptr, nullptr,
-                                              nullptr, nullptr};
+                                              nullptr, nullptr, nullptr};
         return kStages;
     }
 }

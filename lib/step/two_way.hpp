@@ -30,6 +30,9 @@ struct detail::TwoWay {
     void (*move_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, StepReport& report);
     /// Whoever is added is cut into the pieces by which bodies meet; null in packed worlds, too.
     Decompose<Real> decompose;
+    /// Finds what a body weighs. False: nothing, though it is closed.
+    bool (*weigh)(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& body,
+                  BodyLoad<Real>& load);
 };
 
 /// Free bodies move, as the pressure has left them.

@@ -85,7 +85,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [position, velocity, count, capacity, kind, tag_of] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
                             scratch_list, load, vertex_capacity, vertices_used] = bodies;
-    auto& [shape, contour, static_distance, static_nearest, walls, thin, nodes, scratch] = layers;
+    auto& [shape, contour, static_distance, static_nearest, walls, thin, touching, nodes,
+           scratch] = layers;
     [[maybe_unused]] auto& [active, moving, binary, sticking, wall_bodies, any_sticking,
                             distance, nearest, cell_case, open_u, open_v, full_density, near,
                             wall_body, thin_walls, wall_load, particle_mass, stored] = walls;

@@ -290,6 +290,8 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     state_->progress.parallel_for = def.parallel_for;
 #endif
     simulation.stages = features.stages;
+    simulation.layers.touching = features.touching;
+    simulation.contacts.blows = features.blows;
     simulation.layers.contour = def.contour;
     simulation.layers.walls.binary = def.contour == Contour::mid_edge;
     name_units(*state_);

@@ -2,7 +2,6 @@
 #include "world/world_bodies.hpp"
 
 #include "geometry/convex_decomposition.hpp"
-#include "geometry/moments.hpp"
 #include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "step/two_way.hpp"
@@ -57,36 +56,13 @@ Real radius_of(const BodyTable<Real>& table, const Body<Real>& body) {
 }
 
 /// What it weighs.
-template <class Real>
-void weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& body,
-           BodyLoad<Real>& load) {
-    load = BodyLoad<Real>{};
-    if (def.open) {
-        return;
-    }
-    Outline<Real> outline = table.outline(body);
-    outline.vertex = table.local + body.first_vertex;
-    const Moments<Real> moments = moments_of(outline);
-    const auto density = static_cast<Face<Real>>(def.density_ratio);
-    load.centre = moments.centroid;
-    load.area = moments.area;
-    load.mass = density * moments.area;
-    load.inertia = density * moments.inertia;
-}
-
-/// Nothing smaller than a thousandth of a cell does: its inverse would be noise.
-template <class Real>
-bool weighs_something(const BodyLoad<Real>& load) {
-    constexpr Face<Real> kLeast = Face<Real>(1.0e-12);
-    return load.mass > kLeast && load.inertia > kLeast;
-}
-
 /// Not in one frame with the check, which goes deeper than anything else that is done with a body.
 template <class Real>
 [[gnu::noinline]] Status enter(WorldState<Real>& state, const BodyDef& def, BodyKind kind,
                                SetFree<Real> set_free, BodyId* id) {
     BodyTable<Real>& table = state.simulation.bodies;
     Layers<Real>& layers = state.simulation.layers;
+    const detail::TwoWay<Real>* two_way = state.simulation.two_way;
     const std::int32_t slot = find_free_slot(table);
     Body<Real> body;
     body.generation = table.body[slot].generation;
@@ -96,7 +72,6 @@ template <class Real>
     if (def.open) {
         add_polyline(table, def, state.cells_per_m, body);
     } else {
-        const detail::TwoWay<Real>* two_way = state.simulation.two_way;
         const Decompose<Real> cut = two_way != nullptr ? two_way->decompose : nullptr;
         if (!add_polygon(table, def, state.cells_per_m, cut, body)) {
             return Status::polygon_crosses_itself;
@@ -109,9 +84,8 @@ template <class Real>
         return Status::polygon_outside_domain;
     }
     BodyLoad<Real> load;
-    if (table.load != nullptr) {
-        weigh(def, table, body, load);
-        if (!def.open && !weighs_something(load)) {
+    if (two_way != nullptr) {
+        if (!two_way->weigh(def, table, body, load)) {
             table.vertices_used -= body.room;
             return Status::polygon_zero_area;
         }
@@ -142,7 +116,7 @@ template <class Real>
     } else {
         set_velocity(state, def.motion, table.body[slot]);
         table.body[slot].moved = true;
-        merge_moving(layers, table);
+        state.simulation.stages->draw_moved(layers, table);
     }
     *id = {static_cast<std::uint16_t>(slot), body.generation, state.tag};
     touch_regions(state.simulation.regions, table.body[slot].drawn);

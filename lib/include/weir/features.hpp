@@ -9,18 +9,22 @@
 
 namespace weir {
 
+/// What there is room for.
+enum class Bodies { none, still, moving };
+
 template <class Real>
 struct Stages;
-/// `Solids`, here and below: there is room for bodies.
-template <bool Solids, class Real>
+template <Bodies Room, class Real>
 const Stages<Real>& plain_stages();
 /// The same in packed worlds with `Capacity::two_way`.
-template <bool Solids, class Real>
+template <Bodies Room, class Real>
 const Stages<Real>& balanced_stages();
 
 namespace detail {
 
 // Tables of functions; each stands beside the stage that it names.
+template <class Real>
+struct Blows;
 template <class Real>
 struct Elasticity;
 template <class Real>
@@ -30,18 +34,25 @@ struct SecondLiquid;
 template <class Real>
 struct Tension;
 template <class Real>
+struct Touching;
+template <class Real>
 struct TwoWay;
 template <class Real>
 struct Viscosity;
 
 template <class Real>
+const Blows<Real>& blows();
+template <class Real>
 const Elasticity<Real>& elasticity();
 template <class Real>
 const RowOrder<Real>& row_order();
+/// `Solids`, here and below: there is room for bodies.
 template <bool Solids, class Real>
 const SecondLiquid<Real>& second_liquid();
 template <class Real>
 const Tension<Real>& tension();
+template <class Real>
+const Touching<Real>& touching();
 template <bool Solids, class Real>
 const TwoWay<Real>& two_way();
 template <bool Solids, class Real>
@@ -52,10 +63,12 @@ const Viscosity<Real>& viscosity();
 template <class Real>
 struct Features {
     const Stages<Real>* stages = nullptr;  ///< never null; for bodies only if there is room for any
+    const Blows<Real>* blows = nullptr;
     const Elasticity<Real>* elasticity = nullptr;
     const RowOrder<Real>* row_order = nullptr;
     const SecondLiquid<Real>* second_liquid = nullptr;
     const Tension<Real>* tension = nullptr;
+    const Touching<Real>* touching = nullptr;
     const TwoWay<Real>* two_way = nullptr;
     const Viscosity<Real>* viscosity = nullptr;
 };
@@ -66,7 +79,16 @@ template <class Real>
     const Capacity& room = def.capacity;
     const bool open = room.bodies == 0;
     Features<Real> features;
-    features.stages = open ? &plain_stages<false, Real>() : &plain_stages<true, Real>();
+    const bool moving = room.moving_bodies;
+    features.stages = open     ? &plain_stages<Bodies::none, Real>()
+                      : moving ? &plain_stages<Bodies::moving, Real>()
+                               : &plain_stages<Bodies::still, Real>();
+    if (room.contacts > 0) {
+        features.blows = &blows<Real>();
+    }
+    if (room.bodies > 1) {
+        features.touching = &touching<Real>();
+    }
     if (def.pressure == Pressure::equation_of_state) {
         features.elasticity = &elasticity<Real>();
     }
@@ -83,8 +105,9 @@ template <class Real>
     if (room.two_way) {
         features.two_way = open ? &two_way<false, Real>() : &two_way<true, Real>();
         if constexpr (Stored<Real>::shares_momentum) {
-            features.stages =
-                open ? &balanced_stages<false, Real>() : &balanced_stages<true, Real>();
+            features.stages = open     ? &balanced_stages<Bodies::none, Real>()
+                              : moving ? &balanced_stages<Bodies::moving, Real>()
+                                       : &balanced_stages<Bodies::still, Real>();
         }
     }
     if (def.viscosity_m2ps > 0.0F) {
