@@ -69,6 +69,21 @@ template <class T>
 constexpr T clamp(T value, SameAs<T> low, SameAs<T> high) {
     return value < low ? low : (high < value ? high : value);
 }
+// A choice of two records is made by address, at least where code is compiled for size: of fixed
+// point the numbers in them are chosen.
+template <int F, class S>
+constexpr FixedPoint<F, S> minimum(FixedPoint<F, S> a, SameAs<FixedPoint<F, S>> b) {
+    return FixedPoint<F, S>::of_raw(minimum(a.raw, b.raw));
+}
+template <int F, class S>
+constexpr FixedPoint<F, S> maximum(FixedPoint<F, S> a, SameAs<FixedPoint<F, S>> b) {
+    return FixedPoint<F, S>::of_raw(maximum(a.raw, b.raw));
+}
+template <int F, class S>
+constexpr FixedPoint<F, S> clamp(FixedPoint<F, S> value, SameAs<FixedPoint<F, S>> low,
+                                 SameAs<FixedPoint<F, S>> high) {
+    return FixedPoint<F, S>::of_raw(clamp(value.raw, low.raw, high.raw));
+}
 template <class T>
 constexpr T absolute(T value) {
     return value < T(0) ? -value : value;

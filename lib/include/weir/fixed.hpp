@@ -51,7 +51,7 @@ struct FixedPoint {
     [[gnu::always_inline]] constexpr explicit FixedPoint(Whole value)
         : raw(std::is_unsigned<Whole>::value && static_cast<std::uint64_t>(value) >> 63U != 0U
                   ? kMostRaw
-                  : of_whole(static_cast<std::int64_t>(value))) {}
+                  : of_whole(static_cast<WholeNumber<Whole>>(value))) {}
 
     /// Meant for constants: costs double arithmetic where the compiler cannot fold it.
     [[gnu::always_inline]] constexpr explicit FixedPoint(double value) {
@@ -96,8 +96,15 @@ private:
             return fixed::saturate(fixed::shifted(value, Other - Fraction));
         }
     }
-    [[gnu::always_inline]] static constexpr std::int32_t of_whole(std::int64_t value) {
-        constexpr std::int64_t kLimit = std::int64_t{1} << (31 - Fraction);
+    /// Few are more than 32 bits: only those are compared as such.
+    template <class Whole>
+    using WholeNumber =
+        std::conditional_t<(sizeof(Whole) > 4 || (sizeof(Whole) == 4 &&
+                                                  std::is_unsigned<Whole>::value)),
+                           std::int64_t, std::int32_t>;
+    template <class Whole>
+    [[gnu::always_inline]] static constexpr std::int32_t of_whole(Whole value) {
+        constexpr Whole kLimit = Whole{1} << (31 - Fraction);
         if (value >= kLimit) {
             return kMostRaw;
         }
