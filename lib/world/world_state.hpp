@@ -10,7 +10,7 @@ namespace weir::detail {
 template <class Real>
 struct WorldState {
     explicit WorldState(const WorldDef& definition)
-        : def(definition), stepping(false), density_stale(false) {}
+        : simulation{}, def(definition), stepping(false), density_stale(false) {}
 
     Simulation<Real> simulation;
     WorldDef def;
