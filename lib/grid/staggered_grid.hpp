@@ -143,11 +143,16 @@ template <class Real>
 inline constexpr Real kEmptyLevel =
     Real(Stored<Real>::coarse ? -1.5 - kHeadRaw / 64.0 : -1.55);
 
-/// Velocity before the step of a face that no particle reaches: 0, though not the 0 of one where
-/// all is at rest. Fixed point has one 0, and gives up a last digit; packed worlds do not know.
+/// Whether a number is given up to tell faces that no particle reaches: fixed point has one 0.
+/// Packed worlds do not tell them.
 template <class Real>
-inline constexpr Real kNoVelocity =
-    Real(std::is_floating_point<Real>::value || Stored<Real>::coarse ? -0.0 : 1.0 / 65536.0);
+inline constexpr bool kMarksUnreached =
+    !std::is_floating_point<Real>::value && !Stored<Real>::coarse;
+
+/// Velocity before the step of a face that no particle reaches: 0, though not the 0 of one where
+/// all is at rest, or a last digit.
+template <class Real>
+inline constexpr Real kNoVelocity = Real(kMarksUnreached<Real> ? 1.0 / 65536.0 : -0.0);
 
 template <class Real>
 inline bool is_no_velocity(Real velocity) {
@@ -158,11 +163,7 @@ inline bool is_no_velocity(Real velocity) {
 /// for those that none reaches, nor, so that what is mirrored stays so, that turned round.
 template <class Real>
 inline Real reached_velocity(Real velocity, Real unreached) {
-    if constexpr (std::is_floating_point<Real>::value || Stored<Real>::coarse) {
-        return velocity;
-    } else {
-        return absolute(velocity) == unreached ? Real(0) : velocity;
-    }
+    return kMarksUnreached<Real> && absolute(velocity) == unreached ? Real(0) : velocity;
 }
 
 template <class Real>
