@@ -32,10 +32,11 @@ template <class Real>
     return false;
 }
 
-/// Whether liquid may part from walls at all: with surface tension it clings to them.
+/// Whether liquid may part from walls at all: with surface tension, which packed worlds have none
+/// of, it clings to them.
 template <class Real>
 inline bool may_part(const PressureFields<Real>& fields) {
-    return !fields.on_surface;
+    return Stored<Real>::coarse || !fields.on_surface;
 }
 
 /// Whether liquid in a cell may part from a wall that the cell touches, as its mark says.

@@ -150,9 +150,9 @@ template <bool Solids, class Real>
         short_of_neighbours<Solids>(at, task.walls, task.fields.pressure, task.stride, kept,
                                     flow * 512);
     at->raw = relaxed(at->raw, residual, coarse_factor(task.step, kept < 0 ? -kept : kept));
-    if (Solids && kept < 0 && at->raw < 0 &&
-        has_air_around(task.fields, task.walls.full_density, task.shape,
-                       static_cast<std::int32_t>(at - task.fields.pressure))) {
+    if (Solids && at->raw < 0 &&
+        parts_from_wall(task.fields, task.walls.full_density, task.shape,
+                        static_cast<std::int32_t>(at - task.fields.pressure))) {
         at->raw = 0;
     }
 }
