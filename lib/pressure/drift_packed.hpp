@@ -37,7 +37,7 @@ inline constexpr std::int32_t kOrderly = 32;
 inline constexpr std::int32_t kStirred = 128;
 
 /// Over a patch's velocity, the most that it pays of it, and the most that comes back, for a drift:
-/// twice what others do in a substep (patch_drift.hpp), since it drifts every other one. It pays
+/// twice what others do in a substep (drift_price.hpp), since it drifts every other one. It pays
 /// for two of them at once.
 inline constexpr std::int32_t kMostPrice = 32;
 inline constexpr std::int32_t kMostRefund = 76;

@@ -1,8 +1,8 @@
-// The drift of one patch, and what it costs.
+// The drift of one patch.
 #pragma once
 
 #include "grid/borders.hpp"
-#include "pressure/drift_weights.hpp"
+#include "pressure/drift_price.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
 #include "pressure/volume_lanes.hpp"
@@ -105,65 +105,6 @@ struct Drift {
                along_x[3] == Real(0) && along_y[0] == Real(0) && along_y[3] == Real(0);
     }
 };
-
-/// Sum of squares of a patch's excess from which on it counts as stirred: 0.025 a cell. A lattice
-/// that a wave passes has a tenth of that.
-template <class Real>
-inline constexpr Real kStirred = Real(0.01 * kOfDisorder<Real>);
-
-/// A patch's velocity over the most that it pays of it: impacts keep their pressure.
-template <class Real>
-inline constexpr Real kMostPrice = Real(64);
-
-/// The same of the most that comes back: what is at rest stays so. Drops, and what is compressible,
-/// are stirred by less.
-template <class Real>
-inline Real most_refund(const PressureFields<Real>& fields) {
-    return Real(fields.on_surface || fields.sound_speed > Real(0) ? 256 : 152);
-}
-
-/// Work of a patch's drift: against the pressure, or, where it gives way to that, against gravity,
-/// if that is more. Only what falls pays: the pressure of a blow rises in any direction.
-template <class Real>
-inline Real work_of_drift(const Weights<Real>& sums) {
-    const Real lifted = in_turn(sums.lifted);
-    return lifted < Real(0) ? maximum<Real>(lifted, in_turn(sums.raised)) : lifted;
-}
-
-/// From this sum of squares of its excess on a patch counts as torn: liquid that does not reach a
-/// wall. Pools that come to rest have less.
-template <class Real>
-inline constexpr Real kTorn = Real(0.025 * kOfDisorder<Real>);
-
-/// With less mean excess a patch is not pressed together: what is may always expand. Torn
-/// compressible liquid is too dense in one cell beside one that is too thin.
-template <class Real>
-inline Real least_pressed(const PressureFields<Real>& fields) {
-    return fields.sound_speed > Real(0) ? kPatchWindow<Real> : Real(0);
-}
-
-/// Which share of its drift a patch makes. What is torn is drawn up only as far as it can pay:
-/// liquid that falls from a wall has nothing to pay from at first.
-template <class Real>
-inline Real share_of_drift(const Weights<Real>& sums, bool pressed) {
-    const Real torn = clamp<Real>(in_turn(sums.disorder) - kTorn<Real>, Real(0), kStirred<Real>);
-    const Real due = kMostPrice<Real> * (in_turn(sums.raised) * (torn / kStirred<Real>));
-    const Real moving = in_turn(sums.moving);
-    return !pressed && due > Real(0) ? moving / (moving + due) : Real(1);
-}
-
-/// Which share of its velocity a patch gives for what the drift lifts in it, and gets for what it
-/// lets down. Liquid in order is not asked: what it does is reversed later.
-template <class Real>
-inline Ratio<Real> price_of(const Weights<Real>& sums, Real most_refund) {
-    const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
-    const Real work = work_of_drift(sums) * (disorder / kStirred<Real>);
-    const Real moving = in_turn(sums.moving);
-    if (work > Real(0)) {
-        return share_of(work, moving + kMostPrice<Real> * work);
-    }
-    return moving > -most_refund * work ? share_of(work, moving) : Ratio<Real>(0);
-}
 
 /// Drift on each of a patch's open faces, column by column, as `for_each_face` meets them.
 template <class Real>
@@ -295,6 +236,13 @@ inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& wa
             [&](std::int32_t face, std::int32_t) { move(v[face], v_before[face]); },
             [](std::int32_t) {});
     }
+}
+
+/// With less mean excess a patch is not pressed together: what is may always expand. Torn
+/// compressible liquid is too dense in one cell beside one that is too thin.
+template <class Real>
+inline Real least_pressed(const PressureFields<Real>& fields) {
+    return fields.sound_speed > Real(0) ? kPatchWindow<Real> : Real(0);
 }
 
 /// Whether a patch cannot pay for all of its drift: then it makes less of it.
