@@ -47,17 +47,19 @@ void yield_to_correction(const CoupledSolve<Real>& coupled, PressureFields<Real>
 /// for row j + 1 of the one before, so that all half sweeps follow each other through the rows, and
 /// find them in the cache. The bits are those of one half sweep after the other.
 template <bool Solids, bool Mixed, class Real>
-void relax_fronts(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, bool goes_on_below,
-                  bool goes_on_above, std::int32_t count, PressureFields<Real>& fields) {
-    for (std::int32_t front = rows.low; front < rows.high + count; ++front) {
+void relax_fronts(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
+                  bool goes_on_below, bool goes_on_above, std::int32_t count,
+                  PressureFields<Real>& fields) {
+    const std::int32_t highest = rows.end - 1;
+    for (std::int32_t front = rows.first; front < highest + count; ++front) {
         // Of half sweep n row front − n, whose first cell is in the same column for all n.
-        const std::int32_t first = maximum(0, front - rows.high);
-        std::int32_t last = minimum(count - 1, front - rows.low);
-        if (goes_on_above && front >= rows.high) {
+        const std::int32_t first = maximum(0, front - highest);
+        std::int32_t last = minimum(count - 1, front - rows.first);
+        if (goes_on_above && front >= highest) {
             continue;
         }
         if (goes_on_below) {
-            last = minimum(last, (front - rows.low + 1) / 2 - 1);
+            last = minimum(last, (front - rows.first + 1) / 2 - 1);
         }
         relax_down(weights, front & 1, front - first, last - first + 1, fields);
     }
@@ -68,7 +70,7 @@ template <bool Solids, bool Mixed, class Real>
 void relax_between(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t border,
                    std::int32_t count, PressureFields<Real>& fields) {
     for (std::int32_t half = 0; half < count; ++half) {
-        relax(weights, Rows{border - half - 1, border + half}, half & 1, fields);
+        relax(weights, {border - half - 1, border + half + 1}, half & 1, fields);
     }
 }
 
@@ -80,8 +82,7 @@ void sweep_in_fronts(const FaceWeights<Solids, Mixed, Real>& weights, std::int32
     const std::int32_t cost = count * (weights.grid.shape.nx + 1) / 2;
     const std::int32_t grain = 2 * (count + 1);
     work.share(rows, cost, grain, [&](const Part& some, std::int32_t) {
-        relax_fronts(weights, Rows{some.first, some.end - 1}, some.first > rows.first,
-                     some.end < rows.end, count, fields);
+        relax_fronts(weights, some, some.first > rows.first, some.end < rows.end, count, fields);
     });
 #if WEIR_PARALLEL
     const std::int32_t pieces = work.pieces(rows.end - rows.first, cost, grain);
@@ -117,9 +118,9 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
         const std::int32_t half_sweep = at / depth;
         const std::int32_t begin = half_sweep * depth;
         const std::int32_t end = minimum(part.end, begin + depth);
-        const Rows rows{lowest + at - begin, lowest + end - begin - 1};
+        const Part rows{lowest + at - begin, lowest + end - begin};
         if constexpr (Stored<Real>::shares_momentum) {
-            relax_packed(weights, rows.low, rows.high, omega, half_sweep & 1, fields);
+            relax_packed(weights, rows, half_sweep & 1, omega, fields);
         } else {
             relax(weights, rows, half_sweep & 1, fields);
         }

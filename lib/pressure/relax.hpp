@@ -12,12 +12,6 @@ namespace weir {
 template <class Real>
 inline constexpr Real kRelaxation = Real(1.4);
 
-/// Rows low … high hold all the liquid; no other needs to be swept.
-struct Rows {
-    std::int32_t low = 0;
-    std::int32_t high = -1;
-};
-
 /// p[c] is led to what its equation says. `sum`: of the neighbours, each with its face.
 template <class Real>
 inline void relax_cell(Real& p, Real sum, Real divergence, Real inverse) {
@@ -127,15 +121,15 @@ void relax_down(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t co
 
 /// Every other cell of some rows.
 template <bool Solids, bool Mixed, class Real>
-void relax(const FaceWeights<Solids, Mixed, Real>& weights, Rows rows, std::int32_t colour,
-           PressureFields<Real>& fields) {
+void relax(const FaceWeights<Solids, Mixed, Real>& weights, const Part& rows,
+           std::int32_t colour, PressureFields<Real>& fields) {
     if constexpr (kHasFpuLoops<Real> && !Mixed) {
-        relax_rows(std::bool_constant<Solids>{}, weights.grid.shape, rows.low, rows.high, colour,
+        relax_rows(std::bool_constant<Solids>{}, weights.grid.shape, rows, colour,
                    kRelaxation<Real>, fields,
                    [&](std::int32_t c) { relax_weighted(weights, c, fields); });
         return;
     }
-    for (std::int32_t j = rows.low; j <= rows.high; ++j) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         relax_down(weights, (j + colour) & 1, j, 1, fields);
     }
 }

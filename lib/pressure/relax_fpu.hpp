@@ -101,13 +101,12 @@ inline bool relax_row(const PressureFields<float>& fields, std::int32_t c, std::
 #undef WEIR_UNLESS_ZERO
 #undef WEIR_RELAX_ROW
 
-/// Every other cell of rows `low` to `high`, for one liquid; one(c) does those that a wall touches.
+/// Every other cell of some rows, for one liquid; one(c) does those that a wall touches.
 template <bool Solids, class One>
 [[gnu::noinline]] inline void relax_rows(std::bool_constant<Solids>, const GridShape& s,
-                                         std::int32_t low, std::int32_t high,
-                                         std::int32_t colour, float omega,
+                                         const Part& rows, std::int32_t colour, float omega,
                                          const PressureFields<float>& fields, const One& one) {
-    for (std::int32_t j = low; j <= high; ++j) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const std::int32_t i = (j + colour) & 1;
         std::int32_t c = s.index(i, j);
         if (relax_row<Solids>(fields, c, s.stride, (s.nx - i + 1) / 2, omega)) {

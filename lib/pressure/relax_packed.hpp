@@ -279,14 +279,14 @@ Real best_relaxation(std::int32_t rows, std::int32_t sweeps) {
     return Real(2) / (Real(1) + Real(1.5707963) / n);
 }
 
-/// One colour of the rows low … high. By itself, so that its loop has all registers.
+/// One colour of some rows. By itself, so that its loop has all registers.
 template <bool Solids, bool Mixed, class Real>
 [[gnu::noinline]] void relax_packed(const FaceWeights<Solids, Mixed, Real>& weights,
-                                    std::int32_t low, std::int32_t high, Real omega,
-                                    std::int32_t colour, PressureFields<Real>& fields) {
+                                    const Part& rows, std::int32_t colour, Real omega,
+                                    PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
     const PackedRelaxTask<Real> task(fields, weights.walls, s, omega);
-    for (std::int32_t j = low; j <= high; ++j) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
         relax_packed_row<Solids>(task, s.index((j + colour) & 1, j));
     }
 }
