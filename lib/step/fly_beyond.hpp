@@ -37,7 +37,7 @@ void fly(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, const Part
         const Vec2<PositionOf<Real>> before = particles.position[k];
         Vec2<Real> x = before;
         Vec2<Real> v = particles.velocity[k];
-        v = v + plan.dt_s * settings.gravity;
+        v = v + settings.fall_in(plan.dt_s);
         moved.far = 0;
         advect<Real>(size, {transfer, particles.kind_at(k)}, v, x, v, moved);
         particles.position[k] = x;

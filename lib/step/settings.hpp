@@ -19,6 +19,9 @@ struct Settings {
     Real cfl = Real(1);          ///< cells per substep
     std::int16_t sweeps = 6;
     std::int16_t max_substeps = 16;
+
+    /// What gravity makes of a velocity in so long.
+    Vec2<Real> fall_in(Seconds<Real> dt_s) const { return dt_s * gravity; }
 };
 
 }  // namespace weir

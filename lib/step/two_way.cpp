@@ -49,7 +49,7 @@ template <class Real>
 PressedCells<Real> pressed_cells(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     return {simulation.pressure.pressure,
             simulation.pressure.level,
-            dt_s * simulation.settings.gravity,
+            simulation.settings.fall_in(dt_s),
             simulation.pressure.density,
             simulation.grid.u,
             simulation.grid.v};
