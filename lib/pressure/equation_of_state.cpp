@@ -32,9 +32,10 @@ Real counted_flow(const PressureFields<Real>& fields, std::int32_t c) {
 /// What bulk viscosity makes of a flow out of a cell. It does not hold liquid to a wall that air
 /// can come to.
 template <class Real>
-Real resistance(const GridShape& s, const Walls<Real>& walls, const PressureFields<Real>& fields,
-                std::int32_t c, Real flow) {
-    const bool parts = flow > Real(0) && parts_from_wall(fields, walls.full_density, s, c);
+Real resistance(const Domain<Real>& domain, std::int32_t c, Real flow) {
+    const bool parts =
+        flow > Real(0) &&
+        parts_from_wall(domain.fields, domain.walls.full_density, domain.grid.shape, c);
     return parts ? Real(0) : kBulkViscosity<Real> * flow;
 }
 
@@ -118,40 +119,40 @@ void carry_pressure(const OpenWeights<Real>& weights, PressureFields<Real>& fiel
 }
 
 template <class Real>
-void compress(const Borders<Real>& borders, const GridShape& shape, const Walls<Real>& walls,
-              PressureFields<Real>& fields, Work work) {
+void compress(const Domain<Real>& domain, Work work) {
+    const GridShape& shape = domain.grid.shape;
+    PressureFields<Real>& fields = domain.fields;
     const Real way = way_of_sound(fields);
     work.share(work.take(shape.ny, shape.nx), shape.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_liquid(shape, rows, fields, [&](std::int32_t c) {
             const Real flow = way * counted_flow(fields, c);
             fields.pressure[c] = maximum(Real(0), fields.pressure[c] - way * flow) -
-                                 resistance(shape, walls, fields, c, flow);
+                                 resistance(domain, c, flow);
         });
     });
     if (work.once(shape.border())) {
-        extend_cells(borders, shape, fields.pressure);
+        extend_cells(domain.borders, shape, fields.pressure);
     }
 }
 
 template <class Real>
-void release_pressure(const GridShape& shape, const Walls<Real>& walls,
-                      PressureFields<Real>& fields, Work work) {
+void release_pressure(const Domain<Real>& domain, Work work) {
+    const GridShape& shape = domain.grid.shape;
+    PressureFields<Real>& fields = domain.fields;
     const Real way = way_of_sound(fields);
     work.share(work.take(shape.ny, shape.nx), shape.nx, 1, [&](const Part& rows, std::int32_t) {
         for_each_liquid(shape, rows, fields, [&](std::int32_t c) {
             const Real flow = way * counted_flow(fields, c);
-            fields.pressure[c] += resistance(shape, walls, fields, c, flow);
+            fields.pressure[c] += resistance(domain, c, flow);
         });
     });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                                 \
-    template void follow_sound(Real, PressureFields<Real>&);                                   \
-    template void carry_pressure(const OpenWeights<Real>&, PressureFields<Real>&, Work);       \
-    template void compress(const Borders<Real>&, const GridShape&, const Walls<Real>&,         \
-                           PressureFields<Real>&, Work);                                       \
-    template void release_pressure(const GridShape&, const Walls<Real>&, PressureFields<Real>&, \
-                                   Work);
+#define WEIR_INSTANTIATE(Real)                                                           \
+    template void follow_sound(Real, PressureFields<Real>&);                             \
+    template void carry_pressure(const OpenWeights<Real>&, PressureFields<Real>&, Work); \
+    template void compress(const Domain<Real>&, Work);                                   \
+    template void release_pressure(const Domain<Real>&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

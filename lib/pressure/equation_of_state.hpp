@@ -1,8 +1,7 @@
 // Pressure, explicit: weakly compressible liquid, whose density answers to the flow.
 #pragma once
 
-#include "pressure/face_weights.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/domain.hpp"
 #include "weir/features.hpp"
 
 namespace weir {
@@ -31,13 +30,11 @@ void carry_pressure(const OpenWeights<Real>& weights, PressureFields<Real>& fiel
 /// Surface cells, whose diagonal is large, and thin ones, which hold less, are as much softer. It
 /// does not resist that liquid parts from a wall, where air can come in between.
 template <class Real>
-void compress(const Borders<Real>& borders, const GridShape& shape, const Walls<Real>& walls,
-              PressureFields<Real>& fields, Work work);
+void compress(const Domain<Real>& domain, Work work);
 
 /// When all have read the pressure: takes the viscosity out of it again.
 template <class Real>
-void release_pressure(const GridShape& shape, const Walls<Real>& walls,
-                      PressureFields<Real>& fields, Work work);
+void release_pressure(const Domain<Real>& domain, Work work);
 
 /// All of it: a program whose definition asks for no equation of state does not link this file.
 template <class Real>
@@ -45,17 +42,12 @@ struct detail::Elasticity {
     void (*follow_sound)(Real sound_speed, PressureFields<Real>& fields);
     void (*carry_pressure)(const OpenWeights<Real>& weights, PressureFields<Real>& fields,
                            Work work);
-    void (*compress)(const Borders<Real>& borders, const GridShape& shape,
-                     const Walls<Real>& walls, PressureFields<Real>& fields, Work work);
-    void (*release_pressure)(const GridShape& shape, const Walls<Real>& walls,
-                             PressureFields<Real>& fields, Work work);
+    void (*compress)(const Domain<Real>& domain, Work work);
+    void (*release_pressure)(const Domain<Real>& domain, Work work);
     /// The general loops, in packed worlds; in others, which have no others, null. What whole
     /// numbers make of faces at gaps, of jets and of spray takes it that pressure stores nothing.
-    void (*push)(const Borders<Real>& borders, const Walls<Real>& walls, const Part& rows,
-                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid);
-    void (*extrapolate)(const Borders<Real>& borders, const Walls<Real>& walls,
-                        const PressureFields<Real>& fields, bool velocity_itself,
-                        StaggeredGrid<Real>& grid, Work work);
+    void (*push)(const Domain<Real>& domain, const Part& rows);
+    void (*extrapolate)(const Domain<Real>& domain, bool velocity_itself, Work work);
 };
 
 }  // namespace weir

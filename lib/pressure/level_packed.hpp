@@ -1,9 +1,8 @@
 // Density and surface level in whole numbers: levels from a table.
 #pragma once
 
-#include "grid/borders.hpp"
 #include "math/quotient_packed.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/domain.hpp"
 #include "pressure/slivers.hpp"
 
 namespace weir {
@@ -102,11 +101,11 @@ struct DensityRow {
 }  // namespace packed
 
 /// Density and level of the cells of some rows. There are no thin walls.
-inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
-                           const Borders<SmallFixed>& borders,
-                           const CutDensity<SmallFixed>& cut, std::int32_t rest_count,
-                           EmptySlivers<SmallFixed> empty_slivers, const Part& rows,
-                           PressureFields<SmallFixed>& fields) {
+inline void packed_density(const Domain<SmallFixed>& domain, const CutDensity<SmallFixed>& cut,
+                           std::int32_t rest_count, EmptySlivers<SmallFixed> empty_slivers,
+                           const Part& rows) {
+    const StaggeredGrid<SmallFixed>& grid = domain.grid;
+    PressureFields<SmallFixed>& fields = domain.fields;
     const GridShape& s = grid.shape;
     // Mass of a face is in 256ths of a particle, four faces a cell.
     const std::uint32_t per_face = 0x4000U / static_cast<std::uint32_t>(rest_count);
@@ -117,7 +116,8 @@ inline void packed_density(const StaggeredGrid<SmallFixed>& grid,
              cut.full != nullptr ? cut.full + c : nullptr, fields.density + c, fields.level + c,
              s.nx, per_face, rest_count});
         if (!found.empty() && empty_slivers != nullptr) {
-            empty_slivers(grid, borders, cut, j, {c + found.first, c + found.end}, fields.level);
+            empty_slivers(grid, domain.borders, cut, j, {c + found.first, c + found.end},
+                          fields.level);
         }
     }
 }

@@ -151,23 +151,23 @@ template <bool Solids, bool Mixed, class Real>
 /// The pressure of a compressible liquid, one step in time later. It answers to the flow that there
 /// was: gravity, which it holds up, has not pulled at that yet.
 template <bool Solids, bool Mixed, class Real>
-void advance(const Borders<Real>& borders, const Walls<Real>& walls,
-             const StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work) {
-    StaggeredGrid<Real> before = grid;
-    before.u = grid.mass_u;
-    before.v = grid.mass_v;
-    fields.elasticity->carry_pressure({before, borders, walls}, fields, work);
-    build(FaceWeights<Solids, Mixed, Real>{before, borders, walls}, fields, work);
-    fields.elasticity->compress(borders, grid.shape, walls, fields, work);
+void advance(const Domain<Real>& domain, Work work) {
+    PressureFields<Real>& fields = domain.fields;
+    StaggeredGrid<Real> before = domain.grid;
+    before.u = before.mass_u;
+    before.v = before.mass_v;
+    const FaceWeights<Solids, Mixed, Real> weights{before, domain.borders, domain.walls};
+    fields.elasticity->carry_pressure({before, domain.borders, domain.walls}, fields, work);
+    build(weights, fields, work);
+    fields.elasticity->compress(domain, work);
 }
 
 /// The pressure of an incompressible liquid, as near as so many sweeps bring it.
 template <bool Solids, bool Mixed, class Real>
-void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t sweeps,
-           const CoupledSolve<Real>* coupled, const StaggeredGrid<Real>& grid,
-           PressureFields<Real>& fields, Work work) {
-    const GridShape& s = grid.shape;
-    const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
+void solve(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
+           const CoupledSolve<Real>* coupled, PressureFields<Real>& fields, Work work) {
+    const GridShape& s = weights.grid.shape;
+    const Borders<Real>& borders = weights.borders;
     build(weights, fields, work);
     if constexpr (Solids && !Stored<Real>::coarse) {  // packed worlds have no free bodies
         if (coupled != nullptr) {
@@ -207,20 +207,21 @@ void solve(const Borders<Real>& borders, const Walls<Real>& walls, std::int32_t 
 }
 
 template <bool Solids, bool Mixed, class Real>
-void solve_and_project(const Borders<Real>& borders, const Walls<Real>& walls,
-                       std::int32_t sweeps, const CoupledSolve<Real>* coupled,
-                       StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work) {
+void solve_and_project(const Domain<Real>& domain, std::int32_t sweeps,
+                       const CoupledSolve<Real>* coupled, Work work) {
+    StaggeredGrid<Real>& grid = domain.grid;
+    PressureFields<Real>& fields = domain.fields;
     const GridShape& s = grid.shape;
-    const FaceWeights<Solids, Mixed, Real> weights{grid, borders, walls};
+    const auto weights = domain.template face_weights<Solids, Mixed>();
     if (fields.elasticity != nullptr) {
-        advance<Solids, Mixed>(borders, walls, grid, fields, work);
+        advance<Solids, Mixed>(domain, work);
     } else {
-        solve<Solids, Mixed>(borders, walls, sweeps, coupled, grid, fields, work);
+        solve(weights, sweeps, coupled, fields, work);
     }
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         if constexpr (Stored<Real>::coarse) {
             if (fields.elasticity != nullptr) {
-                fields.elasticity->push(borders, walls, rows, fields, grid);
+                fields.elasticity->push(domain, rows);
             } else {
                 project_packed(weights, rows, fields, grid);
             }
@@ -246,10 +247,11 @@ constexpr detail::SecondLiquid<Real> stages_of_two() {
 }
 
 template <bool Solids, class Real>
-void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                         std::int32_t sweeps, StaggeredGrid<Real>& grid,
-                         PressureFields<Real>& fields, const CoupledSolve<Real>* coupled,
-                         Work work) {
+void make_incompressible(const Domain<Real>& domain, Seconds<Real> dt_s, std::int32_t sweeps,
+                         const CoupledSolve<Real>* coupled, Work work) {
+    StaggeredGrid<Real>& grid = domain.grid;
+    PressureFields<Real>& fields = domain.fields;
+    const Borders<Real>& borders = domain.borders;
     if (work.once(1)) {
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
     }
@@ -261,19 +263,19 @@ void make_incompressible(const Borders<Real>& borders, const Walls<Real>& walls,
     if (fields.second_liquid != nullptr) {
         solver = Solids ? fields.second_liquid->among_solids : fields.second_liquid->in_open;
     }
-    solver(borders, walls, sweeps, coupled, grid, fields, work);
+    solver(domain, sweeps, coupled, work);
 }
 
 }  // namespace
 
 template <bool Solids, class Real>
-void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
+void projection(const Domain<Real>& domain, Seconds<Real> dt_s, std::int32_t sweeps,
                 const CoupledSolve<Real>* coupled, Work work) {
     // Packed worlds have one for both: little room for code.
-    const auto stage = Stored<Real>::coarse || walls.active ? make_incompressible<Solids, Real>
-                                                            : make_incompressible<false, Real>;
-    stage(borders, walls, dt_s, sweeps, grid, fields, coupled, work);
+    const auto stage = Stored<Real>::coarse || domain.walls.active
+                           ? make_incompressible<Solids, Real>
+                           : make_incompressible<false, Real>;
+    stage(domain, dt_s, sweeps, coupled, work);
 }
 
 template <bool Solids, class Real>
@@ -282,10 +284,9 @@ const detail::SecondLiquid<Real>& detail::second_liquid() {
     return kStages;
 }
 
-#define WEIR_INSTANTIATE_PROJECTION(Solids, Real)                                                 \
-    template const detail::SecondLiquid<Real>& detail::second_liquid<Solids, Real>();             \
-    template void projection<Solids>(const Borders<Real>&, const Walls<Real>&, Seconds<Real>,     \
-                                     std::int32_t, StaggeredGrid<Real>&, PressureFields<Real>&,   \
+#define WEIR_INSTANTIATE_PROJECTION(Solids, Real)                                      \
+    template const detail::SecondLiquid<Real>& detail::second_liquid<Solids, Real>();  \
+    template void projection<Solids>(const Domain<Real>&, Seconds<Real>, std::int32_t, \
                                      const CoupledSolve<Real>*, Work);
 #define WEIR_INSTANTIATE(Real) \
     WEIR_INSTANTIATE_PROJECTION(false, Real) WEIR_INSTANTIATE_PROJECTION(true, Real)

@@ -4,8 +4,8 @@
 #include "grid/borders.hpp"
 #include "math/packed_arithmetic.hpp"
 #include "math/quotient_packed.hpp"
+#include "pressure/domain.hpp"
 #include "pressure/drift_weights.hpp"
-#include "pressure/pressure_fields.hpp"
 #include "solid/free_body.hpp"
 #include "weir/features.hpp"
 
@@ -25,8 +25,7 @@ inline constexpr std::int32_t kColdStart = 8;
 /// the equation of state. `coupled`: free bodies that are solved for together with the pressure,
 /// or null. Without `Solids`: a program that adds none links nothing of them.
 template <bool Solids, class Real>
-void projection(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                std::int32_t sweeps, StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
+void projection(const Domain<Real>& domain, Seconds<Real> dt_s, std::int32_t sweeps,
                 const CoupledSolve<Real>* coupled = nullptr, Work work = {});
 
 /// Of some rows those that are so near to liquid, once there are equations; all across a seam.
@@ -54,9 +53,8 @@ struct Weights;
 /// The same with two liquids: a program whose definition has room for one links nothing of it.
 template <class Real>
 struct detail::SecondLiquid {
-    using Solver = void (*)(const Borders<Real>& borders, const Walls<Real>& walls,
-                            std::int32_t sweeps, const CoupledSolve<Real>* coupled,
-                            StaggeredGrid<Real>& grid, PressureFields<Real>& fields, Work work);
+    using Solver = void (*)(const Domain<Real>& domain, std::int32_t sweeps,
+                            const CoupledSolve<Real>* coupled, Work work);
     template <bool Solids>
     using Lift = void (*)(const Drift<Solids, Real>&, const StaggeredGrid<Real>&,
                           Weights<SumOf<Real>>&);

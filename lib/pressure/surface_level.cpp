@@ -72,10 +72,11 @@ template <class Real>
 }
 
 template <class Real>
-void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
-                        const CutDensity<Real>& cut, Real per_face, const ThinWalls<Real>* thin,
-                        EmptySlivers<Real> empty_slivers, const Part& rows,
-                        PressureFields<Real>& fields) {
+void density_from_faces(const Domain<Real>& domain, const CutDensity<Real>& cut, Real per_face,
+                        EmptySlivers<Real> empty_slivers, const Part& rows) {
+    const StaggeredGrid<Real>& grid = domain.grid;
+    const ThinWalls<Real>* thin = domain.walls.thin;
+    PressureFields<Real>& fields = domain.fields;
     const GridShape& s = grid.shape;
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const Part columns = s.columns(j);
@@ -98,7 +99,7 @@ void density_from_faces(const StaggeredGrid<Real>& grid, const Borders<Real>& bo
             }
         }
         if (!slivers.empty() && empty_slivers != nullptr) {
-            empty_slivers(grid, borders, cut, j, slivers, fields.level);
+            empty_slivers(grid, domain.borders, cut, j, slivers, fields.level);
         }
     }
 }
@@ -217,21 +218,22 @@ Real level_of_density(Real density) {
 }
 
 template <class Real>
-void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
-                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
-                   EmptySlivers<Real> empty_slivers, Work work) {
-    const GridShape& s = grid.shape;
+void surface_level(const Domain<Real>& domain, Real rest_count, EmptySlivers<Real> empty_slivers,
+                   Work work) {
+    const Borders<Real>& borders = domain.borders;
+    const Walls<Real>& walls = domain.walls;
+    PressureFields<Real>& fields = domain.fields;
+    const GridShape& s = domain.grid.shape;
     CutDensity<Real> cut;
     cut.full = walls.active ? walls.full_density : nullptr;
     cut.sliver = Real(1) / rest_count;
     const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * rest_count);
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         if constexpr (Stored<Real>::coarse) {
-            packed_density(grid, borders, cut, static_cast<std::int32_t>(rest_count),
-                           empty_slivers, rows, fields);
+            packed_density(domain, cut, static_cast<std::int32_t>(rest_count), empty_slivers,
+                           rows);
         } else {
-            density_from_faces(grid, borders, cut, per_face, walls.thin, empty_slivers, rows,
-                               fields);
+            density_from_faces(domain, cut, per_face, empty_slivers, rows);
         }
     });
     if (work.once(s.border())) {
@@ -252,11 +254,9 @@ void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                    \
-    template Real level_of_density(Real);                                         \
-    template void surface_level(const StaggeredGrid<Real>&, const Borders<Real>&, \
-                                const Walls<Real>&, Real, PressureFields<Real>&,  \
-                                EmptySlivers<Real>, Work);
+#define WEIR_INSTANTIATE(Real)            \
+    template Real level_of_density(Real); \
+    template void surface_level(const Domain<Real>&, Real, EmptySlivers<Real>, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -1,10 +1,8 @@
 // Stage: pressure, first part. Reads face masses; writes density and level of every cell.
 #pragma once
 
-#include "grid/borders.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/domain.hpp"
 #include "pressure/slivers.hpp"
-#include "solid/walls.hpp"
 
 namespace weir {
 
@@ -18,8 +16,7 @@ Real level_of_density(Real density);
 /// pressure. `empty_slivers`: null where there is no room for bodies. Order: by row. Cost: 4 sums
 /// and about one square root a cell near the surface.
 template <class Real>
-void surface_level(const StaggeredGrid<Real>& grid, const Borders<Real>& borders,
-                   const Walls<Real>& walls, Real rest_count, PressureFields<Real>& fields,
+void surface_level(const Domain<Real>& domain, Real rest_count,
                    EmptySlivers<Real> empty_slivers = nullptr, Work work = {});
 
 }  // namespace weir

@@ -81,18 +81,20 @@ Real surface_curvature(const GridShape& s, const VelocityOf<Real>* f, const Leve
 }  // namespace
 
 template <class Real>
-void surface_tension(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
-                     Real amount, PressureFields<Real>& fields, Work work) {
+void surface_tension(const Domain<Real>& domain, Real amount, Work work) {
+    const GridShape& s = domain.grid.shape;
+    const Borders<Real>& borders = domain.borders;
+    PressureFields<Real>& fields = domain.fields;
     VelocityOf<Real>* f = fields.divergence;
     VelocityOf<Real>* between = fields.inverse_diagonal;
     if (work.once(s.border())) {
         mirror_cells(borders, s, fields.density);
     }
-    smooth(s, walls, work.take(s.ny, s.nx), 1, fields.density, between);
+    smooth(s, domain.walls, work.take(s.ny, s.nx), 1, fields.density, between);
     if (work.once(s.border())) {
         mirror_cells(borders, s, between);
     }
-    smooth(s, walls, work.take(s.ny, s.nx), s.stride, between, f);
+    smooth(s, domain.walls, work.take(s.ny, s.nx), s.stride, between, f);
     if (work.once(s.border())) {
         mirror_cells(borders, s, f);
     }
@@ -116,10 +118,9 @@ const detail::Tension<Real>& detail::tension() {
     return kStage;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                                \
-    template const detail::Tension<Real>& detail::tension<Real>();                            \
-    template void surface_tension(const GridShape&, const Borders<Real>&, const Walls<Real>&, \
-                                  Real, PressureFields<Real>&, Work);
+#define WEIR_INSTANTIATE(Real)                                     \
+    template const detail::Tension<Real>& detail::tension<Real>(); \
+    template void surface_tension(const Domain<Real>&, Real, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

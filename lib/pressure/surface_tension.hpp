@@ -2,9 +2,7 @@
 // the pressure on the surface into air cells.
 #pragma once
 
-#include "grid/borders.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/domain.hpp"
 #include "weir/features.hpp"
 
 namespace weir {
@@ -18,14 +16,11 @@ namespace weir {
 /// Order: by row. Cost: 8 operations a cell, and 2 to 5 curvatures of 35 for each air cell beside
 /// the liquid.
 template <class Real>
-void surface_tension(const GridShape& shape, const Borders<Real>& borders,
-                     const Walls<Real>& walls, Real amount, PressureFields<Real>& fields,
-                     Work work = {});
+void surface_tension(const Domain<Real>& domain, Real amount, Work work = {});
 
 template <class Real>
 struct detail::Tension {
-    void (*stage)(const GridShape& shape, const Borders<Real>& borders, const Walls<Real>& walls,
-                  Real amount, PressureFields<Real>& fields, Work work);
+    void (*stage)(const Domain<Real>& domain, Real amount, Work work);
 };
 
 }  // namespace weir

@@ -96,9 +96,12 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
 }
 
 template <bool Solids, class Real>
-void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed, Vec2<Real> weight,
-             PressureFields<Real>& fields, StaggeredGrid<Real>& grid, std::int32_t& overfull,
+void correct(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall, std::int32_t& overfull,
              Work work) {
+    const Borders<Real>& borders = domain.borders;
+    const Walls<Real>& walls = domain.walls;
+    PressureFields<Real>& fields = domain.fields;
+    StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
     const bool pays = fields.cell_weight > Real(0);
@@ -131,7 +134,7 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
         if (kHasLanes<Real> && is_still(fields, patch.q)) {
             return;
         }
-        Drift<Solids, Real> drift{borders, walls, fields, s, patch, speed, weight, {}, {}};
+        Drift<Solids, Real> drift{borders, walls, fields, s, patch, gain_per_s, fall, {}, {}};
         rises(fields.coarse.correction, patch.q, 1, drift.along_x);
         rises(fields.coarse.correction, patch.q, big.stride, drift.along_y);
         drift_apart(drift, pays, grid);
@@ -139,34 +142,30 @@ void correct(const Borders<Real>& borders, const Walls<Real>& walls, Real speed,
 }
 
 template <bool Solids, class Real>
-void keep_volume(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                 Real gain, Vec2<Real> gravity, PressureFields<Real>& fields,
-                 StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
+void keep_volume(const Domain<Real>& domain, Real gain_per_s, [[maybe_unused]] Vec2<Real> fall,
+                 std::int32_t& overfull, Work work) {
     if constexpr (Stored<Real>::coarse) {
-        correct_packed<Solids>(borders, walls, gain / dt_s, fields, grid, overfull, work);
+        correct_packed<Solids>(domain, gain_per_s, overfull, work);
     } else {
         if (work.once(1)) {
             overfull = 0;
         }
-        correct<Solids>(borders, walls, gain / dt_s, dt_s * gravity, fields, grid, overfull, work);
+        correct<Solids>(domain, gain_per_s, fall, overfull, work);
     }
 }
 
 }  // namespace
 
 template <bool Solids, class Real>
-void volume_correction(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                       Real gain, Vec2<Real> gravity, PressureFields<Real>& fields,
-                       StaggeredGrid<Real>& grid, std::int32_t& overfull, Work work) {
-    const auto stage = Stored<Real>::coarse || walls.active ? keep_volume<Solids, Real>
-                                                            : keep_volume<false, Real>;
-    stage(borders, walls, dt_s, gain, gravity, fields, grid, overfull, work);
+void volume_correction(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall,
+                       std::int32_t& overfull, Work work) {
+    const auto stage = Stored<Real>::coarse || domain.walls.active ? keep_volume<Solids, Real>
+                                                                   : keep_volume<false, Real>;
+    stage(domain, gain_per_s, fall, overfull, work);
 }
 
-#define WEIR_INSTANTIATE_VOLUME(Solids, Real)                                                   \
-    template void volume_correction<Solids>(const Borders<Real>&, const Walls<Real>&,           \
-                                            Seconds<Real>, Real, Vec2<Real>,                    \
-                                            PressureFields<Real>&, StaggeredGrid<Real>&,        \
+#define WEIR_INSTANTIATE_VOLUME(Solids, Real)                                      \
+    template void volume_correction<Solids>(const Domain<Real>&, Real, Vec2<Real>, \
                                             std::int32_t&, Work);
 #define WEIR_INSTANTIATE(Real) \
     WEIR_INSTANTIATE_VOLUME(false, Real) WEIR_INSTANTIATE_VOLUME(true, Real)

@@ -2,8 +2,8 @@
 // its mean over a patch in 2048ths.
 #pragma once
 
-#include "grid/borders.hpp"
 #include "math/packed_arithmetic.hpp"
+#include "pressure/domain.hpp"
 #include "pressure/drift_packed.hpp"
 
 namespace weir {
@@ -85,10 +85,12 @@ std::int32_t average(const GridShape& s, const Walls<SmallFixed>& walls, const P
 
 /// Every other substep twice as far: nothing that was tried tells the difference.
 template <bool Solids>
-void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>& walls,
-                    SmallFixed gain_per_s, PressureFields<SmallFixed>& fields,
-                    StaggeredGrid<SmallFixed>& grid, std::int32_t& overfull, Work work) {
-    const GridShape& s = grid.shape;
+void correct_packed(const Domain<SmallFixed>& domain, SmallFixed gain_per_s,
+                    std::int32_t& overfull, Work work) {
+    const Borders<SmallFixed>& borders = domain.borders;
+    const Walls<SmallFixed>& walls = domain.walls;
+    PressureFields<SmallFixed>& fields = domain.fields;
+    const GridShape& s = domain.grid.shape;
     const GridShape& big = fields.coarse.shape;
     if (work.once(1)) {
         overfull = maximum(fields.drift_turn - 1, 0);
@@ -118,7 +120,7 @@ void correct_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>&
         mirror_cells(borders, big, fields.coarse.correction);
         mirror_cells(borders, big, fields.coarse.residual);
     }
-    packed::Drift<Solids> drift{borders, walls, fields, grid, speed};
+    packed::Drift<Solids> drift{borders, walls, fields, domain.grid, speed};
     const bool pays = fields.cell_weight > SmallFixed(0) && (fields.quiet_turn & 2) != 0;
     for_each_patch(s, big, work, [&](const Patch& patch) { drift.patch(patch, pays); });
 }

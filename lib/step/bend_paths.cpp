@@ -252,11 +252,13 @@ void bend_rows(const Bending<Real>& of_u, const Bending<Real>& of_v, const Part&
 }  // namespace
 
 template <class Real>
-void bend_paths([[maybe_unused]] const Borders<Real>& borders,
-                [[maybe_unused]] const Walls<Real>& walls, [[maybe_unused]] Seconds<Real> dt_s,
-                [[maybe_unused]] const PressureFields<Real>& fields,
-                [[maybe_unused]] StaggeredGrid<Real>& grid, [[maybe_unused]] Work work) {
+void bend_paths([[maybe_unused]] const Domain<Real>& domain,
+                [[maybe_unused]] Seconds<Real> dt_s, [[maybe_unused]] Work work) {
     if constexpr (!Stored<Real>::coarse) {
+        const Borders<Real>& borders = domain.borders;
+        const Walls<Real>& walls = domain.walls;
+        const PressureFields<Real>& fields = domain.fields;
+        StaggeredGrid<Real>& grid = domain.grid;
         const GridShape& s = grid.shape;
         const VelocityOf<Real>* u = fields.divergence;
         const VelocityOf<Real>* v = fields.inverse_diagonal;
@@ -280,9 +282,8 @@ void bend_paths([[maybe_unused]] const Borders<Real>& borders,
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                                                         \
-    template void bend_paths(const Borders<Real>&, const Walls<Real>&, Seconds<Real>, \
-                             const PressureFields<Real>&, StaggeredGrid<Real>&, Work);
+#define WEIR_INSTANTIATE(Real) \
+    template void bend_paths(const Domain<Real>&, Seconds<Real>, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

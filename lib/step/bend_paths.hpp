@@ -1,9 +1,7 @@
 // Stage: bend paths, between the volume's blending and its drift.
 #pragma once
 
-#include "grid/borders.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/domain.hpp"
 
 namespace weir {
 
@@ -17,7 +15,6 @@ namespace weir {
 /// sees.
 /// Order: any.
 template <class Real>
-void bend_paths(const Borders<Real>& borders, const Walls<Real>& walls, Seconds<Real> dt_s,
-                const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work = {});
+void bend_paths(const Domain<Real>& domain, Seconds<Real> dt_s, Work work = {});
 
 }  // namespace weir

@@ -189,12 +189,15 @@ void blend(const Part& faces, Real pic_ratio, const VelocityOf<Real>* sharp_u,
 }  // namespace
 
 template <class Real>
-void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
-                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin, Work work) {
+void blend_change(const Domain<Real>& domain, Real flip_ratio, Work work) {
     if constexpr (Stored<Real>::coarse) {
-        blend_packed(borders, flip_ratio, fields, grid, work);
+        blend_packed(domain, flip_ratio, work);
         return;
     }
+    const Borders<Real>& borders = domain.borders;
+    const ThinWalls<Real>* thin = domain.walls.thin;
+    PressureFields<Real>& fields = domain.fields;
+    StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
@@ -226,9 +229,7 @@ void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<
     });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                    \
-    template void blend_change(const Borders<Real>&, Real, PressureFields<Real>&, \
-                               StaggeredGrid<Real>&, const ThinWalls<Real>*, Work);
+#define WEIR_INSTANTIATE(Real) template void blend_change(const Domain<Real>&, Real, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -2,9 +2,7 @@
 // writes the faces.
 #pragma once
 
-#include "grid/borders.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/thin_walls.hpp"
+#include "pressure/domain.hpp"
 
 namespace weir {
 
@@ -13,11 +11,9 @@ namespace weir {
 ///     v' = flip · v + I(change),  change = u − u_before + (1 − flip) ũ,
 /// one gather instead of two. ũ is the velocity before, sharpened by what a scatter and a gather
 /// smooth away, so that the share of PIC damps the noise between particles and not the flow.
-/// Beside thin walls (`thin`, null: there are none) nothing is smoothed across, nor sharpened.
+/// Beside thin walls nothing is smoothed across, nor sharpened.
 /// ũ is left in the fields' divergence (of u) and inverse diagonal.
 template <class Real>
-void blend_change(const Borders<Real>& borders, Real flip_ratio, PressureFields<Real>& fields,
-                  StaggeredGrid<Real>& grid, const ThinWalls<Real>* thin = nullptr,
-                  Work work = {});
+void blend_change(const Domain<Real>& domain, Real flip_ratio, Work work = {});
 
 }  // namespace weir

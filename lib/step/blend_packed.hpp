@@ -1,9 +1,8 @@
 // blend_change in whole numbers, in one pass. There are no thin walls.
 #pragma once
 
-#include "grid/borders.hpp"
 #include "math/packed_arithmetic.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/domain.hpp"
 #include "step/blend_m0.hpp"
 
 namespace weir {
@@ -106,9 +105,10 @@ inline Borders<SmallFixed> slower(Borders<SmallFixed> borders, SmallFixed share)
 
 }  // namespace packed
 
-inline void blend_packed(const Borders<SmallFixed>& borders, SmallFixed flip_ratio,
-                         PressureFields<SmallFixed>& fields, StaggeredGrid<SmallFixed>& grid,
-                         Work work) {
+inline void blend_packed(const Domain<SmallFixed>& domain, SmallFixed flip_ratio, Work work) {
+    const Borders<SmallFixed>& borders = domain.borders;
+    PressureFields<SmallFixed>& fields = domain.fields;
+    StaggeredGrid<SmallFixed>& grid = domain.grid;
     const GridShape& s = grid.shape;
     // Of what is left: both shares have to add up to 1, or velocity would fade.
     const std::int32_t share = (1 << 14) - (flip_ratio.raw >> 2);

@@ -9,16 +9,16 @@ namespace weir {
 namespace {
 
 template <class Real>
-Velocity<Real> velocity_before(const StaggeredGrid<Real>& grid,
-                               const PressureFields<Real>& fields) {
-    return {grid.shape,  grid.mass_u,        grid.mass_v, grid.mass_u,
-            grid.mass_v, goes_along(fields), fields.sound_speed > Real(0)};
+Velocity<Real> velocity_before(const Domain<Real>& domain) {
+    const StaggeredGrid<Real>& grid = domain.grid;
+    return {grid.shape,  grid.mass_u,               grid.mass_v, grid.mass_u,
+            grid.mass_v, goes_along(domain.fields), domain.fields.sound_speed > Real(0)};
 }
 template <class Real>
-Velocity<Real> velocity_now(const StaggeredGrid<Real>& grid, const PressureFields<Real>& fields) {
-    Velocity<Real> velocity = velocity_before(grid, fields);
-    velocity.u = grid.u;
-    velocity.v = grid.v;
+Velocity<Real> velocity_now(const Domain<Real>& domain) {
+    Velocity<Real> velocity = velocity_before(domain);
+    velocity.u = domain.grid.u;
+    velocity.v = domain.grid.v;
     return velocity;
 }
 
@@ -42,10 +42,13 @@ VelocityOf<Real> mirror_face(const FaceAxis<Real>& axis, const TwoFields<Real>& 
 
 /// One field after the other.
 template <class Real>
-void mirror_field(const Walls<Real>& walls, const TwoFields<Real>& both, bool was,
-                  const Part& computed, Work work, PressureFields<Real>& fields,
-                  VelocityOf<Real>* u, VelocityOf<Real>* v) {
-    const GridShape& s = both.now.shape;
+void mirror_field(const Domain<Real>& domain, const TwoFields<Real>& both, bool was,
+                  const Part& computed, Work work) {
+    const Walls<Real>& walls = domain.walls;
+    PressureFields<Real>& fields = domain.fields;
+    VelocityOf<Real>* const u = was ? domain.grid.mass_u : domain.grid.u;
+    VelocityOf<Real>* const v = was ? domain.grid.mass_v : domain.grid.v;
+    const GridShape& s = domain.grid.shape;
     const FaceAxis<Real> on_u{s, walls, true};
     const FaceAxis<Real> on_v{s, walls, false};
     // All are computed before the first is written: they read each other.
@@ -311,8 +314,10 @@ void mirror_rows(std::int32_t rows, BothMirrors<Real>& mirrors, const Row& row) 
 }
 
 template <class Real>
-void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
-                     PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
+void mirror_together(const Domain<Real>& domain, const TwoFields<Real>& both) {
+    const Walls<Real>& walls = domain.walls;
+    PressureFields<Real>& fields = domain.fields;
+    StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     const std::int32_t turns = turns_in<Real>(s);
     BothMirrors<Real> mirrors{
@@ -338,19 +343,17 @@ void mirror_together(const Walls<Real>& walls, const TwoFields<Real>& both,
 }  // namespace
 
 template <class Real>
-void mirror_in_solids(const Walls<Real>& walls, Vec2<Real> fall, PressureFields<Real>& fields,
-                      StaggeredGrid<Real>& grid, Work work) {
-    const GridShape& s = grid.shape;
-    const TwoFields<Real> both{velocity_now(grid, fields), velocity_before(grid, fields), fields,
-                               fall};
+void mirror_in_solids(const Domain<Real>& domain, Vec2<Real> fall, Work work) {
+    const GridShape& s = domain.grid.shape;
+    const TwoFields<Real> both{velocity_now(domain), velocity_before(domain), domain.fields, fall};
     const bool enough = work.left() >= 4 * static_cast<std::int64_t>(s.ny) * s.nx;
     Part rows = work.take(s.ny, s.nx);
     bool done = false;
     if (enough && rows.first == 0 && rows.end == s.ny && work.pieces(s.ny, s.nx, 1) <= 1) {
         if constexpr (Stored<Real>::coarse) {
-            done = packed::BothMirrors(walls, both, fields, grid).mirror();
+            done = packed::BothMirrors(domain, both).mirror();
         } else if (s.ny >= rows_of(kTurns)) {
-            mirror_together(walls, both, fields, grid);
+            mirror_together(domain, both);
             done = true;
         }
     }
@@ -360,14 +363,13 @@ void mirror_in_solids(const Walls<Real>& walls, Vec2<Real> fall, PressureFields<
         }
         return;
     }
-    mirror_field(walls, both, false, rows, work, fields, grid.u, grid.v);
+    mirror_field(domain, both, false, rows, work);
     rows = work.take(s.ny, s.nx);
-    mirror_field(walls, both, true, rows, work, fields, grid.mass_u, grid.mass_v);
+    mirror_field(domain, both, true, rows, work);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template void mirror_in_solids(const Walls<Real>&, Vec2<Real>, PressureFields<Real>&, \
-                                   StaggeredGrid<Real>&, Work);
+#define WEIR_INSTANTIATE(Real) \
+    template void mirror_in_solids(const Domain<Real>&, Vec2<Real>, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

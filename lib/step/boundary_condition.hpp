@@ -1,8 +1,7 @@
 // Stage: grid update, last part. Reads projected velocities; writes faces that no liquid owns.
 #pragma once
 
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/domain.hpp"
 
 namespace weir {
 
@@ -19,7 +18,6 @@ namespace weir {
 /// @param fall what gravity gave in the step, cells/s.
 /// Cost: about 200 operations for each closed face within 1½ cells of a wall.
 template <class Real>
-void mirror_in_solids(const Walls<Real>& walls, Vec2<Real> fall, PressureFields<Real>& fields,
-                      StaggeredGrid<Real>& grid, Work work = {});
+void mirror_in_solids(const Domain<Real>& domain, Vec2<Real> fall, Work work = {});
 
 }  // namespace weir

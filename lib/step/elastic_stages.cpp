@@ -8,12 +8,11 @@ namespace weir {
 namespace {
 
 template <class Real>
-void push(const Borders<Real>& borders, const Walls<Real>& walls, const Part& rows,
-          const PressureFields<Real>& fields, StaggeredGrid<Real>& grid) {
-    if (walls.active) {
-        project(FaceWeights<true, false, Real>{grid, borders, walls}, rows, fields, grid);
+void push(const Domain<Real>& domain, const Part& rows) {
+    if (domain.walls.active) {
+        project(domain.template face_weights<true, false>(), rows, domain.fields, domain.grid);
     } else {
-        project(FaceWeights<false, false, Real>{grid, borders, walls}, rows, fields, grid);
+        project(domain.template face_weights<false, false>(), rows, domain.fields, domain.grid);
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include "math/packed_arithmetic.hpp"
 #include "pressure/projection.hpp"
-#include "solid/walls.hpp"
 
 namespace weir {
 
@@ -81,9 +80,11 @@ inline std::int32_t mean_of(std::int32_t sum, std::int32_t count) {
 
 }  // namespace packed
 
-inline void extrapolate_packed(const Borders<SmallFixed>& borders, const Walls<SmallFixed>& walls,
-                               const PressureFields<SmallFixed>& fields, const Part& rows,
-                               StaggeredGrid<SmallFixed>& grid) {
+inline void extrapolate_packed(const Domain<SmallFixed>& domain, const Part& rows) {
+    const Borders<SmallFixed>& borders = domain.borders;
+    const Walls<SmallFixed>& walls = domain.walls;
+    const PressureFields<SmallFixed>& fields = domain.fields;
+    StaggeredGrid<SmallFixed>& grid = domain.grid;
     const GridShape& s = grid.shape;
     const packed::AirFaces u{fields, s, walls.active ? walls.open_u : nullptr,
                              1,      borders.wrap_x ? 0 : 1,

@@ -3,6 +3,7 @@
 #include "math/packed_arithmetic.hpp"
 #include "math/quotient_packed.hpp"
 #include "pressure/equation_of_state.hpp"
+#include "pressure/parting.hpp"
 #include "pressure/projection.hpp"
 #include "step/extrapolate_lanes.hpp"
 #include "step/extrapolate_packed.hpp"
@@ -229,9 +230,9 @@ void extrapolate_component(const Component<Real>& component, const PressureField
 }  // namespace
 
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
-                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work,
-                 Real unreached) {
+void grid_update(const Domain<Real>& domain, Vec2<Real> fall, Work work, Real unreached) {
+    StaggeredGrid<Real>& grid = domain.grid;
+    const PressureFields<Real>& fields = domain.fields;
     const GridShape& s = grid.shape;
     // One component after the other: packed velocities take the place of momenta.
     const auto component = [&](const Real* momentum, VelocityOf<Real>* mass,
@@ -260,30 +261,30 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
     component(grid.momentum_v(), grid.mass_v, grid.inverse_density_v, fall.y, grid.v);
     if (work.once(s.border())) {
         const Real* pressure = may_part(fields) ? fields.pressure : nullptr;
-        close_walls(borders, fall, fields.level, pressure, grid);
+        close_walls(domain.borders, fall, fields.level, pressure, grid);
     }
 }
 
 template <class Real>
-void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
-                 const PressureFields<Real>& fields, bool velocity_itself,
-                 StaggeredGrid<Real>& grid, Work work) {
+void extrapolate(const Domain<Real>& domain, bool velocity_itself, Work work) {
     if constexpr (Stored<Real>::coarse) {
-        if (fields.elasticity != nullptr) {
-            fields.elasticity->extrapolate(borders, walls, fields, velocity_itself, grid, work);
+        const detail::Elasticity<Real>* elasticity = domain.fields.elasticity;
+        if (elasticity != nullptr) {
+            elasticity->extrapolate(domain, velocity_itself, work);
         } else {
-            const GridShape& s = grid.shape;
-            extrapolate_packed(borders, walls, fields, work.take(s.ny, s.nx), grid);
+            const GridShape& s = domain.grid.shape;
+            extrapolate_packed(domain, work.take(s.ny, s.nx));
         }
     } else {
-        extrapolate_by_face(borders, walls, fields, velocity_itself, grid, work);
+        extrapolate_by_face(domain, velocity_itself, work);
     }
 }
 
 template <class Real>
-void extrapolate_by_face(const Borders<Real>& borders, const Walls<Real>& walls,
-                         const PressureFields<Real>& fields, bool velocity_itself,
-                         StaggeredGrid<Real>& grid, Work work) {
+void extrapolate_by_face(const Domain<Real>& domain, bool velocity_itself, Work work) {
+    const Borders<Real>& borders = domain.borders;
+    const Walls<Real>& walls = domain.walls;
+    StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     const ShareOf<Real>* open_u = walls.active ? walls.open_u : nullptr;
     const ShareOf<Real>* open_v = walls.active ? walls.open_v : nullptr;
@@ -292,21 +293,15 @@ void extrapolate_by_face(const Borders<Real>& borders, const Walls<Real>& walls,
     const Component<Real> v{grid.v,   grid.inverse_density_v,    open_v,
                             s.stride, 0, borders.wrap_y ? 0 : 1, walls.thin};
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
-        extrapolate_component(u, fields, velocity_itself, s, rows);
-        extrapolate_component(v, fields, velocity_itself, s, rows);
+        extrapolate_component(u, domain.fields, velocity_itself, s, rows);
+        extrapolate_component(v, domain.fields, velocity_itself, s, rows);
     });
 }
 
-#define WEIR_INSTANTIATE(Real)                                                           \
-    template void grid_update(const Borders<Real>&, Vec2<Real>,                          \
-                              const PressureFields<Real>&, StaggeredGrid<Real>&, Work,   \
-                              Real);                                                     \
-    template void extrapolate(const Borders<Real>&, const Walls<Real>&,                  \
-                              const PressureFields<Real>&, bool, StaggeredGrid<Real>&,   \
-                              Work);                                                     \
-    template void extrapolate_by_face(const Borders<Real>&, const Walls<Real>&,          \
-                                      const PressureFields<Real>&, bool,                 \
-                                      StaggeredGrid<Real>&, Work);
+#define WEIR_INSTANTIATE(Real)                                              \
+    template void grid_update(const Domain<Real>&, Vec2<Real>, Work, Real); \
+    template void extrapolate(const Domain<Real>&, bool, Work);             \
+    template void extrapolate_by_face(const Domain<Real>&, bool, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

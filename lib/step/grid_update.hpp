@@ -1,9 +1,7 @@
 // Stage: grid update. Reads mass and momentum; writes velocities.
 #pragma once
 
-#include "grid/borders.hpp"
-#include "pressure/parting.hpp"
-#include "solid/walls.hpp"
+#include "pressure/domain.hpp"
 
 namespace weir {
 
@@ -14,8 +12,7 @@ namespace weir {
 /// `unreached`: what then stands where no particle reaches.
 /// Order: by row. Cost: one division a face.
 template <class Real>
-void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
-                 const PressureFields<Real>& fields, StaggeredGrid<Real>& grid, Work work = {},
+void grid_update(const Domain<Real>& domain, Vec2<Real> fall, Work work = {},
                  Real unreached = kNoVelocity<Real>);
 
 /// Faces in air beside the liquid take from the pressure what the liquid's open faces next to them
@@ -24,15 +21,11 @@ void grid_update(const Borders<Real>& borders, Vec2<Real> fall,
 /// tension, which feeds on every ripple, wants the braking: `velocity_itself`.
 /// After the projection; reads levels and pressures of the cells.
 template <class Real>
-void extrapolate(const Borders<Real>& borders, const Walls<Real>& walls,
-                 const PressureFields<Real>& fields, bool velocity_itself,
-                 StaggeredGrid<Real>& grid, Work work = {});
+void extrapolate(const Domain<Real>& domain, bool velocity_itself, Work work = {});
 
 /// The same, and all that a push on spray must not do: packed worlds do without, but not with an
 /// equation of state.
 template <class Real>
-void extrapolate_by_face(const Borders<Real>& borders, const Walls<Real>& walls,
-                         const PressureFields<Real>& fields, bool velocity_itself,
-                         StaggeredGrid<Real>& grid, Work work);
+void extrapolate_by_face(const Domain<Real>& domain, bool velocity_itself, Work work);
 
 }  // namespace weir

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/packed_arithmetic.hpp"
+#include "pressure/domain.hpp"
 #include "step/mirror.hpp"
 #include "step/places_packed.hpp"
 
@@ -269,10 +270,10 @@ struct Image {
 /// other in scratch, and which faces of a cell it is for in place of the cell's diagonal.
 class BothMirrors {
 public:
-    BothMirrors(const Walls<Real>& walls, const TwoFields<Real>& both, PressureFields<Real>& fields,
-                StaggeredGrid<Real>& grid)
-        : walls_(walls), both_(both), fields_(fields), grid_(grid), held_(fields.divergence),
-          end_(held_ + grid.shape.index(grid.shape.nx, grid.shape.ny - 1)) {}
+    BothMirrors(const Domain<Real>& domain, const TwoFields<Real>& both)
+        : walls_(domain.walls), both_(both), fields_(domain.fields), grid_(domain.grid),
+          held_(fields_.divergence),
+          end_(held_ + grid_.shape.index(grid_.shape.nx, grid_.shape.ny - 1)) {}
 
     /// False: there are too many, and nothing has happened.
     bool mirror() {

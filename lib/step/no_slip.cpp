@@ -178,36 +178,37 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
 }  // namespace
 
 template <class Real>
-void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
-                     StaggeredGrid<Real>& grid, Work work) {
+void centre_at_walls(const Domain<Real>& domain, Work work) {
+    StaggeredGrid<Real>& grid = domain.grid;
+    PressureFields<Real>& fields = domain.fields;
     const GridShape& s = grid.shape;
     const Part copied = work.take(s.ny + 2, s.nx + 2);
     copy_rows(s, copied, grid.mass_u, fields.divergence);
     copy_rows(s, copied, grid.mass_v, fields.inverse_diagonal);
     if (work.once(s.size())) {
-        centre_component<Real>({s, walls, true}, fields.divergence, fields.inverse_diagonal,
-                               grid.u, grid.mass_u);
-        centre_component<Real>({s, walls, false}, fields.inverse_diagonal, fields.divergence,
-                               grid.v, grid.mass_v);
+        centre_component<Real>({s, domain.walls, true}, fields.divergence,
+                               fields.inverse_diagonal, grid.u, grid.mass_u);
+        centre_component<Real>({s, domain.walls, false}, fields.inverse_diagonal,
+                               fields.divergence, grid.v, grid.mass_v);
     }
 }
 
 template <class Real>
-void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fields, Real amount,
-                      std::int32_t from, StaggeredGrid<Real>& grid) {
-    const GridShape& s = grid.shape;
+void diffuse_to_walls(const Domain<Real>& domain, Real amount, std::int32_t from) {
+    const Walls<Real>& walls = domain.walls;
+    const PressureFields<Real>& fields = domain.fields;
+    const GridShape& s = domain.grid.shape;
     const FaceShare<Real> on_u{fields.density, nullptr, 1};
     const FaceShare<Real> on_v{fields.density, nullptr, s.stride};
-    diffuse_component<Real>({s, walls, true}, on_u, amount, from, fields.divergence, grid.u);
+    diffuse_component<Real>({s, walls, true}, on_u, amount, from, fields.divergence,
+                            domain.grid.u);
     diffuse_component<Real>({s, walls, false}, on_v, amount, from, fields.inverse_diagonal,
-                            grid.v);
+                            domain.grid.v);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template void centre_at_walls(const Walls<Real>&, PressureFields<Real>&,              \
-                                  StaggeredGrid<Real>&, Work);                            \
-    template void diffuse_to_walls(const Walls<Real>&, const PressureFields<Real>&, Real, \
-                                   std::int32_t, StaggeredGrid<Real>&);
+#define WEIR_INSTANTIATE(Real)                                \
+    template void centre_at_walls(const Domain<Real>&, Work); \
+    template void diffuse_to_walls(const Domain<Real>&, Real, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

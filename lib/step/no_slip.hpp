@@ -1,8 +1,7 @@
 // Stage: grid update, where viscous liquid sticks to bodies. Absent if none of them holds it.
 #pragma once
 
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/domain.hpp"
 
 namespace weir {
 
@@ -13,15 +12,13 @@ namespace weir {
 /// After `grid_update`. The fields' divergence and inverse diagonal are the scratch.
 /// Cost: a look at each cell, about 60 operations for each face within a cell of such a wall.
 template <class Real>
-void centre_at_walls(const Walls<Real>& walls, PressureFields<Real>& fields,
-                     StaggeredGrid<Real>& grid, Work work = {});
+void centre_at_walls(const Domain<Real>& domain, Work work = {});
 
 /// Viscosity beside walls without slip, over what `diffuse` did there: a neighbour beyond the wall
 /// pulls with the wall's velocity at the wall's distance θ, (u_wall − u)/θ (Gibou, Fedkiw, Cheng &
 /// Kang 2002), the wall's part implicitly, so that no θ is too small. What the walls pull the
 /// bodies receive. Reads the velocity before `diffuse` from the fields' scratch.
 template <class Real>
-void diffuse_to_walls(const Walls<Real>& walls, const PressureFields<Real>& fields, Real amount,
-                      std::int32_t from, StaggeredGrid<Real>& grid);
+void diffuse_to_walls(const Domain<Real>& domain, Real amount, std::int32_t from);
 
 }  // namespace weir

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "fluid/particles.hpp"
-#include "grid/staggered_grid.hpp"
-#include "pressure/pressure_fields.hpp"
+#include "pressure/domain.hpp"
 #include "solid/contacts.hpp"
 #include "solid/free_body.hpp"
 #include "solid/layers.hpp"
@@ -61,6 +60,12 @@ struct Simulation {
     const detail::TwoWay<Real>* two_way = nullptr;
     const detail::Viscosity<Real>* viscosity = nullptr;
 };
+
+template <class Real>
+Domain<Real> domain_of(Simulation<Real>& simulation) {
+    return {simulation.grid, simulation.pressure, simulation.settings.borders,
+            simulation.layers.walls};
+}
 
 template <class Real>
 GridShape stored_part(const Simulation<Real>& simulation) {

@@ -55,9 +55,9 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s)
 }
 
 template <bool Solids, class Real>
-void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
+void solve_pressure(Simulation<Real>& simulation, const Domain<Real>& domain,
+                    const SubstepPlan<Real>& plan, Work work) {
     const Settings<Real>& settings = simulation.settings;
-    const Walls<Real>& walls = simulation.layers.walls;
     const detail::Elasticity<Real>* elasticity = simulation.pressure.elasticity;
     if (work.once(1)) {
         const Vec2<Real> g = settings.gravity;
@@ -68,14 +68,11 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     }
     if constexpr (!Stored<Real>::coarse) {  // packed worlds have no tension
         if (plan.surface_tension > Real(0)) {
-            simulation.tension->stage(simulation.grid.shape, settings.borders, walls,
-                                      plan.surface_tension * plan.dt_s, simulation.pressure,
-                                      work);
+            simulation.tension->stage(domain, plan.surface_tension * plan.dt_s, work);
         }
     }
     const auto solve = [&](const CoupledSolve<Real>* coupled) {
-        projection<Solids>(settings.borders, walls, plan.dt_s, plan.sweeps, simulation.grid,
-                           simulation.pressure, coupled, work);
+        projection<Solids>(domain, plan.dt_s, plan.sweeps, coupled, work);
     };
     if (Solids && simulation.free_bodies != nullptr && elasticity == nullptr) {
         const CoupledSolve<Real> coupled = simulation.two_way->coupled_solve(simulation, plan.dt_s);
@@ -83,21 +80,19 @@ void solve_pressure(Simulation<Real>& simulation, const SubstepPlan<Real>& plan,
     } else {
         solve(nullptr);
     }
-    extrapolate(settings.borders, walls, simulation.pressure,
-                settings.surface_tension > Real(0), simulation.grid, work);
+    extrapolate(domain, settings.surface_tension > Real(0), work);
 }
 
 /// Whoever looks at levels has to know whether there is surface tension (`least_head`), and what
 /// follows whether liquid is led to rest.
 template <class Real>
-void find_surface(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
-    const Settings<Real>& settings = simulation.settings;
+void find_surface(Simulation<Real>& simulation, const Domain<Real>& domain,
+                  const SubstepPlan<Real>& plan, Work work) {
     PressureFields<Real>& fields = simulation.pressure;
     fields.settling = plan.settling;
     fields.on_surface = fields.on_surface ||
                         (!Stored<Real>::coarse && plan.surface_tension > Real(0));
-    surface_level(simulation.grid, settings.borders, simulation.layers.walls, settings.rest_count,
-                  fields, simulation.stages->empty_slivers, work);
+    surface_level(domain, simulation.settings.rest_count, simulation.stages->empty_slivers, work);
 }
 
 /// As Fall::of says. Sound makes substeps so short that rounding always shows. Others owe only
@@ -109,13 +104,13 @@ Real most_owed(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan
 }
 
 template <class Real>
-void update_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
-    const Vec2<Real> exact = plan.dt_s * simulation.settings.gravity;
+void update_grid(Simulation<Real>& simulation, const Domain<Real>& domain,
+                 const SubstepPlan<Real>& plan, Work work) {
+    const Vec2<Real> exact = simulation.settings.fall_in(plan.dt_s);
     const Real most = most_owed(simulation, plan);
     // Only beside solids does it matter who is reached: elsewhere 0 is exact in fixed point, too.
     const Real unreached = simulation.layers.walls.active ? kNoVelocity<Real> : Real(-0.0);
-    grid_update(simulation.settings.borders, simulation.fall.of(exact, most),
-                simulation.pressure, simulation.grid, work, unreached);
+    grid_update(domain, simulation.fall.of(exact, most), work, unreached);
     if (work.once(1)) {
         simulation.fall.give(exact, most);
     }
@@ -123,33 +118,32 @@ void update_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
 
 /// The gain holds for a substep in which something moves half a cell, or a wave of the size of a
 /// cell would, under gravity or surface tension. Shorter ones, as viscosity asks for, get their
-/// share.
+/// share. Divided by dt.
 template <class Real>
-Real volume_gain(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
+Real volume_gain_per_s(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const Vec2<Real> g = simulation.settings.gravity;
     const Real wave = square_root(maximum(absolute(g.x), absolute(g.y)) +
                                   simulation.settings.surface_tension);
     const Real way = dt_s * (simulation.max_speed + wave);
-    return simulation.settings.volume_gain * minimum(Real(1), way + way);
+    return simulation.settings.volume_gain * minimum(Real(1), way + way) / dt_s;
 }
 
 /// Faces that no liquid owns: inside solids and beyond the tank.
 template <bool Solids, class Real>
-void fill_borders(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
-    StaggeredGrid<Real>& grid = simulation.grid;
+void fill_borders(const Domain<Real>& domain, Vec2<Real> fall, Work work) {
+    StaggeredGrid<Real>& grid = domain.grid;
     if constexpr (Solids) {
-        const Walls<Real>& walls = simulation.layers.walls;
+        const Walls<Real>& walls = domain.walls;
         if (walls.active) {
-            const Vec2<Real> fall = plan.dt_s * simulation.settings.gravity;
-            mirror_in_solids(walls, fall, simulation.pressure, grid, work);
+            mirror_in_solids(domain, fall, work);
             if (walls.thin != nullptr && work.once(grid.shape.size())) {
-                mirror_at_thin_walls(walls, simulation.pressure.level, grid);
+                mirror_at_thin_walls(walls, domain.fields.level, grid);
             }
         }
     }
     if (work.once(2 * grid.shape.border())) {
-        extend_velocity(simulation.settings.borders, grid.shape, grid.u, grid.v);
-        extend_velocity(simulation.settings.borders, grid.shape, grid.mass_u, grid.mass_v);
+        extend_velocity(domain.borders, grid.shape, grid.u, grid.v);
+        extend_velocity(domain.borders, grid.shape, grid.mass_u, grid.mass_v);
     }
 }
 
@@ -292,13 +286,51 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
     }
 }
 
+/// Between the transfers.
+template <bool Solids, class Real>
+void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
+                   StageClock& clock, StepReport& report) {
+    const Seconds<Real> dt_s = plan.dt_s;
+    const Domain<Real> domain = domain_of(simulation);
+    const Settings<Real>& settings = simulation.settings;
+    const detail::TwoWay<Real>* two_way = simulation.two_way;
+    find_surface(simulation, domain, plan, work);
+    update_grid(simulation, domain, plan, work);
+    if (plan.viscosity > Real(0)) {
+        Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
+        simulation.viscosity->diffuse(domain, plan.viscosity * dt_s, tank, work);
+    }
+    clock.charge(Stage::grid_update);
+
+    solve_pressure<Solids>(simulation, domain, plan, work);
+    if (two_way != nullptr) {
+        if constexpr (Solids) {
+            two_way->press_bodies(simulation, plan, work, report);
+        } else if (work.once(domain.grid.shape.size())) {
+            two_way->press_tank(simulation, dt_s);
+        }
+    }
+    if (simulation.pressure.elasticity != nullptr) {
+        simulation.pressure.elasticity->release_pressure(domain, work);
+    }
+    fill_borders<Solids>(domain, settings.fall_in(dt_s), work);
+    clock.charge(Stage::pressure);
+
+    quiet_leaning(simulation, plan, work);
+    blend_change(domain, settings.flip_ratio, work);
+    bend_paths(domain, dt_s, work);
+    // In Fixed drift ends by itself: what does not make a last digit of a place is none.
+    if (settings.volume_gain > Real(0) && !(Stored<Real>::coarse && plan.settling)) {
+        volume_correction<Solids>(domain, volume_gain_per_s(simulation, dt_s),
+                                  settings.fall_in(dt_s), report.cells_overfull, work);
+    }
+    clock.charge(Stage::volume);
+}
+
 template <bool Solids, class Real>
 void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
              StepReport& report) {
     const Seconds<Real> dt_s = plan.dt_s;
-    StaggeredGrid<Real>& grid = simulation.grid;
-    Walls<Real>& walls = simulation.layers.walls;
-    const ThinWalls<Real>* thin = walls.thin;
     const Settings<Real>& settings = simulation.settings;
     StageClock clock(simulation.ticks, work, report);
 
@@ -316,45 +348,12 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (Solids && two_way != nullptr) {
         two_way->accelerate_bodies(simulation, dt_s, work);
     }
-    report.particles_crowded += particle_to_grid(simulation.particles, settings.borders,
-                                                 settings.second_density, grid, thin, work);
+    report.particles_crowded += particle_to_grid<Real>(
+        simulation.particles, settings.borders, settings.second_density, simulation.grid,
+        simulation.layers.walls.thin, work);
     clock.charge(Stage::particle_to_grid);
 
-    find_surface(simulation, plan, work);
-    update_grid(simulation, plan, work);
-    if (plan.viscosity > Real(0)) {
-        Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
-        simulation.viscosity->diffuse(settings.borders, walls, simulation.pressure,
-                                      plan.viscosity * dt_s, grid, tank, work);
-    }
-    clock.charge(Stage::grid_update);
-
-    solve_pressure<Solids>(simulation, plan, work);
-    if (two_way != nullptr) {
-        if constexpr (Solids) {
-            two_way->press_bodies(simulation, plan, work, report);
-        } else if (work.once(grid.shape.size())) {
-            two_way->press_tank(simulation, dt_s);
-        }
-    }
-    if (simulation.pressure.elasticity != nullptr) {
-        simulation.pressure.elasticity->release_pressure(grid.shape, walls, simulation.pressure,
-                                                         work);
-    }
-    fill_borders<Solids>(simulation, plan, work);
-    clock.charge(Stage::pressure);
-
-    quiet_leaning(simulation, plan, work);
-    blend_change(settings.borders, settings.flip_ratio, simulation.pressure, grid, thin, work);
-    bend_paths(settings.borders, walls, dt_s, simulation.pressure, grid, work);
-    // In Fixed drift ends by itself: what does not make a last digit of a place is none.
-    if (settings.volume_gain > Real(0) && !(Stored<Real>::coarse && plan.settling)) {
-        volume_correction<Solids>(settings.borders, walls, dt_s, volume_gain(simulation, dt_s),
-                                  settings.gravity, simulation.pressure, grid,
-                                  report.cells_overfull, work);
-    }
-    clock.charge(Stage::volume);
-
+    solve_on_grid<Solids>(simulation, plan, work, clock, report);
     if (Solids && two_way != nullptr) {
         move_free(simulation, dt_s, work, report);
         clock.charge(Stage::contour);

@@ -10,21 +10,22 @@ namespace {
 /// What faces before walls without slip were pulled by their images beyond, the walls were pulled
 /// back. Slippery walls' images do not pull.
 template <class Real>
-void drag_on_tank(const Borders<Real>& b, const GridShape& s, const FaceShare<Real>& on_u,
-                  const FaceShare<Real>& on_v, Real amount, const PressureFields<Real>& before,
-                  Impulse<Real>& tank) {
+void drag_on_tank(const Domain<Real>& domain, const FaceShare<Real>& on_u,
+                  const FaceShare<Real>& on_v, Real amount, Impulse<Real>& tank) {
+    const GridShape& s = domain.grid.shape;
+    const PressureFields<Real>& before = domain.fields;
     const auto pull = [&](const FaceShare<Real>& share, const VelocityOf<Real>* field,
                           std::int32_t face, std::int32_t image) {
         const Real lost = Real(field[face]) - Real(field[image]);
         return static_cast<Face<Real>>(amount * (share.at(face) * lost));
     };
-    for (std::int32_t i = 0; i < s.nx && !b.wrap_y; ++i) {
+    for (std::int32_t i = 0; i < s.nx && !domain.borders.wrap_y; ++i) {
         const std::int32_t low = s.index(i, 0);
         const std::int32_t high = s.index(i, s.ny - 1);
         tank.linear.x += pull(on_u, before.divergence, low, low - s.stride) +
                          pull(on_u, before.divergence, high, high + s.stride);
     }
-    for (std::int32_t j = 0; j < s.ny && !b.wrap_x; ++j) {
+    for (std::int32_t j = 0; j < s.ny && !domain.borders.wrap_x; ++j) {
         const std::int32_t left = s.index(0, j);
         const std::int32_t right = s.index(s.nx - 1, j);
         tank.linear.y += pull(on_v, before.inverse_diagonal, left, left - 1) +
@@ -33,13 +34,15 @@ void drag_on_tank(const Borders<Real>& b, const GridShape& s, const FaceShare<Re
 }
 
 template <bool Solids, class Real>
-void diffuse_faces(const Borders<Real>& borders, const Walls<Real>& walls,
-                   PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
-                   Impulse<Real>* tank, Work work) {
+void diffuse_faces(const Domain<Real>& domain, Real amount, Impulse<Real>* tank, Work work) {
+    const Borders<Real>& borders = domain.borders;
+    const Walls<Real>& walls = domain.walls;
+    PressureFields<Real>& fields = domain.fields;
+    StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     const bool sticking = Solids && walls.sticking;
     if (sticking) {
-        centre_at_walls(walls, fields, grid, work);
+        centre_at_walls(domain, work);
     }
     if (work.once(2 * s.border())) {
         extend_velocity(borders, s, grid.u, grid.v);
@@ -57,10 +60,10 @@ void diffuse_faces(const Borders<Real>& borders, const Walls<Real>& walls,
     diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, from, fields.inverse_diagonal,
             grid.v);
     if (sticking && work.once(s.size())) {
-        diffuse_to_walls(walls, fields, amount, from, grid);
+        diffuse_to_walls(domain, amount, from);
     }
     if (tank != nullptr && work.once(2 * s.border())) {
-        drag_on_tank(borders, s, on_u, on_v, amount, fields, *tank);
+        drag_on_tank(domain, on_u, on_v, amount, *tank);
     }
     if (work.once(s.border())) {
         extend_velocity(borders, s, grid.u, grid.v);

@@ -1,9 +1,7 @@
 // Stage: grid update, only if there is viscosity. Reads velocities and levels; writes velocities.
 #pragma once
 
-#include "grid/borders.hpp"
-#include "pressure/pressure_fields.hpp"
-#include "solid/walls.hpp"
+#include "pressure/domain.hpp"
 #include "weir/features.hpp"
 
 namespace weir {
@@ -17,9 +15,7 @@ namespace weir {
 /// Order: none (reads only the velocities before). Cost: about 30 operations a face.
 template <class Real>
 struct detail::Viscosity {
-    void (*diffuse)(const Borders<Real>& borders, const Walls<Real>& walls,
-                    PressureFields<Real>& fields, Real amount, StaggeredGrid<Real>& grid,
-                    Impulse<Real>* tank, Work work);
+    void (*diffuse)(const Domain<Real>& domain, Real amount, Impulse<Real>* tank, Work work);
 };
 
 }  // namespace weir

@@ -17,8 +17,7 @@ void scatter_all(Simulation<Real>& simulation) {
 /// Density and level, from mass on faces.
 template <class Real>
 void find_levels(Simulation<Real>& simulation) {
-    surface_level(simulation.grid, simulation.settings.borders, simulation.layers.walls,
-                  simulation.settings.rest_count, simulation.pressure,
+    surface_level(domain_of(simulation), simulation.settings.rest_count,
                   simulation.stages->empty_slivers);
 }
 

@@ -90,8 +90,7 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     }
     scatter_all(simulation);
     find_levels(simulation);
-    grid_update(simulation.settings.borders, Vec2<Real>{}, simulation.pressure,
-                simulation.grid);
+    grid_update(domain_of(simulation), Vec2<Real>{});
     sum_cells(simulation, cell_m, *diagnostics);
     diagnostics->divergence_per_s *= per_s;
     simulation.grid.shape = simulation.layers.shape;

@@ -45,7 +45,7 @@ struct Flow {
         fields.inverse_diagonal = before_v.data();
     }
     void bend() {
-        bend_paths(borders, walls, static_cast<Seconds<Real>>(kDt), fields, grid);
+        bend_paths(Domain<Real>{grid, fields, borders, walls}, static_cast<Seconds<Real>>(kDt));
     }
     double bent_u(std::int32_t i, std::int32_t j) const {
         const auto c = static_cast<std::size_t>(shape.index(i, j));

@@ -44,7 +44,7 @@ struct Spray {
         Real& face = grid.v[shape.index(i, kWet + 1)];
         grid.v[shape.index(i, kWet)] = Real(static_cast<float>(liquid));
         face = Real(static_cast<float>(spray));
-        extrapolate(Borders<Real>{}, walls, fields, false, grid, Work{});
+        extrapolate(Domain<Real>{grid, fields, Borders<Real>{}, walls}, false);
         return static_cast<double>(static_cast<float>(face));
     }
 };

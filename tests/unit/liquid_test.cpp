@@ -43,6 +43,7 @@ struct Bench {
         fields.density = density.data();
         fields.level = level.data();
     }
+    Domain<Real> domain() { return {grid, fields, borders, walls}; }
     Particles<Real> particles() {
         const auto count = static_cast<std::int32_t>(x.size());
         return {x.data(), w.data(), count, count};
@@ -137,8 +138,8 @@ TEST(Transfer, UniformVelocityIsReturnedExactly) {
         std::fill(bench.w.begin(), bench.w.end(), Vec2<float>{2.0F, -3.0F});
         const std::vector<Vec2<float>> start = bench.x;
         bench.scatter();
-        grid_update(bench.borders, {0, 0}, bench.fields, bench.grid);
-        blend_change(bench.borders, flip, bench.fields, bench.grid);
+        grid_update(bench.domain(), {0, 0});
+        blend_change(bench.domain(), flip);
         Particles<float> particles = bench.particles();
         const TransferResult<float> result =
             grid_to_particle(bench.grid, {0.01F, flip, 200.0F}, particles);
@@ -176,7 +177,7 @@ TEST(Density, AFullLatticeShowsOne) {
         Bench<float> bench(9, 7);
         bench.lattice(0, 0, 9, 7, n);
         bench.scatter();
-        surface_level(bench.grid, bench.borders, bench.walls, static_cast<float>(n * n), bench.fields);
+        surface_level(bench.domain(), static_cast<float>(n * n));
         for (std::int32_t j = 0; j < 7; ++j) {
             for (std::int32_t i = 0; i < 9; ++i) {
                 const auto c = std::size_t(bench.shape.index(i, j));
@@ -219,7 +220,7 @@ TEST(Density, LevelOfAPool) {
     Bench<float> bench(10, 12);
     bench.lattice(0, 0, 10, 5, 4);
     bench.scatter();
-    surface_level(bench.grid, bench.borders, bench.walls, 16.0F, bench.fields);
+    surface_level(bench.domain(), 16.0F);
     for (std::int32_t i = 0; i < 10; ++i) {
         EXPECT_NEAR(bench.level[std::size_t(bench.shape.index(i, 4))], 0.5F - least_head(bench.fields),
                     0.02F);
@@ -258,12 +259,12 @@ double divergence_left(std::int32_t sweeps) {
         w = {speed(random), speed(random)};
     }
     bench.scatter();
-    surface_level(bench.grid, bench.borders, bench.walls, 4.0, bench.fields);
-    grid_update(bench.borders, {0, 0}, bench.fields, bench.grid);
+    surface_level(bench.domain(), 4.0);
+    grid_update(bench.domain(), {0, 0});
     bench.mass_u.assign(bench.mass_u.size(), 0.0);  // at rest before: no divergence is asked for
     bench.mass_v.assign(bench.mass_v.size(), 0.0);
     const double before = divergence_of(bench);
-    projection<true>(bench.borders, bench.walls, 0.01, sweeps, bench.grid, bench.fields);
+    projection<true>(bench.domain(), 0.01, sweeps);
     return divergence_of(bench) / before;
 }
 
@@ -278,9 +279,9 @@ TEST(Projection, APoolAtRestGetsHydrostaticPressure) {
     Bench<double> bench(8, 16);
     bench.lattice(0, 0, 8, 10, 2);
     bench.scatter();
-    surface_level(bench.grid, bench.borders, bench.walls, 4.0, bench.fields);
-    grid_update(bench.borders, {0, -4.9}, bench.fields, bench.grid);
-    projection<true>(bench.borders, bench.walls, 0.01, 1000, bench.grid, bench.fields);
+    surface_level(bench.domain(), 4.0);
+    grid_update(bench.domain(), {0, -4.9});
+    projection<true>(bench.domain(), 0.01, 1000);
     // The level of a 2 × 2 lattice is a little off the drawn surface: 5 % of a cell.
     for (std::int32_t j = 0; j < 10; ++j) {
         const double depth = 10.0 - (j + 0.5);

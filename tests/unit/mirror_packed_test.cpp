@@ -51,7 +51,7 @@ public:
         Progress progress;
         progress.begin();
         progress.resume(kMostWork);
-        mirror_in_solids(simulation().layers.walls, kFall<Real>, simulation().pressure, grid(),
+        mirror_in_solids(domain_of(simulation()), kFall<Real>,
                          at_once ? Work(progress) : Work());
     }
 

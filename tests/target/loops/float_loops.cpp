@@ -163,15 +163,17 @@ void project(bool solids) {
     fields.last_dt = 0.01F;
     fields.cell_weight = 0.1F;
     const std::int32_t sweeps = 1 + static_cast<std::int32_t>(g_numbers.word() % 4U);
+    const weir::Borders<float> borders;
     weir::Walls<float> walls;
+    const weir::Domain<float> domain{to, fields, borders, walls};
     if (solids) {
         walls.active = true;
         walls.open_u = g_fields.open_u;
         walls.open_v = g_fields.open_v;
         walls.full_density = g_fields.open_u;  // as good as any
-        weir::projection<true, float>({}, walls, 0.01F, sweeps, to, fields);
+        weir::projection<true>(domain, 0.01F, sweeps);
     } else {
-        weir::projection<false, float>({}, walls, 0.01F, sweeps, to, fields);
+        weir::projection<false>(domain, 0.01F, sweeps);
     }
     for (std::int32_t j = 0; j < to.shape.ny; ++j) {
         for (std::int32_t i = 0; i < to.shape.nx; ++i) {
@@ -190,7 +192,9 @@ void blend() {
     for (float& level : g_fields.level) {
         level = (g_numbers.word() % 8U != 0 ? 0.8F : -0.8F) + number(0.7F);
     }
-    weir::blend_change<float>({}, 0.97F, fields, to);
+    const weir::Borders<float> borders;
+    const weir::Walls<float> walls;
+    weir::blend_change(weir::Domain<float>{to, fields, borders, walls}, 0.97F);
     add_to_hash(g_fields.mass_u);
     add_to_hash(g_fields.mass_v);
 }

@@ -38,6 +38,7 @@ struct Fields {
 Fields g_fields;
 Numbers g_numbers;
 weir::Hash g_hash;
+const weir::Walls<Real> kNoWalls;
 
 weir::StaggeredGrid<Real> grid() {
     weir::StaggeredGrid<Real> grid;
@@ -126,7 +127,8 @@ void divide() {
                                    Real::of_raw(g_numbers.either(20))};
     weir::PressureFields<Real> fields;
     fields.level = g_fields.level;
-    weir::grid_update(borders, weir::Seconds<Real>(0.0625) * gravity, fields, to);
+    weir::grid_update(weir::Domain<Real>{to, fields, borders, kNoWalls},
+                      weir::Seconds<Real>(0.0625) * gravity);
     add_to_hash(to.u, kEntries * sizeof(Speed));
     add_to_hash(to.v, kEntries * sizeof(Speed));
     add_to_hash(g_fields.mass_u);
@@ -151,7 +153,9 @@ void blend() {
         constexpr std::int16_t kDiagonals[] = {512, 512, 512, 512, 384, 384, 0, -300, 431, 0x7FFF};
         fields.inverse_diagonal[k].raw = kDiagonals[g_numbers.word() % 10U];
     }
-    weir::blend_change(weir::Borders<Real>{}, Real::of_raw(g_numbers.size(16)), fields, to);
+    const weir::Borders<Real> borders;
+    weir::blend_change(weir::Domain<Real>{to, fields, borders, kNoWalls},
+                       Real::of_raw(g_numbers.size(16)));
     add_to_hash(to.u, kEntries * sizeof(Speed));
     add_to_hash(to.v, kEntries * sizeof(Speed));
     add_to_hash(g_fields.mass_u);
