@@ -32,11 +32,11 @@ struct Fixture {
         // The same calls in both worlds, so that a name differs in nothing but its world.
         for (TestWorld<float>* each : {&other, &world}) {
             TestWorld<float>& here = *each;
-            expect_ok(here->add_static_body(body_of(kTriangle, {0.2F, 0.02F}), &fixed));
-            expect_ok(here->add_static_body(body_of(kTriangle, {0.2F, 0.2F}), &stale));
+            fixed = put_static(*here, body_of(kTriangle, {0.2F, 0.02F}));
+            stale = put_static(*here, body_of(kTriangle, {0.2F, 0.2F}));
             expect_ok(here->remove_body(stale));
             foreign = moving;
-            expect_ok(here->add_moving_body(body_of(kSquare4cm, {0.1F, 0.2F}), &moving));
+            moving = put_moving(*here, body_of(kSquare4cm, {0.1F, 0.2F}));
         }
         EXPECT_EQ(foreign.slot, moving.slot);
         EXPECT_EQ(foreign.generation, moving.generation);

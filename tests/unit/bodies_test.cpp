@@ -42,7 +42,7 @@ TEST(Names, EachBodyHasItsOwn) {
     TestWorld<float> world(small_def());
     BodyId id[3];
     for (BodyId& each : id) {
-        ASSERT_EQ(world->add_static_body(body_of(kTriangle, {0.1F, 0.1F}), &each), Status::ok);
+        each = put_static(*world, body_of(kTriangle, {0.1F, 0.1F}));
     }
     EXPECT_NE(id[0].slot, id[1].slot);
     EXPECT_NE(id[1].slot, id[2].slot);
@@ -87,7 +87,7 @@ TEST(VertexPool, RemovalLeavesTheOthersIntact) {
     ASSERT_EQ(world->remove_body(id[3]), Status::ok);
     expect_without({0, 3});
     // Reuse: a body of the freed vertices, then a moved one drawn from the pool behind the gap.
-    ASSERT_EQ(world->add_static_body(body_of(rings[0], at[0], 0), &id[0]), Status::ok);
+    id[0] = put_static(*world, body_of(rings[0], at[0], 0));
     expect_without({3});
     pose[1].position_m = {0.35F, 0.3F};
     ASSERT_EQ(world->set_motion(id[1], pose[1]), Status::ok);
@@ -111,9 +111,8 @@ TEST(VertexPool, IsWholeAgainAfterAThousandBodies) {
             ASSERT_EQ(world->remove_body(alive[which]), Status::ok);
             alive.erase(alive.begin() + static_cast<std::ptrdiff_t>(which));
         } else {
-            BodyId id;
             const Ring& ring = random() % 2 == 0 ? kTriangle : kSquare4cm;
-            ASSERT_EQ(world->add_static_body(body_of(ring, {0.1F, 0.1F}), &id), Status::ok);
+            const BodyId id = put_static(*world, body_of(ring, {0.1F, 0.1F}));
             alive.push_back(id);
         }
     }
@@ -224,9 +223,8 @@ std::int32_t nodes_around(const std::vector<Point>& a, const std::vector<Point>&
 
 TEST(Cache, NothingMovedNothingIsRasterized) {
     TestWorld<float> world(field_def(2, 8));
-    BodyId moving;
     put_static(*world, body_of(kArrow, {0.2F, 0.2F}));
-    ASSERT_EQ(world->add_moving_body(body_of(kSquare4cm, {0.5F, 0.3F}), &moving), Status::ok);
+    const BodyId moving = put_moving(*world, body_of(kSquare4cm, {0.5F, 0.3F}));
     ASSERT_EQ(world->fill({{0, 0}, {0.3F, 0.2F}}), Status::ok);
     for (int step = 0; step < 10; ++step) {
         EXPECT_EQ(world->step(kFrame).nodes_rasterized, 0);
@@ -239,11 +237,10 @@ TEST(Cache, NothingMovedNothingIsRasterized) {
 
 TEST(Cache, AMovedBodyTouchesItsRectanglesOnly) {
     TestWorld<float> world(field_def(3, 12));
-    BodyId moving;
     const BodyDef fixed = body_of(kArrow, {0.2F, 0.2F});
     put_static(*world, fixed);
     BodyDef def = body_of(kSquare4cm, {0.3F, 0.3F}, 0.2F);
-    ASSERT_EQ(world->add_moving_body(def, &moving), Status::ok);
+    const BodyId moving = put_moving(*world, def);
     std::vector<Point> before = placed(kSquare4cm, def.motion);
     std::mt19937 random(5);
     for (int step = 0; step < 50; ++step) {
@@ -263,9 +260,8 @@ TEST(Cache, AMovedBodyTouchesItsRectanglesOnly) {
 
 TEST(Cache, AMoveAppearsAlsoIfABodyIsAddedBeforeTheStep) {
     TestWorld<float> world(field_def(3, 12));
-    BodyId moving;
     BodyDef def = body_of(kSquare4cm, {0.3F, 0.3F});
-    ASSERT_EQ(world->add_moving_body(def, &moving), Status::ok);
+    const BodyId moving = put_moving(*world, def);
     def.motion.position_m = {0.5F, 0.4F};
     ASSERT_EQ(world->set_motion(moving, def.motion), Status::ok);
     const BodyDef other = body_of(kArrow, {0.15F, 0.15F});
@@ -276,13 +272,10 @@ TEST(Cache, AMoveAppearsAlsoIfABodyIsAddedBeforeTheStep) {
 
 TEST(Cache, AMoveAppearsAlsoIfAnotherIsRemovedBeforeTheStep) {
     TestWorld<float> world(field_def(3, 12));
-    BodyId fixed;
-    BodyId moving;
-    BodyId other;
     BodyDef def = body_of(kSquare4cm, {0.3F, 0.3F});
-    ASSERT_EQ(world->add_static_body(body_of(kArrow, {0.32F, 0.31F}), &fixed), Status::ok);
-    ASSERT_EQ(world->add_moving_body(body_of(kArrow, {0.15F, 0.15F}), &other), Status::ok);
-    ASSERT_EQ(world->add_moving_body(def, &moving), Status::ok);
+    const BodyId fixed = put_static(*world, body_of(kArrow, {0.32F, 0.31F}));
+    const BodyId other = put_moving(*world, body_of(kArrow, {0.15F, 0.15F}));
+    const BodyId moving = put_moving(*world, def);
     def.motion.position_m = {0.5F, 0.4F};
     ASSERT_EQ(world->set_motion(moving, def.motion), Status::ok);
     ASSERT_EQ(world->remove_body(fixed), Status::ok);
@@ -349,7 +342,7 @@ void check_comes_in() {
     paddle.motion.velocity_mps = {0.5F, 0.0F};
     BodyId id;
     EXPECT_EQ(world->add_static_body(paddle, &id), Status::polygon_outside_domain);
-    ASSERT_EQ(world->add_moving_body(paddle, &id), Status::ok);
+    id = put_moving(*world, paddle);
     const Motion begins = paddle.motion;
     paddle.motion.position_m = {0.3F, 0.3F};
     const BodyId led_id = put_moving(*led, paddle);

@@ -38,10 +38,8 @@ TYPED_TEST(BodyContacts, OnASlabAreWhatChangesTheMomentum) {
     slab.surface.friction = 0.2F;
     BodyDef crate = body_of(kSquare4cm, {0.15F, 0.3F});
     crate.motion.velocity_mps = {0.5F, 0.0F};
-    BodyId floor;
-    BodyId id;
-    expect_ok(world->add_static_body(slab, &floor));
-    expect_ok(world->add_free_body(crate, &id));
+    const BodyId floor = put_static(*world, slab);
+    const BodyId id = put_free(*world, crate);
     const float mass = mass_of(*world, id);
     int met = 0;
     float largest = 0;
@@ -83,9 +81,7 @@ TYPED_TEST(BodyContacts, OfTwoFreeBodiesAreOppositeForTheOther) {
     one.surface.friction = 0.3F;
     BodyDef two = body_of(kSquare4cm, {0.5F, 0.41F}, 1.0F);
     two.density_ratio = 2.0F;
-    BodyId id[2];
-    expect_ok(world->add_free_body(one, &id[0]));
-    expect_ok(world->add_free_body(two, &id[1]));
+    const BodyId id[] = {put_free(*world, one), put_free(*world, two)};
     Vec2f sum{};
     for (int step = 0; step < 30; ++step) {
         world->step(kDt);

@@ -27,7 +27,7 @@ struct Splash {
         def.motion.angle_rad = 0.2F;
         def.density_ratio = 0.4F;
         box = put_free(*world, def);
-        expect_ok(world->add_free_body(body_of(kSquare4cm, {0.7F, 0.7F}), &crate));
+        crate = put_free(*world, body_of(kSquare4cm, {0.7F, 0.7F}));
         expect_ok(world->fill({{0.0F, 0.0F}, {60 * kCell, 14 * kCell}}));
     }
     static WorldDef def_of(std::int32_t bodies) {

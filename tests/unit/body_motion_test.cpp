@@ -19,7 +19,7 @@ TYPED_TEST(BodyMotion, SaidAgainIsNoLeap) {
         TestWorld<TypeParam> world(def);
         const Ring square = rectangle(3.0F * cell_m, 3.0F * cell_m);
         BodyId id[2];
-        expect_ok(world->add_moving_body(body_of(square, {4.0F * cell_m, 8.0F * cell_m}), &id[0]));
+        id[0] = put_moving(*world, body_of(square, {4.0F * cell_m, 8.0F * cell_m}));
         const BodyDef other = body_of(square, {11.0F * cell_m, 8.0F * cell_m});
         expect_ok(kFree ? world->add_free_body(other, &id[1])
                         : world->add_moving_body(other, &id[1]));
@@ -47,8 +47,7 @@ TYPED_TEST(BodyMotion, SaidAgainIsNoLeap) {
 TYPED_TEST(BodyMotion, WhatCreepsIsLedInTime) {
     TestWorld<TypeParam> world(small_def());
     const Ring hand = rectangle(0.1F, 0.02F);
-    BodyId id;
-    expect_ok(world->add_moving_body(body_of(hand, {0.16F, 0.16F}), &id));
+    const BodyId id = put_moving(*world, body_of(hand, {0.16F, 0.16F}));
     constexpr float kDt = 1.0F / 60.0F;
     for (std::int32_t step = 1; step <= 3000; ++step) {
         const float time = kDt * static_cast<float>(step);

@@ -249,7 +249,7 @@ TYPED_TEST(ContractOfFreeBodies, TheLastOneLeavesNothing) {
     BodyId id = put_free(*world, body);
     expect_ok(world->remove_body(id));
     body.motion.velocity_mps = {0.1F, 0};
-    expect_ok(world->add_moving_body(body, &id));
+    id = put_moving(*world, body);
     world->step(kDt);
     change_worlds(world, other, def);
     for (int k = 0; k < 3; ++k) {

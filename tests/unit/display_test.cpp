@@ -172,12 +172,9 @@ TEST(Display, ManyPixelsOverManyCells) {
 TEST(BodyName, TellsBodiesApart) {
     TestWorld<float> world(small_def());
     TestWorld<float> elsewhere(small_def());
-    BodyId first;
-    BodyId second;
-    BodyId other;
-    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &first));
-    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.2F, 0.1F}), &second));
-    expect_ok(elsewhere->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &other));
+    const BodyId first = put_static(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
+    const BodyId second = put_static(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
+    const BodyId other = put_static(*elsewhere, body_of(kSquare4cm, {0.1F, 0.1F}));
     BodyId again;
     expect_ok(world->body_in_slot(first.slot, &again));
     EXPECT_TRUE(first == again);
@@ -185,7 +182,7 @@ TEST(BodyName, TellsBodiesApart) {
     EXPECT_TRUE(first != second);
     EXPECT_TRUE(first != other) << "another world's";
     expect_ok(world->remove_body(first));
-    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &again));
+    again = put_static(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
     EXPECT_EQ(again.slot, first.slot);
     EXPECT_TRUE(first != again);
 }

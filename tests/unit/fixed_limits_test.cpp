@@ -218,9 +218,7 @@ TEST(FixedLimits, WhatWasJustPutThereIsNotLedToRest) {
 TEST(FixedLimits, NothingIsFasterThanReportedAfterABlow) {
     WorldDef def = small_def();
     TestWorld<SmallFixed> world(def);
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(body_of(rectangle(0.16F, 0.08F), {0.16F, 0.06F}, 0.2F), &id),
-              Status::ok);
+    put_static(*world, body_of(rectangle(0.16F, 0.08F), {0.16F, 0.06F}, 0.2F));
     ASSERT_EQ(world->fill({{0.1F, 0.2F}, {0.22F, 0.3F}}), Status::ok);
     for (int step = 0; step < 300; ++step) {
         const StepReport report = world->step(1.0F / 60.0F);

@@ -51,7 +51,7 @@ TEST(FreeBody, WantsRoomAndDensity) {
     BodyMass mass;
     BodyDef body = body_of(kSquare4cm, {0.3F, 0.3F});
     EXPECT_EQ(plain->add_free_body(body, &id), Status::two_way_missing);
-    expect_ok(plain->add_moving_body(body, &id));
+    id = put_moving(*plain, body);
     EXPECT_EQ(plain->force(id, &force), Status::two_way_missing);
     EXPECT_EQ(plain->tank_force(&force), Status::two_way_missing);
     EXPECT_EQ(plain->mass(id, &mass), Status::two_way_missing);
@@ -61,7 +61,7 @@ TEST(FreeBody, WantsRoomAndDensity) {
     body.density_ratio = 1001.0F;
     EXPECT_EQ(world->add_free_body(body, &id), Status::body_density_out_of_range);
     body.density_ratio = 2.0F;
-    expect_ok(world->add_free_body(body, &id));
+    id = put_free(*world, body);
     EXPECT_EQ(world->force(id, nullptr), Status::output_missing);
     EXPECT_EQ(world->tank_force(nullptr), Status::output_missing);
     expect_ok(world->mass(id, &mass));
@@ -77,9 +77,8 @@ TEST(FreeBody, FallsAndTurnsAboutItsCentreOfMass) {
     BodyDef body = body_of(kTriangle, {0.3F, 0.5F});
     body.motion.spin_radps = 6.0F;
     body.motion.velocity_mps = {0.1F, 0.0F};
-    BodyId id;
     BodyMass mass;
-    expect_ok(world->add_free_body(body, &id));
+    const BodyId id = put_free(*world, body);
     expect_ok(world->mass(id, &mass));
     const auto centre = [&] {
         Motion m;
@@ -182,8 +181,8 @@ Gap gap(Pressure pressure, bool at_rest) {
     floating.surface.friction = 0.3F;
     BodyId ids[2];
     if (!at_rest) {
-        expect_ok(world->add_free_body(floating, &ids[0]));
-        expect_ok(world->add_static_body(body_of(kTriangle, {0.3F, 0.0F}), &ids[1]));
+        ids[0] = put_free(*world, floating);
+        ids[1] = put_static(*world, body_of(kTriangle, {0.3F, 0.0F}));
     }
     expect_ok(world->fill({{0, 0}, {at_rest ? 0.64F : 0.2F, 0.4F}}));
     Diagnostics before;

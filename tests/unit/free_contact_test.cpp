@@ -82,12 +82,10 @@ TYPED_TEST(FreeContact, CrateOnARampSlidesOrStays) {
         ramp.surface.friction = friction;
         const float tilt = -std::atan(0.5F);
         const Vec2f normal{-std::sin(tilt), std::cos(tilt)};
-        BodyId ramp_id;
-        BodyId id;
-        expect_ok(world->add_static_body(ramp, &ramp_id));
+        const BodyId ramp_id = put_static(*world, ramp);
         const Vec2f foot{0.12F, 0.45F};
-        expect_ok(world->add_free_body(
-            body_of(box, {foot.x + 0.04F * normal.x, foot.y + 0.04F * normal.y}, tilt), &id));
+        const Vec2f above{foot.x + 0.04F * normal.x, foot.y + 0.04F * normal.y};
+        const BodyId id = put_free(*world, body_of(box, above, tilt));
         const Motion at = motion_of(*world, ramp_id);
         const Motion start = motion_of(*world, id);
         double energy = energy_of(start, 0.08);
@@ -123,7 +121,7 @@ TYPED_TEST(FreeContact, StackStands) {
                                           0.052F + 0.103F * static_cast<float>(k)});
             crate.density_ratio = density;
             crate.surface.friction = 0.4F;
-            expect_ok(world->add_free_body(crate, &id[k]));
+            id[k] = put_free(*world, crate);
         }
         double deepest = 0;
         for (int step = 0; step < 600; ++step) {
@@ -167,9 +165,7 @@ TYPED_TEST(FreeContact, WhatOneLosesTheOtherGets) {
             BodyDef other = body_of(bar, {0.5F, 0.42F + offset}, 1.3F);
             other.motion.velocity_mps = {-0.3F, 0.0F};
             other.density_ratio = 1.7F;
-            BodyId id[2];
-            expect_ok(world->add_free_body(one, &id[0]));
-            expect_ok(world->add_free_body(other, &id[1]));
+            const BodyId id[] = {put_free(*world, one), put_free(*world, other)};
             double sum[2][4];  // momentum, angular momentum about the tank's corner, energy
             for (int after = 0; after < 2; ++after) {
                 std::fill(sum[after], sum[after] + 4, 0.0);
@@ -213,7 +209,7 @@ TYPED_TEST(FreeContact, BouncesAsHighAsItsRestitution) {
     BodyDef floor = body_of(slab, {0.4F, 0.1F});
     floor.surface.restitution = 0.7F;
     BodyId id = put_static(*world, floor);
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.4F, 0.45F}), &id));
+    id = put_free(*world, body_of(kSquare4cm, {0.4F, 0.45F}));
     float lowest = 1;
     float highest = 0;
     for (int k = 0; k < 40; ++k) {
@@ -232,13 +228,11 @@ TYPED_TEST(FreeContact, WedgedCrateComesToRest) {
     const Ring left = {{0, 0}, {0.15F, 0}, {0, 0.5F}};
     const Ring right = {{0, 0}, {0, 0.5F}, {-0.15F, 0}};
     const Ring box = rectangle(0.16F, 0.16F);
-    BodyId walls[2];
-    BodyId id;
-    expect_ok(world->add_static_body(body_of(left, {0.2F, 0}), &walls[0]));
-    expect_ok(world->add_static_body(body_of(right, {0.5F, 0}), &walls[1]));
+    const BodyId walls[] = {put_static(*world, body_of(left, {0.2F, 0})),
+                            put_static(*world, body_of(right, {0.5F, 0}))};
     BodyDef crate = body_of(box, {0.35F, 0.55F}, 0.1F);
     crate.motion.velocity_mps = {0, -2.0F};
-    expect_ok(world->add_free_body(crate, &id));
+    const BodyId id = put_free(*world, crate);
     const Motion at[2] = {motion_of(*world, walls[0]), motion_of(*world, walls[1])};
     double energy = 1e9;
     for (int k = 0; k < 300; ++k) {
@@ -259,10 +253,9 @@ TYPED_TEST(FreeContact, BodiesInEachOtherAreMovedApart) {
     def.gravity_mps2 = {0, 0};
     TestWorld<TypeParam> world{def};
     const Ring box = rectangle(0.1F, 0.1F);
-    BodyId id[3];
-    expect_ok(world->add_static_body(body_of(box, {0.3F, 0.4F}), &id[0]));
-    expect_ok(world->add_free_body(body_of(box, {0.385F, 0.41F}, 0.1F), &id[1]));
-    expect_ok(world->add_free_body(body_of(box, {0.46F, 0.38F}), &id[2]));
+    const BodyId id[] = {put_static(*world, body_of(box, {0.3F, 0.4F})),
+                         put_free(*world, body_of(box, {0.385F, 0.41F}, 0.1F)),
+                         put_free(*world, body_of(box, {0.46F, 0.38F}))};
     for (int k = 0; k < 120; ++k) {
         world->step(kDt);
         EXPECT_LT(speed_of(motion_of(*world, id[1])), 1e-3);
@@ -287,13 +280,12 @@ TYPED_TEST(FreeContact, MovingBodiesPushLiftAndCarry) {
     BodyDef belt = body_of(slab, {0.2F, 0.02F});
     belt.surface.friction = 0.6F;
     belt.surface.conveyor_mps = -0.15F;
-    BodyId id[6];
-    expect_ok(world->add_moving_body(lift, &id[0]));
-    expect_ok(world->add_moving_body(pusher, &id[1]));
-    expect_ok(world->add_static_body(belt, &id[2]));
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.2F, 0.24F}), &id[3]));
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.5F, 0.02F}), &id[4]));
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.12F, 0.06F}), &id[5]));
+    const BodyId id[] = {put_moving(*world, lift),
+                         put_moving(*world, pusher),
+                         put_static(*world, belt),
+                         put_free(*world, body_of(kSquare4cm, {0.2F, 0.24F})),
+                         put_free(*world, body_of(kSquare4cm, {0.5F, 0.02F})),
+                         put_free(*world, body_of(kSquare4cm, {0.12F, 0.06F}))};
     for (int k = 0; k < 60; ++k) {
         world->step(kDt);
     }
@@ -319,11 +311,10 @@ TYPED_TEST(FreeContact, ShelvesAndCupsHold) {
     BodyDef line = body_of(shelf, {0.04F, 0.3F});
     line.open = true;
     line.surface.friction = 0.5F;
-    BodyId id[4];
-    expect_ok(world->add_static_body(line, &id[0]));
-    expect_ok(world->add_moving_body(body_of(cup, {0.44F, 0.1F}), &id[1]));
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.1F, 0.4F}), &id[2]));
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.6F, 0.5F}, 0.4F), &id[3]));
+    const BodyId id[] = {put_static(*world, line),
+                         put_moving(*world, body_of(cup, {0.44F, 0.1F})),
+                         put_free(*world, body_of(kSquare4cm, {0.1F, 0.4F})),
+                         put_free(*world, body_of(kSquare4cm, {0.6F, 0.5F}, 0.4F))};
     for (int k = 0; k < 180; ++k) {
         world->step(kDt);
     }
@@ -340,8 +331,7 @@ TYPED_TEST(FreeContact, FloatingCratesLeaveTheLiquidItsVolume) {
     const Ring box = rectangle(0.1F, 0.1F);
     BodyId id[3];
     for (int k = 0; k < 3; ++k) {
-        expect_ok(world->add_free_body(body_of(box, {0.29F + 0.11F * static_cast<float>(k), 0.31F}),
-                                       &id[k]));
+        id[k] = put_free(*world, body_of(box, {0.29F + 0.11F * static_cast<float>(k), 0.31F}));
     }
     for (int k = 0; k < 600; ++k) {
         const float sway = std::sin(6.2831853F * static_cast<float>(k) * kDt / 1.1F);
@@ -370,7 +360,7 @@ void lose_to_a_crowd(float shift_m, double& height, double& particles) {
                        0.4F + 0.096F * static_cast<float>(k / 4)};
         BodyDef crate = body_of(box, at, 0.3F * static_cast<float>(k % 5) - 0.6F);
         crate.density_ratio = 0.9F;
-        expect_ok(world->add_free_body(crate, &id[k]));
+        id[k] = put_free(*world, crate);
     }
     std::int32_t added = 0;
     expect_ok(world->fill({{0, 0}, {0.4F, 0.3F}}, &added));
@@ -444,7 +434,7 @@ TYPED_TEST(FreeContact, HeapIsBoundedAndGoesOnFromASnapshot) {
         BodyDef body = body_of(wheel, {0.1F + 0.17F * static_cast<float>(k % 4),
                                        0.15F + 0.18F * static_cast<float>(k / 4)});
         body.density_ratio = k % 2 == 0 ? 0.3F : 3.0F;
-        expect_ok(world->add_free_body(body, &id[k]));
+        id[k] = put_free(*world, body);
     }
     const auto run = [](World<TypeParam>& each) {
         for (int k = 0; k < 60; ++k) {

@@ -28,7 +28,7 @@ std::int32_t fill_pool(World<Real>& world, BodyId (&id)[kCrates]) {
                        kDepth + kCell * (3.0F + 4.5F * static_cast<float>(k / 6))};
         BodyDef crate = body_of(box, at, 0.2F * static_cast<float>(k % 5) - 0.4F);
         crate.density_ratio = 0.6F;
-        expect_ok(world.add_free_body(crate, &id[k]));
+        id[k] = put_free(world, crate);
     }
     return added;
 }

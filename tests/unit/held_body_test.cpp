@@ -134,9 +134,7 @@ TYPED_TEST(HeldBody, ACrateTiltsASeesaw) {
     BodyDef seesaw = body_of(plank, {0.32F, 0.2F});
     seesaw.hold = Hold::hinge;
     BodyDef crate = body_of(kSquare4cm, {0.42F, 0.26F});
-    BodyId ids[2];
-    expect_ok(world->add_free_body(seesaw, &ids[0]));
-    expect_ok(world->add_free_body(crate, &ids[1]));
+    const BodyId ids[] = {put_free(*world, seesaw), put_free(*world, crate)};
     Motion now;
     float steepest = 0;
     for (int k = 0; k < 240; ++k) {
@@ -181,10 +179,8 @@ TEST(SetSurface, SwitchesABeltOn) {
     const Ring floor = rectangle(0.6F, 0.1F);
     BodyDef belt = body_of(floor, {0.32F, 0.1F});
     belt.surface.friction = 0.8F;
-    BodyId belt_id;
-    BodyId crate_id;
-    expect_ok(world->add_static_body(belt, &belt_id));
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.2F, 0.17F}), &crate_id));
+    const BodyId belt_id = put_static(*world, belt);
+    const BodyId crate_id = put_free(*world, body_of(kSquare4cm, {0.2F, 0.17F}));
     Motion now;
     for (int k = 0; k < 120; ++k) {
         world->step(kDt);

@@ -261,8 +261,7 @@ TEST(Holes, LiquidFillsAHoleAndStaysThere) {
     const View<Vec2f> window{kWindow.data(), 4};
     for (const float angle : {0.0F, 0.3F}) {
         TestWorld<float> world(ring_def());
-        BodyId id;
-        ASSERT_EQ(world->add_moving_body(framed(&window, {0.16F, 0.16F}, angle), &id), Status::ok);
+        put_moving(*world, framed(&window, {0.16F, 0.16F}, angle));
         EXPECT_GT(distance_at(*world, Vec2<float>{8, 8}), 1.0);
         EXPECT_LT(distance_at(*world, Vec2<float>{3, 8}), 0.0);
         std::int32_t added = 0;
@@ -283,13 +282,11 @@ TEST(Holes, RemovingABodyLeavesTheOthersAsTheyWere) {
     const View<Vec2f> window{kWindow.data(), 4};
     TestWorld<float> world(ring_def());
     TestWorld<float> twin(ring_def());
-    BodyId square;
-    BodyId frame;
     BodyId last;
-    ASSERT_EQ(world->add_static_body(body_of(kSquare4cm, {0.03F, 0.29F}), &square), Status::ok);
-    ASSERT_EQ(world->add_static_body(framed(&window, {0.16F, 0.16F}), &frame), Status::ok);
+    const BodyId square = put_static(*world, body_of(kSquare4cm, {0.03F, 0.29F}));
+    BodyId frame = put_static(*world, framed(&window, {0.16F, 0.16F}));
     ASSERT_EQ(world->remove_body(square), Status::ok);
-    ASSERT_EQ(twin->add_static_body(framed(&window, {0.16F, 0.16F}), &frame), Status::ok);
+    frame = put_static(*twin, framed(&window, {0.16F, 0.16F}));
     // 11 places for the frame, 11 again: one is left.
     for (TestWorld<float>* each : {&world, &twin}) {
         ASSERT_EQ((*each)->add_moving_body(framed(&window, {0.2F, 0.2F}, 0.7F), &last), Status::ok);

@@ -66,9 +66,8 @@ TYPED_TEST(LedBody, LightBodyLeavesTheFloor) {
 /// There by the end of the step, the shorter way round, and no further after it.
 TYPED_TEST(LedBody, GoesThereAndStandsStill) {
     TestWorld<TypeParam> world{pool_def(24, 20)};
-    BodyId id;
     Motion m;
-    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}, 3.0F), &id));
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}, 3.0F));
     for (int k = 1; k <= 10; ++k) {
         const Vec2f to{0.1F + 0.01F * static_cast<float>(k), 0.1F + 0.004F * static_cast<float>(k)};
         const float angle = 3.0F + 0.1F * static_cast<float>(k);
@@ -103,9 +102,8 @@ TYPED_TEST(LedBody, ArrivesAfterAStepThatHeldIt) {
     def.capacity.two_way = false;
     TestWorld<TypeParam> world{def};
     expect_ok(world->fill({{0, 0}, {0.48F, 0.1F}}));
-    BodyId id;
     Motion m;
-    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id));
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
     world->step(kDt);
     expect_ok(world->move_body(id, {0.104F, 0.1F}, 0.0F, kDt));
     ASSERT_TRUE(world->step(kDt, 3).walls_held);
@@ -145,9 +143,8 @@ TYPED_TEST(LedBody, FreeBodyIsHeldAndLetGo) {
         const Ring box = rectangle(0.08F, 0.08F);
         BodyDef body = body_of(box, {0.24F, 0.12F});
         body.density_ratio = density;
-        BodyId id;
         Motion m;
-        expect_ok(world->add_free_body(body, &id));
+        const BodyId id = put_free(*world, body);
         expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
         float lift = 0;
         for (int k = 0; k < 600; ++k) {
@@ -175,10 +172,8 @@ TYPED_TEST(LedBody, SnapshotKnowsWhoIsLed) {
     TestWorld<TypeParam> world{pool_def(24, 20)};
     TestWorld<TypeParam> twin{pool_def(24, 20)};
     expect_ok(world->fill({{0, 0}, {0.48F, 0.1F}}));
-    BodyId free;
-    BodyId moving;
-    expect_ok(world->add_free_body(body_of(kSquare4cm, {0.1F, 0.2F}), &free));
-    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.3F, 0.1F}), &moving));
+    BodyId free = put_free(*world, body_of(kSquare4cm, {0.1F, 0.2F}));
+    const BodyId moving = put_moving(*world, body_of(kSquare4cm, {0.3F, 0.1F}));
     world->step(kDt);
     const std::uint64_t before = world->state_hash();
     expect_ok(world->move_body(free, {0.11F, 0.2F}, 0.1F, kDt));
@@ -243,10 +238,8 @@ TYPED_TEST(FarLedBody, GoesAsFastAsItCan) {
 
 TEST(LedBodyCalls, AreRefusedWhenTheyMakeNoSense) {
     TestWorld<float> world{pool_def(24, 20)};
-    BodyId fixed;
-    BodyId moving;
-    expect_ok(world->add_static_body(body_of(kSquare4cm, {0.1F, 0.1F}), &fixed));
-    expect_ok(world->add_moving_body(body_of(kSquare4cm, {0.3F, 0.1F}), &moving));
+    const BodyId fixed = put_static(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
+    const BodyId moving = put_moving(*world, body_of(kSquare4cm, {0.3F, 0.1F}));
     const std::uint64_t before = world->state_hash();
     const Vec2f to{0.31F, 0.1F};
     EXPECT_EQ(World<float>().move_body(moving, to, 0, kDt), Status::not_initialised);

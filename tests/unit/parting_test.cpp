@@ -23,9 +23,8 @@ WorldDef weightless_tank() {
 template <class Real>
 double push_on_plate(float off) {
     TestWorld<Real> world{weightless_tank()};
-    BodyId plate;
     const Ring ring = rectangle(3 * kCell, 20 * kCell);
-    expect_ok(world->add_static_body(body_of(ring, {(34.5F + off) * kCell, 16 * kCell}), &plate));
+    const BodyId plate = put_static(*world, body_of(ring, {(34.5F + off) * kCell, 16 * kCell}));
     const float step_s = 1.0F / 60.0F;
     float come = 0.0F;  // of the jet, columns of its lattice
     double time = 0.0;

@@ -115,12 +115,10 @@ TEST(Snapshot, PictureDoesNotTellWhenBodiesCame) {
         const WorldDef def = busy_def(0);
         TestWorld<float> one(def);
         const Ring block = {{0, 0}, {0.06F, 0}, {0.06F, 0.04F}, {0, 0.04F}};
-        BodyId first;
-        BodyId id;
         BodyDef left = body_of(block, {0.06F, 0.04F});
         const BodyDef right = body_of(block, {0.12F, 0.04F});
-        ASSERT_EQ(one->add_static_body(left, &first), Status::ok);
-        ASSERT_EQ(one->add_static_body(right, &id), Status::ok);
+        const BodyId first = put_static(*one, left);
+        BodyId id = put_static(*one, right);
         ASSERT_EQ(one->remove_body(first), Status::ok);
         left.surface.restitution = 1.0F;
         ASSERT_EQ(moving ? one->add_moving_body(left, &id) : one->add_static_body(left, &id),
@@ -151,11 +149,9 @@ TEST(Snapshot, RollsBackTheSameWorld) {
 
 TEST(Snapshot, NamesOfBodiesHoldAcrossARollback) {
     TestWorld<float> world(small_def());
-    BodyId kept;
-    BodyId later;
-    ASSERT_EQ(world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &kept), Status::ok);
+    const BodyId kept = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
     const Bytes snapshot = saved(*world, small_def().capacity);
-    ASSERT_EQ(world->add_static_body(body_of(kSquare4cm, {0.2F, 0.1F}), &later), Status::ok);
+    const BodyId later = put_static(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
     ASSERT_EQ(world->restore(snapshot.data(), snapshot.size()), Status::ok);
     Motion motion;
     EXPECT_EQ(world->motion(kept, &motion), Status::ok);

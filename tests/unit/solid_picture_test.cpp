@@ -122,10 +122,8 @@ TYPED_TEST(BodiesPicture, IsDrawnAnewOnlyWhereBodiesComeAndGo) {
     const WorldDef def = tank();
     TestWorld<Real> world(def);
     const Ring block = rectangle(4 * kCell, 4 * kCell);
-    BodyId kept;
-    BodyId id;
-    ASSERT_EQ(world->add_static_body(body_of(block, {30 * kCell, 4 * kCell}), &kept), Status::ok);
-    ASSERT_EQ(world->add_static_body(body_of(block, {6 * kCell, 4 * kCell}), &id), Status::ok);
+    const BodyId kept = put_static(*world, body_of(block, {30 * kCell, 4 * kCell}));
+    BodyId id = put_static(*world, body_of(block, {6 * kCell, 4 * kCell}));
     const Layers<Real>& layers = layers_of(world);
     DistanceOf<Real>& mark = layers.static_distance[layers.shape.index(30, 4)];
     const Real other = Real(-1.75);
@@ -138,7 +136,7 @@ TYPED_TEST(BodiesPicture, IsDrawnAnewOnlyWhereBodiesComeAndGo) {
     expect_kept("rolled back");
     EXPECT_EQ(world->set_surface(kept, {0.0F, 0.0F, true, 0.0F}), Status::ok);
     expect_kept("made sticky");
-    ASSERT_EQ(world->add_static_body(body_of(block, {9 * kCell, 4 * kCell}), &id), Status::ok);
+    id = put_static(*world, body_of(block, {9 * kCell, 4 * kCell}));
     expect_kept("added");
     ASSERT_EQ(world->remove_body(kept), Status::ok);
     EXPECT_EQ(Real(mark), kBand<Real>) << "and goes with its body";

@@ -47,12 +47,12 @@ void put_bodies(Dice& dice, World<Real>& world, std::vector<BodyId>& light,
         BodyDef body = any_plank(dice, ring, 0.1F, 0.3F);
         body.density_ratio = dice.uniform(0.002F, 0.1F);
         body.hold = k == 0 ? Hold::hinge : static_cast<Hold>(dice.below(5));
-        expect_ok(world.add_free_body(body, &id));
+        id = put_free(world, body);
         light.push_back(id);
     }
-    expect_ok(world.add_static_body(any_plank(dice, ring, 0.4F, 0.8F), &id));
+    id = put_static(world, any_plank(dice, ring, 0.4F, 0.8F));
     for (int k = 0; k < kDriven; ++k) {
-        expect_ok(world.add_moving_body(any_plank(dice, ring, 0.4F, 0.8F), &id));
+        id = put_moving(world, any_plank(dice, ring, 0.4F, 0.8F));
         driven.push_back(id);
     }
 }

@@ -184,7 +184,7 @@ TEST(Surface, ATurningDiscIsBraked) {
     outer.surface.no_slip = inner.surface.no_slip = true;
     inner.motion.spin_radps = kSpin;
     BodyId id = put_static(*world, outer);
-    ASSERT_EQ(world->add_moving_body(inner, &id), Status::ok);
+    id = put_moving(*world, inner);
     ASSERT_EQ(world->fill({{0, 0}, {0.8F, 0.8F}}), Status::ok);
     float impulse = 0, time = 0;
     for (int k = 0; k < 600; ++k) {

@@ -119,9 +119,7 @@ TYPED_TEST(Touching, TheOrderIsAllTheSame) {
         TestWorld<TypeParam> world{tank()};
         add_all(world, rings);
         if (turn == 3) {
-            BodyId id;
-            ASSERT_EQ(world->add_static_body(body_of(box(6.0F, 8.0F, 4.5F), {0, 0}), &id),
-                      Status::ok);
+            const BodyId id = put_static(*world, body_of(box(6.0F, 8.0F, 4.5F), {0, 0}));
             ASSERT_EQ(world->remove_body(id), Status::ok);
         }
         ASSERT_EQ(world->fill({{0.1F, 0.12F}, {0.3F, 0.2F}}), Status::ok);

@@ -39,7 +39,7 @@ struct SlowTank {
         body.motion.spin_radps = 3.0F / slower;
         body.surface.friction = 0.2F;
         body.surface.conveyor_mps = 0.1F / slower;
-        expect_ok(world->add_moving_body(body, &block));
+        block = put_moving(*world, body);
         expect_ok(world->fill({{0.0F, 0.0F}, {0.14F, 0.18F}}));
         expect_ok(world->add_particle({0.25F, 0.25F}, {-1.0F / slower, 2.0F / slower}));
     }
@@ -240,7 +240,7 @@ TEST(UnitOfTime, WhatIsFasterIsRefusedOrLimitedAndReported) {
     body.motion.spin_radps = 1.001F * kMaxAngle / 8.0F;
     EXPECT_EQ(world->add_moving_body(body, &id), Status::motion_out_of_range);
     body.motion.spin_radps = 0.0F;
-    EXPECT_EQ(world->add_moving_body(body, &id), Status::ok);
+    id = put_moving(*world, body);
     Motion motion;
     motion.position_m = {0.2F, 0.1F};
     motion.velocity_mps.y = -1.001F * fastest;

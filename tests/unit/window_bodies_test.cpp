@@ -90,17 +90,15 @@ TYPED_TEST(WindowBodies, OpenWaysNeedNoPicture) {
 TYPED_TEST(WindowBodies, HoldWhatIsBeyond) {
     using Real = TypeParam;
     TestWorld<Real> world(windowed(wide_def(9), 66 * 42));
-    BodyId bowl;
-    BodyId plate;
     const Ring wall = rectangle(0.1F, 1.0F);
     const Ring table = rectangle(0.6F, 0.1F);
     const Ring ring = {{-0.5F, 0.0F}, {0.5F, 0.0F}, {0.5F, 0.4F}, {0.4F, 0.1F}, {-0.4F, 0.1F},
                        {-0.5F, 0.4F}};
-    expect_ok(world->add_static_body(body_of(ring, {4.0F, 0.6F}), &bowl));
+    put_static(*world, body_of(ring, {4.0F, 0.6F}));
     put_static(*world, body_of(wall, {0.35F, 0.5F}));
     BodyDef lift = body_of(table, {4.0F, 1.5F});
     lift.motion.velocity_mps = {0.0F, 0.4F};
-    expect_ok(world->add_moving_body(lift, &plate));
+    put_moving(*world, lift);
     expect_ok(world->fill({{0.0F, 0.0F}, {0.20F, 0.20F}}));
     const std::int32_t near = world->particle_positions().size;
     expect_ok(world->fill({{3.98F, 1.0F}, {4.04F, 1.06F}}));
