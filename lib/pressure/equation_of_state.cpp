@@ -131,6 +131,7 @@ void compress(const Domain<Real>& domain, Work work) {
         });
     });
     if (work.once(shape.border())) {
+        make_room_at_inlets(domain);
         extend_cells(domain.borders, shape, fields.pressure);
     }
 }

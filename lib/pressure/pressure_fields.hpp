@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "grid/staggered_grid.hpp"
+#include "pressure/inlets.hpp"
 #include "weir/features.hpp"
 #include "weir/memory.hpp"
 
@@ -76,6 +77,7 @@ struct PressureFields {
     std::uint16_t quiet_turn = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest
+    InletsOf<Real> inlets;             ///< where liquid was added that waits for room
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most kMostRescale: as gravity has changed since it was
     /// solved for; less if sound has become slower.

@@ -164,10 +164,12 @@ void advance(const Domain<Real>& domain, Work work) {
 
 /// The pressure of an incompressible liquid, as near as so many sweeps bring it.
 template <bool Solids, bool Mixed, class Real>
-void solve(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
-           const CoupledSolve<Real>* coupled, PressureFields<Real>& fields, Work work) {
-    const GridShape& s = weights.grid.shape;
-    const Borders<Real>& borders = weights.borders;
+void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<Real>* coupled,
+           Work work) {
+    const auto weights = domain.template face_weights<Solids, Mixed>();
+    const GridShape& s = domain.grid.shape;
+    const Borders<Real>& borders = domain.borders;
+    PressureFields<Real>& fields = domain.fields;
     build(weights, fields, work);
     if constexpr (Solids && !Stored<Real>::coarse) {  // packed worlds have no free bodies
         if (coupled != nullptr) {
@@ -175,6 +177,7 @@ void solve(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
         }
     }
     if (work.once(s.border())) {
+        make_room_at_inlets(domain);
         extend_cells(borders, s, fields.pressure);
     }
     if (!fields.on_surface) {
@@ -212,12 +215,12 @@ void solve_and_project(const Domain<Real>& domain, std::int32_t sweeps,
     StaggeredGrid<Real>& grid = domain.grid;
     PressureFields<Real>& fields = domain.fields;
     const GridShape& s = grid.shape;
-    const auto weights = domain.template face_weights<Solids, Mixed>();
     if (fields.elasticity != nullptr) {
         advance<Solids, Mixed>(domain, work);
     } else {
-        solve(weights, sweeps, coupled, fields, work);
+        solve<Solids, Mixed>(domain, sweeps, coupled, work);
     }
+    const auto weights = domain.template face_weights<Solids, Mixed>();
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         if constexpr (Stored<Real>::coarse) {
             if (fields.elasticity != nullptr) {

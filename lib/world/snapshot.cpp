@@ -172,6 +172,7 @@ void redraw(Simulation<Real>& simulation, const Stale* picture) {
     if constexpr (!Stored<Real>::shares_momentum) {
         simulation.free_bodies = any_free(table) ? &free_body_stages<Real>() : nullptr;
     }
+    link_inlets(simulation.pressure);
     note_movable(table);
     simulation.layers.walls.active = table.used > 0;
     simulation.grid.shape = simulation.layers.shape;

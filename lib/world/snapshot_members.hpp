@@ -68,6 +68,20 @@ void region_members(Stream& stream, std::int32_t particles, Regions<Real>& recor
     stream.member(phase, 0, kSampled - 1);
 }
 
+/// Room that liquid waits for which was added beneath the surface.
+template <class Real, class Stream>
+void inlet_members(Stream& stream, const GridShape& tank, Inlets<Real>& inlets) {
+    const auto last = [](std::int32_t cells) { return static_cast<std::int16_t>(cells - 1); };
+    [[maybe_unused]] auto& [make_room, noted, at] = inlets;
+    const std::int32_t count = stream.member(noted, 0, kMostInlets);
+    for (std::int32_t k = 0; k < count && k < kMostInlets; ++k) {
+        auto& [i, j, owed] = at[k];
+        stream.member(i, std::int16_t{0}, last(tank.nx));
+        stream.member(j, std::int16_t{0}, last(tank.ny));
+        stream.member(owed, Real(0), kMostOwed<Real>);
+    }
+}
+
 /// Members of the world. Settings come from the definition, which has to be the same; of them only
 /// gravity changes by a call. Walls are drawn again from the bodies.
 template <class Real, class Stream>
@@ -79,8 +93,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             contacts, gathered, fall, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, drift_turn, quiet_turn, crowded, settling, last_dt,
-                            change, sound_speed, cell_weight, solve, elasticity,
+                            on_surface, leaps, drift_turn, quiet_turn, crowded, settling, inlets,
+                            last_dt, change, sound_speed, cell_weight, solve, elasticity,
                             second_liquid] = pressure_fields;
     auto& [position, velocity, count, capacity, kind, tag_of] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
@@ -109,6 +123,9 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(stepped_s, 0.0F, 1.0e9F);
     any_member(stream, still_gravity);
     stream.member(pending, 0U, 0xFFFFFFFFU);
+    if constexpr (kHasInlets<Real>) {
+        inlet_members(stream, shape, inlets);
+    }
     Extents extents;
     extents.particles = stream.member(count, 0, capacity);
     extents.vertices = stream.member(vertices_used, 0, vertex_capacity);

@@ -154,6 +154,15 @@ std::uint64_t World<Real>::state_hash() const {
             hash.add(owed.y);
         }
     }
+    if constexpr (kHasInlets<Real>) {
+        const Inlets<Real>& inlets = simulation.pressure.inlets;
+        for (std::int32_t k = 0; k < inlets.count; ++k) {
+            const auto& [i, j, owed] = inlets.at[k];
+            hash.add(static_cast<std::int32_t>(i));
+            hash.add(static_cast<std::int32_t>(j));
+            hash.add(owed);
+        }
+    }
     if (may_sleep(*state_)) {
         hash.add(state_->still_s);
         hash.add(state_->still_gravity_mps2.x);

@@ -38,6 +38,15 @@ void add(Simulation<Real>& simulation, Vec2<Real> at, Vec2<Real> velocity, Liqui
     }
 }
 
+/// Whether a sleeping region is there: its pressure stands elsewhere.
+template <class Real>
+bool lies_asleep(const Simulation<Real>& simulation, Vec2<Real> at) {
+    const Regions<Real>* const regions = simulation.regions;
+    return regions != nullptr &&
+           regions->is_number(regions->tile[regions->tile_at(static_cast<std::int32_t>(at.x),
+                                                             static_cast<std::int32_t>(at.y))]);
+}
+
 template <class Real>
 Status check_particle(const WorldState<Real>& state, Vec2f position_m, Vec2f velocity_mps) {
     if (!is_finite(position_m) || !is_finite(velocity_mps)) {
@@ -133,6 +142,12 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         return Status::particle_inside_solid;
     }
     const Vec2<Real> velocity = inner_velocity(*state_, velocity_mps);
+    if constexpr (kHasInlets<Real>) {
+        if (!lies_asleep(simulation, inside)) {
+            note_inlet(simulation.layers.shape, walls, inside,
+                       Real(1) / simulation.settings.rest_count, simulation.pressure);
+        }
+    }
     add(simulation, inside, velocity, kind);
     note_changed(*state_);
     note_speed(simulation, velocity);

@@ -16,13 +16,17 @@ inline constexpr std::size_t kSnapshotFrameBytes = 192;
 template <class Real>
 inline constexpr std::size_t kSnapshotBodyBytes = sizeof(Real) == 4 ? 128 : 192;
 inline constexpr std::size_t kSnapshotRegionsBytes = 96;
+/// Places at which liquid was added beneath the surface.
+template <class Real>
+inline constexpr std::size_t kSnapshotInletsBytes =
+    Stored<Real>::shares_momentum ? 0 : 8 * (8 + sizeof(Real)) + 4;
 
 /// Bytes of the largest snapshot that a world of that capacity can have. A world that is not full
 /// takes less: `World::save` tells how much.
 template <class Real>
 constexpr std::size_t snapshot_bytes(const Capacity& capacity) {
     const Layout plan = layout<Real>(capacity);
-    std::size_t bytes = kSnapshotFrameBytes +
+    std::size_t bytes = kSnapshotFrameBytes + kSnapshotInletsBytes<Real> +
                         kSnapshotBodyBytes<Real> * static_cast<std::size_t>(capacity.bodies);
     bytes += capacity.sleeping_regions ? kSnapshotRegionsBytes : 0;
     for (std::int32_t block = 0; block < kBlockCount; ++block) {

@@ -111,9 +111,11 @@ public:
     /// would have been.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
     /// Particles in the same place with the same velocity stay together for ever: an inlet spreads
-    /// them, or gives them a speed. Beneath the surface they press what is there together, which
-    /// takes tens of seconds to make room, and does not as long as more come: pour from above (with
-    /// `volume_gain` 1 it makes room at once).
+    /// them, or gives them a speed. Where liquid stood all around in the last step, the pressure is
+    /// asked for the room of what is added: an inlet beneath the surface lifts it. At a time four
+    /// cells' worth in a place, in eight places more than four cells apart. What is more presses
+    /// together what is there, which takes tens of seconds to spread; so do `fill`, and all that is
+    /// added in SmallFixed and in a tank that is full.
     /// Rates, of an inlet or an outlet, go by `StepReport::dt_s`: a step may simulate less than it
     /// was asked for.
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);

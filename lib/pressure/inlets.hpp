@@ -1,0 +1,71 @@
+// Liquid that a caller adds beneath the surface asks the pressure for room.
+#pragma once
+
+#include <type_traits>
+
+#include "math/vec2.hpp"
+#include "weir/storage.hpp"
+
+namespace weir {
+
+struct GridShape;
+template <class Real>
+struct Domain;
+template <class Real>
+struct PressureFields;
+template <class Real>
+struct Walls;
+
+/// So many cells can be asked for at a time: what is added elsewhere joins one that is near.
+inline constexpr std::int32_t kMostInlets = 8;
+/// Volume that a cell can be asked for, cells. What is more is left to the drift, or a crowd of
+/// particles that are put into one place would burst.
+template <class Real>
+inline constexpr Real kMostOwed = Real(4);
+
+/// A cell of the tank's into which liquid was added, and the volume that it has no room for yet.
+template <class Real>
+struct Inlet {
+    std::int16_t i = 0;
+    std::int16_t j = 0;
+    Real owed = Real(0);  ///< cells
+};
+
+template <class Real>
+struct Inlets {
+    /// Between the equations and their solve, or behind a step of the equation of state. Set where
+    /// there are any: a program that adds no particles one by one links nothing of it.
+    void (*make_room)(const Domain<Real>& domain) = nullptr;
+    std::int32_t count = 0;
+    Inlet<Real> at[kMostInlets];
+};
+
+/// Packed worlds have no bytes to spare for it.
+struct NoInlets {};
+template <class Real>
+inline constexpr bool kHasInlets = !Stored<Real>::shares_momentum;
+template <class Real>
+using InletsOf = std::conditional_t<kHasInlets<Real>, Inlets<Real>, NoInlets>;
+
+/// That so much was added in a place of the tank, cells: nothing if it was not beneath the surface
+/// in the last substep, of which the pressure tells. What is set up particle by particle is not.
+template <class Real>
+void note_inlet(const GridShape& tank, const Walls<Real>& walls, Vec2<Real> place, Real volume,
+                PressureFields<Real>& fields);
+
+/// Whatever was noted can be asked for from now on.
+template <class Real>
+void link_inlets(PressureFields<Real>& fields);
+
+/// Asks for what a substep asks for.
+template <class Real>
+void make_room_at_inlets(const Domain<Real>& domain) {
+    if constexpr (kHasInlets<Real>) {
+        const Inlets<Real>& inlets = domain.fields.inlets;
+        if (inlets.count > 0) {
+            inlets.make_room(domain);
+        }
+    }
+}
+
+}  // namespace weir
