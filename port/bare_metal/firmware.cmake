@@ -47,9 +47,9 @@ function(weir_add_boards)
     set(weir_ram_end.${board} ${board_ram_end} CACHE INTERNAL "")
   endforeach()
   set(weir_boards ${boards} CACHE INTERNAL "The boards this build makes images for")
-  # memcpy made of a call to memcpy would never return.
+  # memcpy made of a call to memcpy would never return; optimized at link time it would be gone.
   set_source_files_properties(${WEIR_BARE_METAL_DIR}/memory.cpp PROPERTIES COMPILE_OPTIONS
-    "-fno-builtin;-fno-tree-loop-distribute-patterns")
+    "-fno-builtin;-fno-tree-loop-distribute-patterns;-fno-lto")
 endfunction()
 
 # weir_add_firmware(NAME target BOARD board SOURCES file... [LIBRARIES target...]
