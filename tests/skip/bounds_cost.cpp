@@ -42,7 +42,7 @@ struct Table {
     }
 };
 constexpr Table kWithoutSolids = {{0, 44, 26, 32, 34, 114, 0}};
-constexpr Table kWithSolids = {{783, 45, 29, 53, 52, 1400, 0}};
+constexpr Table kWithSolids = {{783, 45, 33, 53, 52, 1400, 0}};
 
 bool g_within = true;
 
