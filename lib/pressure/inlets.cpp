@@ -1,6 +1,7 @@
 #include "pressure/inlets.hpp"
 
 #include "pressure/domain.hpp"
+#include "pressure/make_room.hpp"
 
 namespace weir {
 
@@ -69,9 +70,7 @@ void add_source(std::int32_t c, Real volume, PressureFields<Real>& f) {
         const Real way = f.last_dt * f.sound_speed;
         f.pressure[c] = f.pressure[c] + way * (f.sound_speed * volume);
     } else {
-        const Real outflow = volume / f.last_dt;
-        f.divergence[c] = Real(f.divergence[c]) - outflow;
-        f.solve.wanted = f.solve.wanted + product(Real(f.pressure[c]), outflow);
+        ask_for_outflow<Real>(c, volume / f.last_dt, f);
     }
 }
 

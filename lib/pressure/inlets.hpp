@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "math/vec2.hpp"
-#include "weir/storage.hpp"
+#include "weir/blocks.hpp"
 
 namespace weir {
 
@@ -16,8 +16,6 @@ struct PressureFields;
 template <class Real>
 struct Walls;
 
-/// So many cells can be asked for at a time: what is added elsewhere joins one that is near.
-inline constexpr std::int32_t kMostInlets = 8;
 /// Volume that a cell can be asked for, cells. What is more is left to the drift, or a crowd of
 /// particles that are put into one place would burst.
 template <class Real>
@@ -34,7 +32,7 @@ struct Inlet {
 template <class Real>
 struct Inlets {
     /// Between the equations and their solve, or behind a step of the equation of state. Set where
-    /// there are any: a program that adds no particles one by one links nothing of it.
+    /// there are any: who neither adds particles one by one nor restores links nothing of it.
     void (*make_room)(const Domain<Real>& domain) = nullptr;
     std::int32_t count = 0;
     Inlet<Real> at[kMostInlets];

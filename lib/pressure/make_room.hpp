@@ -1,4 +1,4 @@
-// Liquid that free bodies have pressed together asks the pressure for room.
+// Asks the pressure for room: what free bodies have pressed together does.
 #pragma once
 
 #include "pressure/patches.hpp"
@@ -39,6 +39,13 @@ inline Real tightness(const GridShape& s, const Patch& patch, const PressureFiel
     return clamp<Real>(mean - kLooseEnough<Real>, Real(0), kMostTight<Real>);
 }
 
+/// The equation of a cell with liquid wants so much to flow out of it, cells/s.
+template <class Real>
+inline void ask_for_outflow(std::int32_t c, Real outflow, PressureFields<Real>& fields) {
+    fields.divergence[c] = Real(fields.divergence[c]) - outflow;
+    fields.solve.wanted = fields.solve.wanted + product(Real(fields.pressure[c]), outflow);
+}
+
 /// The drift moves particles, not bodies: liquid that a crowd of them covers cannot rise by it, and
 /// is pressed together by their weight until they lie on each other. So each patch of 4 × 4 cells
 /// that is too full asks for an outflow, which lifts the bodies; the less the more pressure it has.
@@ -63,10 +70,7 @@ void make_room(const GridShape& s, Work work, PressureFields<Real>& fields) {
                 if (is_zero(Real(fields.inverse_diagonal[c]))) {
                     continue;
                 }
-                const Real pressure = fields.pressure[c];
-                const Real asked = yields(pressure) * outflow;
-                fields.divergence[c] = Real(fields.divergence[c]) - asked;
-                fields.solve.wanted = fields.solve.wanted + product(pressure, asked);
+                ask_for_outflow<Real>(c, yields(fields.pressure[c]) * outflow, fields);
             }
         }
     });

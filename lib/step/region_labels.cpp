@@ -136,7 +136,7 @@ std::int32_t settle_regions(Simulation<Real>& simulation) {
         judge_regions(awake, regions, labels);
         number_regions(simulation, labels);
         for (std::int32_t k = regions.asleep; k < pool.count; ++k) {
-            if (Regions<Real>::is_number(regions.tile[regions.tile_of(pool.position[k])])) {
+            if (regions.sleeps(regions.tile_of(pool.position[k]))) {
                 pool.swap(k, regions.asleep++);
             }
         }

@@ -150,16 +150,16 @@ void watch_borders(Simulation<Real>& simulation) {
     const std::int32_t j1 = (part.j0 + part.ny - 1) / kTileEdge;
     for (std::int32_t j = first(part.j0); j <= j1; ++j) {
         for (std::int32_t i = first(part.i0); i <= i1; ++i) {
-            if (Regions<Real>::is_number(regions.tile[j * regions.tiles_x + i])) {
+            if (regions.sleeps(j * regions.tiles_x + i)) {
                 continue;
             }
             bool beside = false;
             for_each_tile_around(regions, i, j, [&](std::int32_t tile) {
-                beside = beside || Regions<Real>::is_number(regions.tile[tile]);
+                beside = beside || regions.sleeps(tile);
             });
             if (beside && is_wet(simulation, i, j)) {
                 for_each_tile_around(regions, i, j, [&](std::int32_t tile) {
-                    if (Regions<Real>::is_number(regions.tile[tile])) {
+                    if (regions.sleeps(tile)) {
                         regions.wake(regions.tile[tile]);
                     }
                 });
@@ -187,7 +187,7 @@ void show_fields(Simulation<Real>& simulation) {
     Regions<Real>& regions = *simulation.regions;
     for (std::int32_t j = 0, tile = 0; regions.stale && j < regions.tiles_y; ++j) {
         for (std::int32_t i = 0; i < regions.tiles_x; ++i, ++tile) {
-            if (Regions<Real>::is_number(regions.tile[tile])) {
+            if (regions.sleeps(tile)) {
                 restore_pressure(simulation, i, j);
                 for_each_cell_of_tile(simulation.layers.shape, i, j, [&](std::int32_t cell) {
                     simulation.pressure.density[cell] = regions.density[cell];

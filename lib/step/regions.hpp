@@ -48,6 +48,7 @@ struct Regions {
     std::uint8_t phase = 0;    ///< which quarter of the particles is looked at next
 
     static bool is_number(std::uint8_t of) { return of != kNoRegion && of != kRestless; }
+    bool sleeps(std::int32_t at) const { return is_number(tile[at]); }
     std::int32_t tiles() const { return tiles_x * tiles_y; }
     std::int32_t tile_at(std::int32_t i, std::int32_t j) const {
         return j / kTileEdge * tiles_x + i / kTileEdge;
@@ -63,7 +64,7 @@ struct Regions {
     void wake_all() { all_woken = any_woken = true; }
     /// Something happened there: who sleeps wakes, and others do not yet fall asleep.
     void touch(std::int32_t at) {
-        if (is_number(tile[at])) {
+        if (sleeps(at)) {
             wake(tile[at]);
         } else {
             tile[at] = kRestless;

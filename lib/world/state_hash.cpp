@@ -27,8 +27,7 @@ void hash_pressure(Hash& hash, const Simulation<Real>& simulation) {
         }
         pass_empty(first);
         for (std::int32_t i = first; i < end; ++i) {
-            const bool asleep =
-                regions != nullptr && regions->is_number(regions->tile[regions->tile_at(i, j)]);
+            const bool asleep = regions != nullptr && regions->sleeps(regions->tile_at(i, j));
             const Real* field = asleep ? regions->pressure : simulation.pressure.pressure;
             hash.add(field[tank.index(i, j)]);
         }

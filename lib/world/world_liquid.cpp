@@ -42,9 +42,7 @@ void add(Simulation<Real>& simulation, Vec2<Real> at, Vec2<Real> velocity, Liqui
 template <class Real>
 bool lies_asleep(const Simulation<Real>& simulation, Vec2<Real> at) {
     const Regions<Real>* const regions = simulation.regions;
-    return regions != nullptr &&
-           regions->is_number(regions->tile[regions->tile_at(static_cast<std::int32_t>(at.x),
-                                                             static_cast<std::int32_t>(at.y))]);
+    return regions != nullptr && regions->sleeps(regions->tile_of(Vec2<PositionOf<Real>>(at)));
 }
 
 template <class Real>

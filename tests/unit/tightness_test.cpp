@@ -131,9 +131,7 @@ std::vector<Vec2f> after_a_step(std::uint64_t seed, float companion) {
     TestWorld<Real> world(free_flight());
     constexpr float kAngle = 2.3F;
     const Ring wall = rectangle(0.8F * kCell, 120 * kCell);
-    const BodyDef plate = body_of(wall, kCell * Vec2f{16.2F, 15.7F}, kAngle);
-    BodyId id;
-    expect_ok(world->add_static_body(plate, &id));
+    put_static(*world, body_of(wall, kCell * Vec2f{16.2F, 15.7F}, kAngle));
     expect_ok(world->add_particle(kCell * Vec2f{4, 4}, (kCell / kFrame) * Vec2f{companion, 0}));
     measure::Random dice(seed);
     for (float along = -10; along <= 10; along += 4) {

@@ -93,6 +93,10 @@ enum class Kept : std::uint8_t {
     vertices,   ///< as much as there are vertices
 };
 
+/// Cells that can be asked for room at a time: what is added beneath the surface elsewhere joins
+/// one that is near. Not in packed worlds.
+inline constexpr std::int32_t kMostInlets = 8;
+
 /// Room for records whose types are private; checked by static_assert where they are defined.
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =

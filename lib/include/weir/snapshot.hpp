@@ -19,7 +19,7 @@ inline constexpr std::size_t kSnapshotRegionsBytes = 96;
 /// Places at which liquid was added beneath the surface.
 template <class Real>
 inline constexpr std::size_t kSnapshotInletsBytes =
-    Stored<Real>::shares_momentum ? 0 : 8 * (8 + sizeof(Real)) + 4;
+    Stored<Real>::shares_momentum ? 0 : 4 + kMostInlets * (8 + sizeof(Real));
 
 /// Bytes of the largest snapshot that a world of that capacity can have. A world that is not full
 /// takes less: `World::save` tells how much.
