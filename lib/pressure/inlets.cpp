@@ -79,7 +79,9 @@ void make_room(const Domain<Real>& domain) {
     const GridShape& s = domain.grid.shape;
     PressureFields<Real>& fields = domain.fields;
     Inlets<Real>& inlets = fields.inlets;
-    const Real share = share_of_substep(fields);
+    const Real pace = pace_of_room(fields);
+    const Real share = pace * share_of_substep(fields);
+    const Real least = pace * kLeastOwed<Real>;
     std::int32_t left = 0;
     for (std::int32_t k = 0; k < inlets.count; ++k) {
         Inlet<Real> inlet = inlets.at[k];
@@ -88,7 +90,8 @@ void make_room(const Domain<Real>& domain) {
         if (!wants_room(domain, i, j)) {
             continue;
         }
-        const Real volume = inlet.owed > kLeastOwed<Real> ? share * inlet.owed : inlet.owed;
+        const Real volume = inlet.owed > kLeastOwed<Real> ? share * inlet.owed
+                                                            : minimum(inlet.owed, least);
         add_source(s.index(i, j), volume, fields);
         inlet.owed = inlet.owed - volume;
         if (inlet.owed > Real(0)) {

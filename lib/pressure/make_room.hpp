@@ -20,6 +20,15 @@ inline constexpr Real kRoomGain = Real(0.03);
 /// a tank that is full, the pressure would rise for ever.
 inline constexpr std::int32_t kMostColumns = 4;
 
+/// What may be asked for in a substep is so much in one in which gravity moves something by 1/8192
+/// of a cell, or in a 64th of a second if that is shorter; in a shorter one in proportion. The same
+/// volume in ever less time would fling the liquid.
+template <class Real>
+inline Real pace_of_room(const PressureFields<Real>& fields) {
+    const Real fallen = square_root(fields.last_dt * fields.cell_weight);
+    return minimum(Real(1), Real(64) * maximum(fallen, static_cast<Real>(fields.last_dt)));
+}
+
 /// By how much a patch's liquid cells are too full, in the mean, of what is answered.
 template <class Real>
 inline Real tightness(const GridShape& s, const Patch& patch, const PressureFields<Real>& fields) {
@@ -54,6 +63,7 @@ template <class Real>
 void make_room(const GridShape& s, Work work, PressureFields<Real>& fields) {
     const std::int32_t most_heads = kMostColumns * maximum(s.nx, s.ny);
     const Real weight = fields.cell_weight;
+    const Real pace = pace_of_room(fields);
     const auto yields = [&](Real pressure) {
         const Real heads = part_of(maximum<Real>(pressure, Real(0)), most_heads) / weight;
         return maximum<Real>(Real(1) - heads, Real(0));
@@ -63,7 +73,7 @@ void make_room(const GridShape& s, Work work, PressureFields<Real>& fields) {
         if (!(tight > Real(0) && weight > Real(0))) {
             return;
         }
-        const Real outflow = (kRoomGain<Real> * tight) / fields.last_dt;
+        const Real outflow = (pace * (kRoomGain<Real> * tight)) / fields.last_dt;
         for (std::int32_t y = 0; y < patch.height; ++y) {
             const std::int32_t first = s.index(patch.i, patch.j + y);
             for (std::int32_t c = first; c < first + patch.width; ++c) {

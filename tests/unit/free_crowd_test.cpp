@@ -58,6 +58,18 @@ TYPED_TEST(FreeCrowd, LeavesThePoolItsVolume) {
     EXPECT_GT(share, 0.97);
 }
 
+/// Where it is pressed together it is not flung, however short the step: it was at 316 m/s.
+TYPED_TEST(FreeCrowd, AShortStepDoesNotFling) {
+    WorldDef def = pool_def();
+    def.capacity.particles += 4 * 32 * 4;
+    TestWorld<TypeParam> world{def};
+    BodyId id[kCrates];
+    fill_pool(*world, id);
+    expect_ok(world->fill({{0, 0}, {32 * kCell, 4 * kCell}}));  // a second time
+    world->step(kDt);
+    EXPECT_LT(world->step(1.0e-6F).max_speed_mps, 0.6F);
+}
+
 /// Pressed together by crates that were just thrown in.
 TYPED_TEST(FreeCrowd, HasTheSameBitsInSlicesAndStaysWithinItsBound) {
     TestWorld<TypeParam> whole{pool_def()};
