@@ -73,9 +73,13 @@ bool particles_rest(const Simulation<Real>& simulation, Real speed, StepReport& 
 }
 
 /// After a step: counts the time for which nothing was faster than `Sleep::speed_mps`. What is on
-/// its way out of a solid moves without a speed of its own.
+/// its way out of a solid moves without a speed of its own. A pause tells nothing: solids of a
+/// world that was restored are not drawn yet.
 template <class Real>
 void watch_rest(detail::WorldState<Real>& state, StepReport& report) {
+    if (report.substeps == 0) {
+        return;
+    }
     const Sleep& sleep = state.def.sleep;
     const Simulation<Real>& simulation = state.simulation;
     const Real speed = resting_speed(state);

@@ -365,5 +365,24 @@ TEST(Sleep, NonsenseIsReportedAsleepToo) {
     EXPECT_TRUE(report.asleep);
 }
 
+/// A pause tells nothing of who rests: a world that was just restored has not drawn its solids, and
+/// took what lay on them for what falls.
+TYPED_TEST(SleepOf, APauseIsTheSameAfterARestore) {
+    WorldDef def = small_def();
+    def.sleep.speed_mps = 0.02F;
+    TestWorld<TypeParam> world{def};
+    TestWorld<TypeParam> other{def};
+    put_static(*world, body_of(rectangle(0.2F, 0.1F), {0.16F, 0.05F}));
+    expect_ok(world->add_particle({0.151F, 0.101F}, {}));
+    for (int step = 0; step < 30; ++step) {
+        world->step(1.0F / 60.0F);
+        const std::vector<std::byte> bytes = saved(*world, def.capacity);
+        expect_ok(other->restore(bytes.data(), bytes.size()));
+        world->step(0.0F);
+        other->step(0.0F);
+        ASSERT_EQ(other->state_hash(), world->state_hash()) << "step " << step;
+    }
+}
+
 }  // namespace
 }  // namespace weir
