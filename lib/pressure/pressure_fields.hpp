@@ -77,7 +77,7 @@ struct PressureFields {
     std::uint16_t quiet_turn = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest
-    InletsOf<Real> inlets;             ///< where liquid was added that waits for room
+    [[no_unique_address]] InletsOf<Real> inlets;  ///< where liquid was added that waits for room
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most kMostRescale: as gravity has changed since it was
     /// solved for; less if sound has become slower.

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "solid/collide.hpp"
+#include "step/free_words.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/simulation.hpp"
 #include "step/stage_clock.hpp"
@@ -112,20 +113,14 @@ TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
     return moved;
 }
 
-/// What a packed world's pressure has needed is free by then, and lies behind its velocities. There
-/// is room for a block at least.
+/// There is room for a block at least.
 template <class Real>
 void lend_scratch(const PressureFields<Real>& fields, const GridShape& tank,
                   Transfer<Real>& transfer) {
-    constexpr std::uintptr_t kWord = sizeof(std::uint32_t);
-    static_assert((kMinCells + 2) * (kMinCells + 2) * sizeof(VelocityOf<Real>) >=
-                  (kBlock<SmallFixed> + 1) * kWord, "or the smallest tank has too little");
-    const auto first = reinterpret_cast<std::uintptr_t>(fields.divergence);
-    const std::uintptr_t begin = (first + kWord - 1) / kWord * kWord;
-    const std::uintptr_t end =
-        first + static_cast<std::uintptr_t>(tank.size()) * sizeof(VelocityOf<Real>);
-    transfer.ways = reinterpret_cast<void*>(begin);
-    transfer.room = static_cast<std::int32_t>((end - begin) / kWord);
+    static_assert(kFewestFreeWords<Real> >= kBlock<Real>, "or the smallest tank has too little");
+    const FreeWords words = free_words(fields, tank);
+    transfer.ways = words.first;
+    transfer.room = words.count;
 }
 
 /// Moves a block of particles and lets them meet the solids.

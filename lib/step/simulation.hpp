@@ -32,13 +32,21 @@ struct Window<Real, false> {
     static constexpr std::int32_t beyond = 0;
 };
 
+/// How far a look through the tank is (step/part_met.hpp).
+template <class Real, bool Looks = Stored<Real>::coarse>
+struct Look {};
+template <class Real>
+struct Look<Real, true> {
+    std::uint32_t substeps_left = 0;
+};
+
 template <class Real>
 struct Simulation {
     Settings<Real> settings;
     Particles<Real> particles;
     StaggeredGrid<Real> grid;  ///< between substeps of the whole tank
     SmallShape occupied;       ///< what the last substep worked on
-    Window<Real> window;
+    [[no_unique_address]] Window<Real> window;
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;
@@ -49,6 +57,7 @@ struct Simulation {
     Contacts<Real> contacts;
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
     [[no_unique_address]] Fall<Real> fall;  ///< empty where velocities are no units
+    [[no_unique_address]] Look<Real> look;  ///< for particles that have met, in packed worlds
     Extent<Real> extent;       ///< of all particles
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;

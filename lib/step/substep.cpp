@@ -15,6 +15,7 @@
 #include "step/grid_update.hpp"
 #include "step/momentum_ledger.hpp"
 #include "step/occupied.hpp"
+#include "step/part_met.hpp"
 #include "step/particle_to_grid.hpp"
 #include "step/quiet_surface.hpp"
 #include "step/regions.hpp"
@@ -359,6 +360,10 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
         clock.charge(Stage::contour);
     }
     gather<Solids>(simulation, plan, work, clock, report);
+    if constexpr (Stored<Real>::coarse) {
+        part_met<Solids>(simulation, work);
+        clock.charge(Stage::grid_to_particle);
+    }
     if constexpr (kHasWindow<Real>) {
         if (simulation.window.cells > 0) {
             fly_beyond<Solids>(simulation, plan, work, report);

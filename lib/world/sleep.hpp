@@ -2,6 +2,7 @@
 // until something changes. Nothing is rounded off on the way: it wakes as it fell asleep.
 #pragma once
 
+#include "step/part_met.hpp"
 #include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "world/world_state.hpp"
@@ -18,10 +19,11 @@ bool is_asleep(const detail::WorldState<Real>& state) {
     return may_sleep(state) && state.still_s >= state.def.sleep.after_s;
 }
 
-/// Whatever the caller changed: the time at rest counts from anew.
+/// Whatever the caller changed: the time at rest counts from anew, and something is stirred.
 template <class Real>
 void wake(detail::WorldState<Real>& state) {
     state.still_s = 0.0F;
+    look_for_met(state.simulation);
 }
 
 /// A gravity that is not that of the time at rest, within what a sensor's noise may be.

@@ -3,6 +3,7 @@
 // somebody has decided whether it belongs to the state.
 #pragma once
 
+#include "step/part_met.hpp"
 #include "step/regions.hpp"
 #include "world/world_state.hpp"
 
@@ -90,7 +91,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
            still_s, still_gravity, pending, substeps_left, plan, progress, report] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
                             bodies, layers, walls_behind, walls_moved, free_bodies, body_diagonal,
-                            contacts, gathered, fall, extent, max_speed, ticks, stages,
+                            contacts, gathered, fall, look, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
                             on_surface, leaps, drift_turn, quiet_turn, crowded, settling, inlets,
@@ -111,6 +112,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
         const Real unit(1.0 / 128.0);
         stream.member(fall.owed.x, -unit, unit);
         stream.member(fall.owed.y, -unit, unit);
+        stream.member(look.substeps_left, 0U, most_looking(shape));
     }
     stream.member(walls_behind, Seconds<Real>{}, Seconds<Real>(1));
     stream.member(change, Real(0), kMostRescale<Real>);

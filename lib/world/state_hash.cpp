@@ -152,6 +152,9 @@ std::uint64_t World<Real>::state_hash() const {
             hash.add(owed.x);
             hash.add(owed.y);
         }
+        if (simulation.look.substeps_left > 0) {
+            hash.add(simulation.look.substeps_left);
+        }
     }
     if constexpr (kHasInlets<Real>) {
         const Inlets<Real>& inlets = simulation.pressure.inlets;

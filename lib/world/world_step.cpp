@@ -1,5 +1,6 @@
 // The step: make the input sane, plan the substeps, run them, report.
 #include "step/ladder.hpp"
+#include "step/part_met.hpp"
 #include "step/substep.hpp"
 #include "world/sleep.hpp"
 #include "world/step_input.hpp"
@@ -37,6 +38,9 @@ Status World<Real>::set_gravity(Vec2f gravity_mps2) {
     if (before > Real(0) && now != before && !is_asleep(*state_)) {
         Real& change = simulation.pressure.change;
         change = minimum(kMostRescale<Real>, change * (minimum(now, most_now) / before));
+    }
+    if (gravity.x != simulation.settings.gravity.x || gravity.y != simulation.settings.gravity.y) {
+        look_for_met(simulation);
     }
     simulation.settings.gravity = gravity;
     return Status::ok;
