@@ -2,6 +2,7 @@
 
 #include "pressure/excess.hpp"
 #include "pressure/patch_drift.hpp"
+#include "pressure/smooth_excess.hpp"
 #include "pressure/volume_packed.hpp"
 
 namespace weir {
@@ -110,6 +111,11 @@ void correct(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall, std::
                [&](const Part& rows, std::int32_t) { find_excess(s, rows, held, fields); });
     if constexpr (Solids) {
         find_excess_beside_walls(s, walls, held, fields, work);
+    }
+    if constexpr (std::is_floating_point<Real>::value) {  // Fixed's last digits mix enough
+        if (sticks_to_tank(borders)) {
+            smooth_excess<Solids>(borders, walls, s, fields, work);
+        }
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
