@@ -299,7 +299,8 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     update_grid(simulation, domain, plan, work);
     if (plan.viscosity > Real(0)) {
         Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
-        simulation.viscosity->diffuse(domain, plan.viscosity * dt_s, tank, work);
+        simulation.viscosity->diffuse(domain, plan.viscosity * dt_s, settings.fall_in(dt_s), tank,
+                                      work);
     }
     clock.charge(Stage::grid_update);
 

@@ -33,8 +33,37 @@ void drag_on_tank(const Domain<Real>& domain, const FaceShare<Real>& on_u,
     }
 }
 
+/// The images of what sticks to the tank's walls fall along with it: (u − fall) is turned round.
+/// What falls past a wall that pulls at it would be a force that no pressure balances: still liquid
+/// went round for ever.
+template <class Real>
+void let_images_fall(const Borders<Real>& b, const GridShape& s, Vec2<Real> fall,
+                     StaggeredGrid<Real>& grid) {
+    const auto add = [](VelocityOf<Real>* field, std::int32_t first, std::int32_t step,
+                        std::int32_t count, Real twice) {
+        for (std::int32_t k = 0; k < count; ++k) {
+            field[first + k * step] += twice;
+        }
+    };
+    const auto floor = [&](const SurfaceLaw<Real>& wall, std::int32_t j) {
+        if (wall.no_slip && !b.wrap_y) {
+            add(grid.u, s.index(0, j), 1, s.nx, fall.x + fall.x);
+        }
+    };
+    const auto side = [&](const SurfaceLaw<Real>& wall, std::int32_t i) {
+        if (wall.no_slip && !b.wrap_x) {
+            add(grid.v, s.index(i, 0), s.stride, s.ny, fall.y + fall.y);
+        }
+    };
+    floor(b.bottom, -1);
+    floor(b.top, s.ny);
+    side(b.left, -1);
+    side(b.right, s.nx);
+}
+
 template <bool Solids, class Real>
-void diffuse_faces(const Domain<Real>& domain, Real amount, Impulse<Real>* tank, Work work) {
+void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Impulse<Real>* tank,
+                   Work work) {
     const Borders<Real>& borders = domain.borders;
     const Walls<Real>& walls = domain.walls;
     PressureFields<Real>& fields = domain.fields;
@@ -46,6 +75,7 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Impulse<Real>* tank,
     }
     if (work.once(2 * s.border())) {
         extend_velocity(borders, s, grid.u, grid.v);
+        let_images_fall(borders, s, fall, grid);
         mirror_cells(borders, s, fields.density);
     }
     const Part copied = work.take(s.ny + 2, s.nx + 2);

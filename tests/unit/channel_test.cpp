@@ -1,4 +1,4 @@
-// A channel that is driven for ever: rows of liquid that never mix.
+// Viscous liquid between walls that it sticks to: driven for ever, in rows that never mix, and still.
 #include <cmath>
 
 #include "pressure/smooth_excess.hpp"
@@ -82,6 +82,31 @@ WEIR_SUITE(Channel, RoomyScalars);
 TYPED_TEST(Channel, CarriesAsMuchForEver) {
     EXPECT_NEAR(flow_over_exact<TypeParam>(12), 1.0F, 0.05F);
 }
+
+/// Fastest component in a pool 8 cells deep after 100 steps, over √(gh).
+template <class Real>
+float fastest_in_pool() {
+    WorldDef def = measure::tank_def(16, 16, 4 * 16 * 8);
+    def.cell_m = 0.01F;
+    def.viscosity_m2ps = 1.0e-3F;
+    def.walls = every_wall({0.0F, 0.0F, true, 0.0F});
+    TestWorld<Real> world{def};
+    EXPECT_EQ(world->fill({{0.0F, 0.0F}, {0.16F, 0.08F}}), Status::ok);
+    for (int k = 0; k < 100; ++k) {
+        world->step(1.0F / 60.0F);
+    }
+    float fastest = 0.0F;
+    for (const auto& packed : world->particle_velocities()) {
+        const Vec2<float> v = convert<float>(packed);
+        fastest = std::fmax(fastest, std::fmax(std::fabs(v.x), std::fabs(v.y)));
+    }
+    return fastest / std::sqrt(981.0F * 8.0F);
+}
+
+WEIR_SUITE(StickingPool, EveryScalar);
+
+/// It went round for ever at 0.1: what gravity gives in a step fell past the walls, which pulled.
+TYPED_TEST(StickingPool, Rests) { EXPECT_LT(fastest_in_pool<TypeParam>(), 0.005F); }
 
 }  // namespace
 }  // namespace weir
