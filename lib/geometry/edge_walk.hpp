@@ -1,33 +1,21 @@
-// The edges of a polygon's rings as the caller gave them, one after the other. Edges without
-// length, between repeated vertices, are passed over.
+// The edges of a polygon's rings on their grid, one after the other. Edges without length, between
+// repeated vertices, are passed over.
 #pragma once
 
-#include "math/vec2.hpp"
-#include "weir/types.hpp"
+#include "geometry/rings.hpp"
 
 namespace weir {
 
-/// Ring 0 is the outer one, ring k is holes[k - 1].
-struct PolygonRings {
-    View<Vec2f> outer;
-    View<View<Vec2f>> holes;
-
-    std::int32_t count() const { return 1 + holes.size; }
-    View<Vec2f> operator[](std::int32_t ring) const {
-        return ring == 0 ? outer : holes[ring - 1];
-    }
-};
-
 struct Edge {
-    Vec2f a;
-    Vec2f b;
+    GridVertex a;
+    GridVertex b;
     std::int32_t ring = 0;
     std::int32_t index = 0;  ///< of the vertex a
 };
 
 struct EdgeBox {
-    Vec2f low;
-    Vec2f high;
+    GridVertex low;
+    GridVertex high;
 };
 
 inline EdgeBox unite(const EdgeBox& p, const EdgeBox& q) {
@@ -49,7 +37,7 @@ inline bool overlap(const EdgeBox& p, const EdgeBox& q) {
 /// Walks over the edges of some rings. Copying it keeps a place.
 class EdgeWalk {
 public:
-    EdgeWalk(const PolygonRings& rings, std::int32_t first_ring, std::int32_t last_ring)
+    EdgeWalk(const RingsOnGrid& rings, std::int32_t first_ring, std::int32_t last_ring)
         : rings_(&rings), vertices_(rings[first_ring]), ring_(first_ring), last_ring_(last_ring) {
         settle();
     }
@@ -61,7 +49,7 @@ public:
         if (done()) {
             return false;
         }
-        *edge = {vertices_[index_], end(), ring_, index_};
+        *edge = {rings_->place(vertices_[index_]), end(), ring_, index_};
         ++index_;
         settle();
         return true;
@@ -87,15 +75,15 @@ public:
     }
 
 private:
-    Vec2f end() const { return vertices_[index_ + 1 < vertices_.size ? index_ + 1 : 0]; }
+    GridVertex end() const {
+        return rings_->place(vertices_[index_ + 1 < vertices_.size ? index_ + 1 : 0]);
+    }
 
     /// On to the next edge that has a length, or behind the last ring.
     void settle() {
         while (!done()) {
             for (; index_ < vertices_.size; ++index_) {
-                const Vec2f a = vertices_[index_];
-                const Vec2f b = end();
-                if (a.x != b.x || a.y != b.y) {
+                if (!are_one(rings_->place(vertices_[index_]), end())) {
                     return;
                 }
             }
@@ -106,7 +94,7 @@ private:
         }
     }
 
-    const PolygonRings* rings_;
+    const RingsOnGrid* rings_;
     View<Vec2f> vertices_;
     std::int32_t ring_;
     std::int32_t last_ring_;
@@ -114,7 +102,7 @@ private:
 };
 
 /// Whether edge f comes next after edge e on their ring, edges without length apart.
-inline bool follows(const PolygonRings& rings, const Edge& e, const Edge& f) {
+inline bool follows(const RingsOnGrid& rings, const Edge& e, const Edge& f) {
     if (e.ring != f.ring) {
         return false;
     }
@@ -125,11 +113,8 @@ inline bool follows(const PolygonRings& rings, const Edge& e, const Edge& f) {
         if (i == f.index) {
             return true;
         }
-        if (ring[i].x != e.b.x || ring[i].y != e.b.y) {
-            return false;
-        }
-        const Vec2f next = ring[i + 1 < ring.size ? i + 1 : 0];
-        if (next.x != e.b.x || next.y != e.b.y) {
+        if (!are_one(rings.place(ring[i]), e.b) ||
+            !are_one(rings.place(ring[i + 1 < ring.size ? i + 1 : 0]), e.b)) {
             return false;
         }
     }

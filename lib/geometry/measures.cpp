@@ -1,5 +1,5 @@
 // Area, centre and inside test of polygons as callers give them, in double.
-#include "geometry/edge_walk.hpp"
+#include "geometry/rings.hpp"
 #include "geometry/polygon.hpp"
 
 namespace weir {

@@ -9,19 +9,13 @@
 
 namespace weir {
 
-/// Smallest area of a ring over the square of its bounding box's diagonal. A float coordinate is
-/// good to 6e-8 of the diagonal, so a sliver thinner than this has a width made of rounding; a
-/// wall of 1 mm by 100 m still passes.
-inline constexpr double kMinRelativeArea = 1e-6;
-
 /// Twice the area of the triangle a b c: positive where the way a → b → c turns left.
 template <class Real>
 constexpr Product<Real> turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
     return cross(b - a, c - a);
 }
 
-/// The same in double, where products of floats are exact and squares cannot overflow. By itself,
-/// and of references: without an FPU for double each operation is a call.
+/// The same in double, where products of floats are exact and squares cannot overflow.
 double turn_in_double(const Vec2f& a, const Vec2f& b, const Vec2f& c);
 
 /// Whether a point is in a triangle that turns left, or on its rim.

@@ -1,5 +1,4 @@
-// Outline checks in double: products of floats are exact there and their squares cannot overflow,
-// so a touch is told from a near miss and no finite input misbehaves.
+// Outline checks, in whole numbers (geometry/rings.hpp).
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/edge_walk.hpp"
 #include "geometry/polygon.hpp"
@@ -12,9 +11,14 @@ namespace {
 /// Edges that are held while all others pass by: 24 bytes each on the stack.
 constexpr std::int32_t kEdgesHeld = 16;
 
-int sign_of_turn(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
-    const double t = turn_in_double(a, b, c);
-    return t > 0.0 ? 1 : (t < 0.0 ? -1 : 0);
+/// Smallest area of a ring over the square of its bounding box's diagonal, as a power of two: a
+/// sliver thinner than this has a width made of a float's rounding; a wall of 1 mm by 100 m still
+/// passes.
+constexpr std::int32_t kMinRelativeArea = -20;
+
+int sign_of_turn(GridVertex a, GridVertex b, GridVertex c) {
+    const std::int64_t t = turn(a, b, c);
+    return t > 0 ? 1 : (t < 0 ? -1 : 0);
 }
 
 enum class Meeting { crossing, touching };
@@ -27,15 +31,13 @@ bool edges_meet(const Edge& e, const Edge& f, Meeting meeting) {
            sign_of_turn(f.a, f.b, e.a) * sign_of_turn(f.a, f.b, e.b) <= most;
 }
 
-Vec2<double> along(const Edge& e) { return convert<double>(e.b) - convert<double>(e.a); }
-
 /// Whether the way turns back on itself where edge e ends.
 bool folds(const Edge& e, const Edge& f) {
-    return sign_of_turn(e.a, e.b, f.b) == 0 && dot(along(e), along(f)) < 0.0;
+    return sign_of_turn(e.a, e.b, f.b) == 0 && dot(way(e.a, e.b), way(f.a, f.b)) < 0;
 }
 
 /// Whether two edges meet where they must not: neighbours do share a vertex.
-bool clash(const PolygonRings& rings, const Edge& e, const Edge& f, Meeting meeting) {
+bool clash(const RingsOnGrid& rings, const Edge& e, const Edge& f, Meeting meeting) {
     if (!overlap(box_of(e), box_of(f)) || !edges_meet(e, f, meeting)) {
         return false;
     }
@@ -47,7 +49,7 @@ bool clash(const PolygonRings& rings, const Edge& e, const Edge& f, Meeting meet
 
 /// The first pair of edges that clash. All edges are taken in groups; a group that another one
 /// passes without overlap of their boxes is not looked at edge by edge.
-bool find_clash(const PolygonRings& rings, std::int32_t first_ring, std::int32_t last_ring,
+bool find_clash(const RingsOnGrid& rings, std::int32_t first_ring, std::int32_t last_ring,
                 Meeting meeting, Edge* e, Edge* f) {
     Edge held[kEdgesHeld];
     EdgeWalk walk(rings, first_ring, last_ring);
@@ -87,34 +89,42 @@ bool find_clash(const PolygonRings& rings, std::int32_t first_ring, std::int32_t
     }
 }
 
-double squared_diagonal(View<Vec2f> ring) {
-    EdgeBox box{ring[0], ring[0]};
-    for (const Vec2f v : ring) {
-        box = unite(box, {v, v});
+std::int64_t squared_diagonal(const RingsOnGrid& rings, std::int32_t ring) {
+    const GridVertex first = rings.place(rings[ring][0]);
+    EdgeBox box{first, first};
+    for (const Vec2f vertex : rings[ring]) {
+        const GridVertex place = rings.place(vertex);
+        box = unite(box, {place, place});
     }
-    const Vec2<double> diagonal = convert<double>(box.high) - convert<double>(box.low);
+    const Vec2<std::int64_t> diagonal = way(box.low, box.high);
     return dot(diagonal, diagonal);
 }
 
 /// What is told of a fault. Who does not ask where edges meet does not link what finds it.
 struct Finding : PolygonFault {
-    Vec2f (*meeting_place)(const Edge& e, const Edge& f) = [](const Edge&, const Edge&) {
-        return Vec2f{};
-    };
+    Vec2f (*meeting_place)(const RingsOnGrid& rings, const Edge& e, const Edge& f) =
+        [](const RingsOnGrid&, const Edge&, const Edge&) { return Vec2f{}; };
 };
 
-Vec2f meeting_place(const Edge& e, const Edge& f) {
+Vec2<double> meeting_on_grid(const Edge& e, const Edge& f) {
     const Vec2<double> a = convert<double>(e.a);
-    const double both = cross(along(e), along(f));
+    const Vec2<double> along_e = convert<double>(e.b) - a;
+    const Vec2<double> along_f = convert<double>(f.b) - convert<double>(f.a);
+    const double both = cross(along_e, along_f);
     if (both != 0.0) {
-        const double share = cross(convert<double>(f.a) - a, along(f)) / both;
-        return convert<float>(a + clamp(share, 0.0, 1.0) * along(e));
+        const double share = cross(convert<double>(f.a) - a, along_f) / both;
+        return a + clamp(share, 0.0, 1.0) * along_e;
     }
     // On one line: an end of one lies on the other.
     if (overlap(box_of(e), {f.a, f.a})) {
-        return f.a;
+        return convert<double>(f.a);
     }
-    return overlap(box_of(e), {f.b, f.b}) ? f.b : e.a;
+    return overlap(box_of(e), {f.b, f.b}) ? convert<double>(f.b) : a;
+}
+
+Vec2f meeting_place(const RingsOnGrid& rings, const Edge& e, const Edge& f) {
+    const double m_per_step = 1.0 / static_cast<double>(rings.steps_per_m);
+    return convert<float>(m_per_step * meeting_on_grid(e, f));
 }
 
 void blame(PolygonFault& fault, std::int32_t ring, std::int32_t edge, Vec2f place) {
@@ -123,8 +133,8 @@ void blame(PolygonFault& fault, std::int32_t ring, std::int32_t edge, Vec2f plac
     fault.place_m = place;
 }
 
-void blame(Finding& fault, const Edge& e, const Edge& f) {
-    blame(fault, e.ring, e.index, fault.meeting_place(e, f));
+void blame(Finding& fault, const RingsOnGrid& rings, const Edge& e, const Edge& f) {
+    blame(fault, e.ring, e.index, fault.meeting_place(rings, e, f));
     fault.ring_b = f.ring;
     fault.edge_b = f.index;
 }
@@ -166,32 +176,46 @@ Status check_vertices(const PolygonRings& rings, PolygonFault& fault) {
     return Status::ok;
 }
 
-[[gnu::noinline]] Status check_areas(const PolygonRings& rings, Finding& fault) {
+Status check_areas(const RingsOnGrid& rings, Finding& fault) {
     for (std::int32_t ring = 0; ring < rings.count(); ++ring) {
-        const View<Vec2f> vertices = rings[ring];
-        if (absolute(twice_area_in_double(vertices)) >
-            2.0 * kMinRelativeArea * squared_diagonal(vertices)) {
+        if (absolute(twice_area(rings, ring)) >
+            squared_diagonal(rings, ring) >> (-kMinRelativeArea - 1)) {
             continue;
         }
         // The halves of a bow tie cancel; flatness is not what its author has to mend.
         Edge e;
         Edge f;
         if (find_clash(rings, ring, ring, Meeting::crossing, &e, &f)) {
-            blame(fault, e, f);
+            blame(fault, rings, e, f);
             return Status::polygon_crosses_itself;
         }
-        blame(fault, ring, -1, vertices[0]);
+        blame(fault, ring, -1, rings[ring][0]);
         return Status::polygon_zero_area;
     }
     return Status::ok;
 }
 
-Status check_nesting(const PolygonRings& rings, PolygonFault& fault) {
+/// Whether a place is within a ring, either way round: how often a ray from it meets the ring.
+bool surrounds(const RingsOnGrid& rings, std::int32_t ring, GridVertex place) {
+    bool inside = false;
+    Edge edge;
+    for (EdgeWalk walk(rings, ring, ring); walk.next(&edge);) {
+        const bool rises = edge.b.y > edge.a.y;
+        if ((edge.a.y > place.y) != (edge.b.y > place.y) &&
+            (turn(edge.a, edge.b, place) > 0) == rises) {
+            inside = !inside;
+        }
+    }
+    return inside;
+}
+
+Status check_nesting(const RingsOnGrid& rings, PolygonFault& fault) {
     for (std::int32_t hole = 1; hole < rings.count(); ++hole) {
         const Vec2f vertex = rings[hole][0];
         blame(fault, hole, -1, vertex);
         for (std::int32_t other = 0; other < rings.count(); ++other) {
-            if (other != hole && within_ring(rings[other], vertex) != (other == 0)) {
+            if (other != hole &&
+                surrounds(rings, other, rings.place(vertex)) != (other == 0)) {
                 fault.ring_b = other;
                 return Status::polygon_hole_outside;
             }
@@ -201,22 +225,26 @@ Status check_nesting(const PolygonRings& rings, PolygonFault& fault) {
     return Status::ok;
 }
 
-Status check_rings(const PolygonRings& rings, Finding& fault) {
-    Status status = check_sizes(rings, fault);
+Status check_rings(const PolygonRings& given, Finding& fault) {
+    Status status = check_sizes(given, fault);
     if (status == Status::ok) {
-        status = check_vertices(rings, fault);
+        status = check_vertices(given, fault);
     }
-    if (status == Status::ok) {
-        status = check_areas(rings, fault);
+    if (status != Status::ok) {
+        return status;
+    }
+    const RingsOnGrid rings(given);
+    status = check_areas(rings, fault);
+    if (status != Status::ok) {
+        return status;
     }
     Edge e;
     Edge f;
-    if (status == Status::ok &&
-        find_clash(rings, 0, rings.count() - 1, Meeting::touching, &e, &f)) {
-        blame(fault, e, f);
+    if (find_clash(rings, 0, rings.count() - 1, Meeting::touching, &e, &f)) {
+        blame(fault, rings, e, f);
         return e.ring == f.ring ? Status::polygon_crosses_itself : Status::polygon_hole_crosses;
     }
-    return status == Status::ok ? check_nesting(rings, fault) : status;
+    return check_nesting(rings, fault);
 }
 
 }  // namespace

@@ -22,10 +22,10 @@ template <class Real>
 std::int32_t copy_rings(BodyTable<Real>& table, const BodyDef& def, Face<Real> cells_per_m,
                         const Body<Real>& body, std::uint16_t* ends) {
     Vec2<Real>* to = table.local + body.first_vertex;
+    const RingsOnGrid rings({def.polygon, def.holes});
     std::int32_t count = 0;
     for (std::int32_t ring = 0; ring < body.rings; ++ring) {
-        const View<Vec2f> from = ring == 0 ? def.polygon : def.holes[ring - 1];
-        copy_ring(from, ring == 0, [&](Vec2f vertex) {
+        copy_ring(rings, ring, [&](Vec2f vertex) {
             to[count++] = convert<Real>(cells_per_m * convert<Face<Real>>(vertex));
         });
         ends[ring] = static_cast<std::uint16_t>(count);

@@ -106,9 +106,10 @@ void require_pieces(const Input& input) {
     std::vector<weir::Vec2<double>> vertices;
     std::vector<std::uint16_t> ends;
     double whole = 0.0;
-    for (std::size_t k = 0; k < input.views.size(); ++k) {
+    const weir::RingsOnGrid rings({input.outer(), input.holes()});
+    for (std::int32_t k = 0; k < rings.count(); ++k) {
         const std::size_t first = vertices.size();
-        weir::copy_ring(input.views[k], k == 0, [&](Vec2f v) {
+        weir::copy_ring(rings, k, [&](Vec2f v) {
             vertices.push_back(weir::convert<double>(v));
         });
         ends.push_back(static_cast<std::uint16_t>(vertices.size()));

@@ -47,9 +47,11 @@ struct Kept {
 
 Kept keep(const weir::BodyDef& def) {
     Kept kept;
-    for (std::int32_t ring = 0; ring <= def.holes.size; ++ring) {
-        weir::copy_ring(ring == 0 ? def.polygon : def.holes[ring - 1], ring == 0,
-                        [&](weir::Vec2f v) { kept.vertex.push_back(weir::convert<double>(v)); });
+    const weir::RingsOnGrid rings({def.polygon, def.holes});
+    for (std::int32_t ring = 0; ring < rings.count(); ++ring) {
+        weir::copy_ring(rings, ring, [&](weir::Vec2f v) {
+            kept.vertex.push_back(weir::convert<double>(v));
+        });
         kept.ring_end.push_back(static_cast<std::uint16_t>(kept.vertex.size()));
     }
     return kept;

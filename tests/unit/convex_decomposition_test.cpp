@@ -161,7 +161,7 @@ bool acceptable(Ring& ring) {
         return false;
     }
     Ring kept;
-    copy_ring(outline, true, [&](Vec2f v) { kept.push_back(v); });
+    copy_ring(RingsOnGrid({outline, {}}), 0, [&](Vec2f v) { kept.push_back(v); });
     ring = kept;
     return true;
 }

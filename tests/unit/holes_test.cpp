@@ -46,9 +46,10 @@ struct Cut {
 
 Cut cut(const Rings& rings) {
     Cut result;
-    for (std::size_t k = 0; k < rings.size(); ++k) {
-        const View<Vec2f> ring{rings[k].data(), static_cast<std::int32_t>(rings[k].size())};
-        copy_ring(ring, k == 0, [&](Vec2f v) { result.vertex.push_back(convert<double>(v)); });
+    const Holed holed(rings);
+    const RingsOnGrid on_grid({holed.outer(), holed.holes()});
+    for (std::int32_t k = 0; k < on_grid.count(); ++k) {
+        copy_ring(on_grid, k, [&](Vec2f v) { result.vertex.push_back(convert<double>(v)); });
         result.ring_end.push_back(static_cast<std::uint16_t>(result.vertex.size()));
     }
     const Outline<double> outline{result.vertex.data(),
