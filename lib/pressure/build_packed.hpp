@@ -3,6 +3,7 @@
 
 #include "pressure/leap_packed.hpp"
 #include "pressure/relax_packed.hpp"
+#include "solid/moving_walls.hpp"
 
 namespace weir {
 
@@ -55,9 +56,9 @@ template <bool Solids, class Weights, class Fields>
     }
     const bool wide = !Solids || untouched(walls, c, up);
     std::int32_t flow = rounded_shift(outwards, 7);
-    if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
+    if (Solids && walls.moving != nullptr && (!wide || touches_wall(walls, c))) {
         constexpr std::int32_t kMost = 0x7FFFFE00;  // a fast spin's end saturates
-        flow += rounded_shift(minimum(wall_flow(s, walls, i, j).raw, kMost), 9);
+        flow += rounded_shift(minimum(walls.moving->flow(s, walls, i, j).raw, kMost), 9);
     }
     fields.divergence[c].raw = short_of(flow);
     fields.inverse_diagonal[c].raw = short_of(wide ? diagonal : -diagonal);
@@ -102,7 +103,7 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
     const bool wraps = weights.borders.wrap_x;
     const auto open = [&](std::int32_t c) {
         return !Solids || (untouched(walls, c, c + stride) &&
-                           !(walls.moving && touches_wall(walls, c)));
+                           !(walls.moving != nullptr && touches_wall(walls, c)));
     };
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const std::int32_t across = (weights.has_lower(j) ? kLower : 0) |

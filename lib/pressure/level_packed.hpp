@@ -4,6 +4,7 @@
 #include "math/quotient_packed.hpp"
 #include "pressure/domain.hpp"
 #include "pressure/slivers.hpp"
+#include "solid/moving_walls.hpp"
 
 namespace weir {
 
@@ -145,7 +146,8 @@ inline void packed_density(const Domain<SmallFixed>& domain, const CutDensity<Sm
     face(j > 0 || borders.wrap_y, open_v, c, c - s.stride);
     face(j + 1 < s.ny || borders.wrap_y, open_v, c + s.stride, c + s.stride);
     return open > 0 && (5 * covered >= 4 * open ||
-                        (5 * covered >= 3 * open && is_shifting(walls, c, c + s.stride)));
+                        (5 * covered >= 3 * open && walls.moving != nullptr &&
+                         walls.moving->shifts(walls, c, c + s.stride)));
 }
 
 /// Most air cells are far from any liquid.

@@ -34,11 +34,11 @@ inline bool are_untouched(const Walls<float>& walls, std::int32_t stride, std::i
     const auto least =
         L::minimum(L::minimum(L::load(walls.open_u + c), L::load(walls.open_u + c + 1)),
                    L::minimum(L::load(walls.open_v + c), L::load(walls.open_v + c + stride)));
-    if (!L::all_true(least == L::all(1.0F)) || (walls.moving && walls.thin != nullptr)) {
+    if (!L::all_true(least == L::all(1.0F)) || (walls.moving != nullptr && walls.thin != nullptr)) {
         return false;
     }
     std::uint32_t cases = 0;
-    for (std::int32_t k = 0; walls.moving && k < L::kLanes; k += 4) {
+    for (std::int32_t k = 0; walls.moving != nullptr && k < L::kLanes; k += 4) {
         std::uint32_t four = 0;
         __builtin_memcpy(&four, walls.cell_case + c + k, sizeof four);
         cases |= four;

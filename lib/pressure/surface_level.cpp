@@ -131,16 +131,16 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
     return open > Real(0) &&
            (covered >= kFilledShare<Real> * open ||
             (covered >= kFilledShareOfShifting<Real> * open &&
-             is_shifting(walls, c, c + s.stride)));
+             walls.moving != nullptr && walls.moving->shifts(walls, c, c + s.stride)));
 }
 
 #if WEIR_HAS_LANES
 /// As DimpleTask::shifting.
 inline std::uint32_t shifting_of(const DimpleTask& task, std::int32_t c, std::uint32_t asked) {
     std::uint32_t found = 0;
-    for (; asked != 0; asked &= asked - 1U) {
+    for (; task.walls.moving != nullptr && asked != 0; asked &= asked - 1U) {
         const std::int32_t k = __builtin_ctz(asked);
-        if (is_shifting(task.walls, c + k, c + k + task.stride)) {
+        if (task.walls.moving->shifts(task.walls, c + k, c + k + task.stride)) {
             found |= 1U << static_cast<std::uint32_t>(k);
         }
     }

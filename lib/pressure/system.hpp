@@ -7,6 +7,7 @@
 #include "pressure/projection.hpp"
 #include "pressure/relax_packed.hpp"
 #include "pressure/system_lanes.hpp"
+#include "solid/moving_walls.hpp"
 
 namespace weir {
 
@@ -61,8 +62,8 @@ template <bool Solids, bool Mixed, class Real>
     if (wide && goes_straight(fields, s, weights.borders, i, j)) {
         divergence += wanted_convergence(weights.grid, c, leap);
     }
-    if (Solids && walls.moving && (!wide || touches_wall(walls, c))) {
-        divergence += wall_flow(s, walls, i, j);
+    if (Solids && walls.moving != nullptr && (!wide || touches_wall(walls, c))) {
+        divergence += walls.moving->flow(s, walls, i, j);
     }
     if (fields.on_surface) {
         const std::int32_t up = c + s.stride;
@@ -158,7 +159,7 @@ void build_cells(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i
         const bool plain = static_cast<std::uint32_t>(i - first_inside) < inside && wet(-1) &&
                            wet(1) && wet(-up) && wet(up) &&
                            (!Solids || (untouched(walls, c, c + up) &&
-                                        !(walls.moving && touches_wall(walls, c))));
+                                        !(walls.moving != nullptr && touches_wall(walls, c))));
         const Equation<Real> equation = plain ? plain_equation(weights.grid, c, leap, fields)
                                               : any_equation(weights, i, j, leap, fields);
         if (!(equation.diagonal > Real(0))) {
@@ -189,7 +190,8 @@ inline void add_wall_flow(const RowTask& task, std::int32_t c, std::uint32_t ask
     for (; asked != 0; asked &= asked - 1U) {
         const std::int32_t k = __builtin_ctz(asked);
         if ((wide >> static_cast<std::uint32_t>(k) & 1U) == 0 || touches_wall(walls, c + k)) {
-            divergence[k] += wall_flow(s, walls, c + k - s.index(0, task.j), task.j);
+            divergence[k] +=
+                walls.moving->flow(s, walls, c + k - s.index(0, task.j), task.j);
         }
     }
 }
@@ -276,7 +278,7 @@ Solve<Real> build_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
                      weights.has_lower(j), weights.has_upper(j), seam ? -1 : s.index(0, j),
                      seam ? kMostWork : s.index(s.nx - 1, j), j, nullptr};
         if constexpr (Solids) {
-            task.add_flow = weights.walls.moving ? add_wall_flow : nullptr;
+            task.add_flow = weights.walls.moving != nullptr ? add_wall_flow : nullptr;
         }
         i = build_in_lanes(task, columns, one_by_one);
         note_liquid(task.any, j, system);

@@ -4,6 +4,7 @@
 #include "math/lanes.hpp"
 #include "solid/body_force.hpp"
 #include "solid/collide.hpp"
+#include "solid/moving_walls.hpp"
 #include "solid/reflect.hpp"
 
 namespace weir {
@@ -20,14 +21,6 @@ struct Scene {
     bool beyond;  ///< where no picture is stored, and a search for a way out would draw a thousand
     const BodyTable<Real>* bodies;
 };
-
-/// Where a place of the liquid would be if it had moved with the body in this substep.
-template <class Real>
-Vec2<Real> carried(const Scene<Real>& scene, const Body<Real>& body, Vec2<Real> x) {
-    return scene.walls.moving && body.kind == BodyKind::moving
-               ? x + scene.dt_s * velocity_at(body, x)
-               : x;
-}
 
 /// Gives the particle its velocity after a blow of a body at `x`, and the body its due.
 template <class Real>
@@ -58,7 +51,8 @@ template <class Real>
 [[gnu::noinline]] void answer(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
                               Vec2<Real> x, Vec2<Real> normal) {
     const Body<Real>& body = scene.walls.body[slot];
-    const Vec2<Real> surface = surface_velocity(body.surface, velocity_at(body, x), normal);
+    const Vec2<Real> surface =
+        surface_velocity(body.surface, velocity_at(scene.walls, slot, x), normal);
     const Vec2<Real> before = scene.particles.velocity[k];
     blow(scene, k, slot, x, reflect(body.surface, surface, before, normal));
 }

@@ -54,7 +54,7 @@ bool is_pressed(const CoupledSolve<Real>& solve, std::int32_t cell) {
 /// Calls visit(slot, box) for the rectangle of each free body.
 template <class Real, class Visit>
 void for_each_box(const CoupledSolve<Real>& solve, Visit visit) {
-    for (std::int32_t slot = 0; slot < solve.walls.bodies; ++slot) {
+    for (std::int32_t slot = 0; slot < solve.obstacles.bodies.capacity; ++slot) {
         if (solve.walls.load[slot].is_free()) {
             visit(static_cast<std::uint16_t>(slot),
                   cells_of(solve.shape, solve.walls.body[slot].drawn));

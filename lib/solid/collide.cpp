@@ -20,7 +20,7 @@ template <class Real>
 [[gnu::noinline, gnu::cold]] void stop_if_blocked(Scene<Real>& scene, std::int32_t k,
                                                   std::uint16_t slot, Vec2<Real> place,
                                                   bool wedged) {
-    const Vec2<Real> wall = velocity_at(scene.walls.body[slot], place);
+    const Vec2<Real> wall = velocity_at(scene.walls, slot, place);
     const Vec2<Real> relative = Vec2<Real>(scene.particles.velocity[k]) - wall;
     const Real speed = length(relative);
     if (!(speed > Real(0))) {
@@ -75,16 +75,17 @@ template <class Real>
 [[gnu::noinline, gnu::cold]] bool lead_out(Scene<Real>& scene, std::int32_t k, std::uint16_t slot,
                                            Vec2<Real> before) {
     const Body<Real>& body = scene.walls.body[slot];
-    const Vec2<Real> seen = carried(scene, body, before);
+    const MovingWalls<Real>* moving = scene.walls.moving;
+    const Vec2<Real> seen = moving != nullptr ? moving->carried(scene, body, before) : before;
     const Vec2<Real> from = within_tank(scene.shape, seen);
     if (scene.beyond) {  // it goes along until there is a picture, or the body is gone
         scene.particles.position[k] = from;
-        blow(scene, k, slot, from, Vec2<Real>(velocity_at(body, from)));
+        blow(scene, k, slot, from, velocity_at(scene.walls, slot, from));
         ++scene.result.stuck;
         return true;
     }
     bool pressed = !in_tank(scene.shape, seen);
-    if (scene.walls.moving && body.kind == BodyKind::moving && !pressed) {
+    if (moving != nullptr && body.kind == BodyKind::moving && !pressed) {
         const Standing<Real> at = standing(scene.shape, scene.walls, from);
         pressed = at.inside && at.slot != slot;
     }
@@ -99,7 +100,7 @@ template <class Real>
     ++scene.result.reflected;
     if (distance > kFastestWayOut<Real>) {
         scene.particles.position[k] = from + kFastestWayOut<Real> * normal;
-        blow(scene, k, slot, from, Vec2<Real>(velocity_at(body, from)));
+        blow(scene, k, slot, from, velocity_at(scene.walls, slot, from));
         ++scene.result.stuck;
     } else {
         const Vec2<Real> further =
@@ -115,8 +116,8 @@ template <class Real>
 template <class Real>
 [[gnu::noinline, gnu::cold]] bool came_through(const Scene<Real>& scene, Vec2<Real> before,
                                                Vec2<Real> x, Went went, std::uint16_t& slot) {
-    if (scene.walls.moving) {
-        slot = body_on_way(scene, before, x);
+    if (scene.walls.moving != nullptr) {
+        slot = scene.walls.moving->body_on_way(scene, before, x);
     }
     if (went == Went::far) {
         return true;

@@ -158,7 +158,7 @@ struct Before {
             return {n, went(from, to)};
         }
         if (goes_further(from, to)) {
-            const Went how = went_through(at, walls.moving, from, to);
+            const Went how = went_through(at, walls.moving != nullptr, from, to);
             if (how != Went::near) {
                 return {n, how};
             }

@@ -1,7 +1,8 @@
 // A particle behind the line of its cell is set back to it, if that is the side that it came from.
 #pragma once
 
-#include "solid/own_side.hpp"
+#include "solid/blow.hpp"
+#include "solid/slide.hpp"
 
 namespace weir {
 
@@ -26,6 +27,18 @@ inline constexpr Real kOtherSide = Real(0.0625);
 /// it goes in, or begins so behind that where it comes out, cells. Less cuts a corner.
 template <class Real>
 inline constexpr Real kThrough = Real(0.25);
+
+/// Where a particle would be if it had moved with a body. Of those that stand still the picture
+/// does not change.
+template <class Real>
+Vec2<Real> origin(const Scene<Real>& scene, std::uint16_t slot, Vec2<Real> before) {
+    if (slot == kNoBody || scene.walls.moving == nullptr) {
+        return before;
+    }
+    const Body<Real>& body = scene.walls.body[slot];
+    return body.kind == BodyKind::moving ? scene.walls.moving->origin(scene, body, before)
+                                         : before;
+}
 
 /// Blows that are to be answered once it is clear that the particle can stay where they put it.
 template <class Real>

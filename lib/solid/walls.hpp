@@ -33,6 +33,8 @@ inline constexpr Real kBoundLayer = Real(0.5);
 
 template <class Real>
 class PictureBeyond;
+template <class Real>
+struct MovingWalls;
 
 /// What is stored of the tank: all of it, or a part (step/window.hpp). Elsewhere the picture of the
 /// solids is drawn for whoever asks (solid/picture_beyond.hpp).
@@ -49,11 +51,10 @@ struct StoredPart<Real, false> {};
 template <class Real>
 struct Walls {
     bool active = false;  ///< there are bodies; within a substep: and one is near the liquid
-    bool moving = false;                ///< a body has a velocity or a spin
     bool binary = false;                ///< Contour::mid_edge
     bool sticking = false;              ///< the liquid is viscous, and a body without slip
-    std::int16_t bodies = 0;            ///< slots
     bool any_sticking = false;          ///< to a body without slip, if the liquid is viscous
+    const MovingWalls<Real>* moving = nullptr;  ///< null: no body has a velocity or a spin
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
     SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes (`nearest_at`)
     std::uint8_t* cell_case = nullptr;  ///< marching squares case of the cell
@@ -179,14 +180,6 @@ inline std::uint16_t nearest_body(const Walls<Real>& walls, std::int32_t a, std:
     return nearest_at(walls, walls.distance[a] < walls.distance[b] ? a : b);
 }
 
-/// Velocity of the nearest wall at a point between two nodes; 0 where no body is near.
-template <class Real>
-inline Vec2<Real> wall_velocity(const Walls<Real>& walls, std::int32_t a, std::int32_t b,
-                                Vec2<Real> point) {
-    const std::uint16_t slot = nearest_body(walls, a, b);
-    return slot == kNoBody ? Vec2<Real>{} : velocity_at(walls.body[slot], point);
-}
-
 /// Slot of the nearest body if viscous liquid sticks to it, or kNoBody.
 template <class Real>
 inline std::uint16_t sticking_body(const Walls<Real>& walls, std::int32_t a, std::int32_t b) {
@@ -208,25 +201,6 @@ inline bool untouched(const Walls<Real>& walls, std::int32_t cell, std::int32_t 
     const auto wide = [](Real open) { return bound_key(open) == bound_key(Real(1)); };
     return wide(walls.open_u[cell]) && wide(walls.open_u[cell + 1]) && wide(walls.open_v[cell]) &&
            wide(walls.open_v[up]);
-}
-
-/// What moving walls push into the cell (i, j) through the closed parts of its faces, counted
-/// outwards, cells/s: added to the divergence (Batty, Bertails & Bridson 2007).
-template <class Real>
-Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i, std::int32_t j);
-
-/// Whether a contour is in a cell that does not stand still: its body moves.
-template <class Real>
-[[gnu::noinline]] inline bool is_shifting(const Walls<Real>& walls, std::int32_t cell,
-                                          std::int32_t up) {
-    if (!walls.active || walls.cell_case[cell] == 0) {
-        return false;
-    }
-    const auto shifts = [&](std::int32_t node) {
-        const std::uint16_t slot = nearest_at(walls, node);
-        return slot != kNoBody && walls.body[slot].has_speed();
-    };
-    return shifts(cell) || shifts(cell + 1) || shifts(up) || shifts(up + 1);
 }
 
 }  // namespace weir

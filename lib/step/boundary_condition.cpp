@@ -249,7 +249,7 @@ struct BothMirrors {
                 walls.open_v,
                 fields.density,
                 walls.thin != nullptr,
-                walls.moving ? &walls : nullptr};
+                walls.moving != nullptr ? &walls : nullptr};
     }
 
     /// Eight cells of a row from i on of which some are marked.

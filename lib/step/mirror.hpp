@@ -4,6 +4,7 @@
 #include "fluid/particles.hpp"
 #include "pressure/parting.hpp"
 #include "solid/face_axis.hpp"
+#include "solid/moving_walls.hpp"
 
 namespace weir {
 
@@ -72,7 +73,8 @@ void mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& e
     mirror.face = edge.a;
     mirror.is_u = edge.b - edge.a != 1;
     mirror.normal = normal;
-    mirror.wall = walls.moving ? wall_velocity(walls, edge.a, edge.b, face) : Vec2<Real>{};
+    mirror.wall = walls.moving != nullptr ? walls.moving->velocity(walls, edge.a, edge.b, face)
+                                         : Vec2<Real>{};
     const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
     mirror.sticks = slot != kNoBody;
     if (mirror.sticks) {

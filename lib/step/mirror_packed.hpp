@@ -190,13 +190,13 @@ inline bool mirror_of(const FaceAxis<Real>& axis, const TwoFields<Real>& both,
     mirror.normal = normal;
     mirror.sticks = slot != kNoBody;
     mirror.wall = {};
-    if (walls.moving || mirror.sticks) {
+    if (walls.moving != nullptr || mirror.sticks) {
         const auto real = [](std::int32_t place) { return Real::of_raw(256 * place); };
         const Vec2<Real> centre{real(from.centre.x), real(from.centre.y)};
         const Vec2<Real> n = as_real(normal);
         const Vec2<Real> wall =
             mirror.sticks ? axis.wall(slot, centre - Real::of_raw(128 * distance) * n, n)
-                          : wall_velocity(walls, face, other, centre);
+                          : walls.moving->velocity(walls, face, other, centre);
         constexpr std::int32_t kMost = 0x7FFFFF00;  // a fast spin's end saturates
         mirror.wall = {rounded_shift(clamp(wall.x.raw, -kMost, kMost), 8),
                        rounded_shift(clamp(wall.y.raw, -kMost, kMost), 8)};

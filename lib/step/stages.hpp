@@ -3,6 +3,7 @@
 
 #include "solid/collide.hpp"
 #include "solid/layers.hpp"
+#include "solid/moving_walls.hpp"
 #include "step/rest_on_solids.hpp"
 #include "step/substep.hpp"
 
@@ -19,20 +20,21 @@ const Stages<Real>& stages_around() {
         constexpr decltype(Stages<Real>::draw_moved) kDrawn = kNothing;
         constexpr decltype(Stages<Real>::most_moved) kMost = kNothing;
         static constexpr Stages<Real> kStages{Substep,
+                                              kMoving ? move_bodies<Real> : nullptr,
                                               inside_solid<Real>,
                                               kMoving ? merge_moving<Real> : kDrawn,
                                               kMoving ? most_nodes<Real> : kMost,
                                               draw_stored<Real>,
                                               empty_lone_slivers<Real>,
-                                              end_leads<Real>,
+                                              kMoving ? end_leads<Real> : nullptr,
                                               rest_on_solids<Real>};
         return kStages;
     } else {
         constexpr auto kNowhere = [](const GridShape&, const Walls<Real>&, Vec2<Real>) {
             return false;
         };
-        static constexpr Stages<Real> kStages{Substep, kNowhere, kNothing, kNothing, kNothing,
-                                              nullptr, nullptr,  nullptr};
+        static constexpr Stages<Real> kStages{Substep,  nullptr,  kNowhere, kNothing, kNothing,
+                                              kNothing, nullptr,  nullptr,  nullptr};
         return kStages;
     }
 }

@@ -30,31 +30,6 @@ namespace weir {
 
 namespace {
 
-/// Moving bodies go where their velocities take them, or stay for no time.
-template <class Real>
-void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s) {
-    const bool held = !(dt_s > Seconds<Real>{});
-    walls.moving = false;
-    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
-        Body<Real>& body = table.body[slot];
-        body.leapt = false;
-        if (body.kind != BodyKind::moving ||
-            (table.load != nullptr && table.load[slot].is_free())) {
-            continue;
-        }
-        if (body.has_speed()) {
-            walls.moving = true;
-            if (held) {
-                continue;
-            }
-            body.position = body.position + dt_s * body.velocity;
-            body.angle = wrapped_angle(body.angle + dt_s * body.spin);
-            body.moved = true;
-            place(table, body);
-        }
-    }
-}
-
 template <bool Solids, class Real>
 void solve_pressure(Simulation<Real>& simulation, const Domain<Real>& domain,
                     const SubstepPlan<Real>& plan, Work work) {
@@ -270,7 +245,9 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         simulation.walls_behind_s = Seconds<Real>{};
         Walls<Real>& walls = simulation.layers.walls;
         walls.sticking = plan.viscosity > Real(0) && walls.any_sticking;
-        move_bodies(simulation.bodies, walls, moved_s);
+        if (simulation.stages->move_bodies != nullptr) {
+            simulation.stages->move_bodies(simulation.bodies, walls, moved_s);
+        }
     }
     if (work.once(simulation.bodies.capacity)) {
         const std::int32_t nodes =

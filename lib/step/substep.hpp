@@ -14,6 +14,8 @@ struct Stages {
     /// ticks to the report.
     void (*substep)(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work,
                     StepReport& report);
+    /// Null: none can.
+    void (*move_bodies)(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s);
     bool (*inside_solid)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point);
     /// Draws the bodies that were put elsewhere since the last step: somebody looks at them.
     std::int32_t (*draw_moved)(Layers<Real>& layers, BodyTable<Real>& table);
@@ -22,7 +24,7 @@ struct Stages {
     /// Draws all bodies: another part of the tank is stored.
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
     EmptySlivers<Real> empty_slivers;
-    /// At the end of a step, if there are bodies; so is the next.
+    /// At the end of a step, if bodies can move; the next one if there are any.
     void (*end_leads)(BodyTable<Real>& table);
     bool (*rest_on_solids)(const Simulation<Real>& simulation, Real speed, std::uint32_t& looks);
 };

@@ -3,6 +3,7 @@
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/moments.hpp"
 #include "pressure/make_room.hpp"
+#include "solid/moving_walls.hpp"
 #include "step/momentum_ledger.hpp"
 
 namespace weir {
@@ -71,7 +72,7 @@ void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, Work wo
     if (work.once(simulation.bodies.capacity)) {
         locate_bodies(simulation.bodies);
         if (free_bodies != nullptr) {
-            simulation.layers.walls.moving = true;
+            simulation.layers.walls.moving = &moving_walls<Real>();
             work.spend(free_bodies->accelerate(obstacles_of(simulation, dt_s),
                                                simulation.bodies));
         }

@@ -77,7 +77,6 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
         layers.walls.stored.bodies = is_windowed(capacity) ? &bodies : nullptr;
     }
     layers.walls.body = bodies.body;
-    layers.walls.bodies = static_cast<std::int16_t>(capacity.bodies);
     if (kHasThinWalls<Real> && capacity.bodies > 0 && capacity.wall_edges > 0) {
         ThinWalls<Real>& thin = layers.thin;
         carver.take(Block::wall_edge, thin.edge);
