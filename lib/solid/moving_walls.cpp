@@ -31,9 +31,9 @@ Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
                                      low - 1, low, true);
         }
         const Real closed = Real(1) - walls.open_u[low];
-        return closed > Real(0)
-                   ? closed * velocity_of_nearest(walls, low, high, Vec2<Real>{x, corner.y + kHalf}).x
-                   : Real(0);
+        const Vec2<Real> middle{x, corner.y + kHalf};
+        return closed > Real(0) ? closed * velocity_of_nearest(walls, low, high, middle).x
+                                : Real(0);
     };
     const auto closed_v = [&](std::int32_t left, std::int32_t right, Real y) {
         if (thin(left, kLowerClosed)) {
@@ -41,9 +41,9 @@ Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
                                      left - shape.stride, left, false);
         }
         const Real closed = Real(1) - walls.open_v[left];
-        return closed > Real(0)
-                   ? closed * velocity_of_nearest(walls, left, right, Vec2<Real>{corner.x + kHalf, y}).y
-                   : Real(0);
+        const Vec2<Real> middle{corner.x + kHalf, y};
+        return closed > Real(0) ? closed * velocity_of_nearest(walls, left, right, middle).y
+                                : Real(0);
     };
     return (closed_u(node + 1, up + 1, corner.x + Real(1)) - closed_u(node, up, corner.x)) +
            (closed_v(up, up + 1, corner.y + Real(1)) - closed_v(node, node + 1, corner.y));

@@ -137,8 +137,11 @@ TEST(CheckPolygon, CrossesOrTouchesItself) {
 }
 
 TEST(CheckPolygon, TellsATouchFromTheNextFloat) {
+    // Of 4 a step of the grid is 8 / 2^29; the next float above 0 is no step from it.
+    EXPECT_EQ(check({{0, 0}, {4, 0}, {4, 4}, {2, 2e-8F}, {0, 4}}), Status::ok);
     const float above = std::nextafter(0.0F, 1.0F);
-    EXPECT_EQ(check({{0, 0}, {4, 0}, {4, 4}, {2, above}, {0, 4}}), Status::ok);
+    EXPECT_EQ(check({{0, 0}, {4, 0}, {4, 4}, {2, above}, {0, 4}}),
+              Status::polygon_crosses_itself);
     const float beside = std::nextafter(3.0F, 0.0F);
     EXPECT_EQ(check({{0, 0}, {4, 0}, {4, 4}, {1, 3}, {beside, beside}, {0, 4}}),
               Status::polygon_crosses_itself);
@@ -169,8 +172,10 @@ TEST(CheckPolygon, EveryFiniteFloatGetsAnAnswer) {
     const float big = std::numeric_limits<float>::max();
     EXPECT_EQ(check({{-big, -big}, {big, -big}, {big, big}, {-big, big}}), Status::ok);
     EXPECT_EQ(check({{-big, big}, {big, big}, {big, -big}, {-big, -big}}), Status::ok);
+    const float small = 1e-30F;
+    EXPECT_EQ(check({{0, 0}, {small, 0}, {small, small}, {0, small}}), Status::ok);
     const float tiny = std::numeric_limits<float>::denorm_min();
-    EXPECT_EQ(check({{0, 0}, {tiny, 0}, {tiny, tiny}, {0, tiny}}), Status::ok);
+    EXPECT_EQ(check({{0, 0}, {tiny, 0}, {tiny, tiny}, {0, tiny}}), Status::polygon_zero_area);
     EXPECT_EQ(check({{0, 0}, {1e30F, 0}, {1e30F, 1e30F}, {-1e30F, 1e30F}}), Status::ok);
     EXPECT_EQ(check({{0, 0}, {big, tiny}, {-big, tiny}}), Status::polygon_zero_area);
     std::mt19937 random(7);

@@ -26,6 +26,8 @@ struct PolygonFault {
 /// bounding box); polygon_crosses_itself (also touches itself, or goes back over its own edge),
 /// polygon_hole_crosses (two rings cross or touch), polygon_hole_outside (of the outer ring, or in
 /// another hole). Rings may turn either way and have repeated vertices and straight corners.
+/// Looked at on a grid on which the furthest coordinate is 2^28 … 2^29 steps, finer than floats of
+/// its size: vertices that are no step apart are one, and none is known below 1e-36 m.
 /// Cost for n edges: of the order of n^1.5 box tests, n² if most edges are as long as the polygon;
 /// holes × n for holes.
 /// @param fault may be null.
