@@ -20,7 +20,8 @@ template <class Real>
 inline Real wrapped_angle(Real angle_rad) {
     constexpr Real kTurn = Real(6.283185307179586477);
     if (angle_rad > kTurn || angle_rad < -kTurn) {
-        return angle_rad - kTurn * static_cast<Real>(floor_to_int(angle_rad / kTurn));
+        // Not a difference: where floats are added by a function, that is another one.
+        return angle_rad + kTurn * static_cast<Real>(-floor_to_int(angle_rad / kTurn));
     }
     return angle_rad;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "math/lanes.hpp"
-#include "solid/body_force.hpp"
 #include "solid/collide.hpp"
 #include "solid/moving_walls.hpp"
 #include "solid/reflect.hpp"
@@ -35,11 +34,7 @@ void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
     particles.velocity[k] = after;
     const Liquid kind = particles.kind != nullptr ? particles.kind[k] : Liquid::first;
     if (scene.contacts.blows != nullptr) {
-        scene.contacts.blows->record(scene.contacts, scene.walls.body[slot], slot, kind, x,
-                                     before - after);
-    }
-    if (scene.walls.load != nullptr) {
-        receive_blow(scene.walls, slot, kind, x, before - after);
+        scene.contacts.blows->record(scene.contacts, scene.walls, slot, kind, x, before - after);
     }
     const Vec2<Real> kept = particles.velocity[k];  // as it is stored
     scene.result.max_speed =

@@ -1,5 +1,7 @@
 #include "solid/contacts.hpp"
 
+#include "solid/body_force.hpp"
+
 namespace weir {
 
 namespace {
@@ -51,9 +53,11 @@ void record(Contacts<Real>& contacts, const Contact& met) {
     entry.place_m = entry.place_m + met.place_m;
 }
 
+namespace {
+
 template <class Real>
-void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
-                 Liquid kind, Vec2<Real> place, Vec2<Real> lost) {
+void record_contact(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
+                    Liquid kind, Vec2<Real> place, Vec2<Real> lost) {
     const float mass = kind == Liquid::second ? contacts.second_density * contacts.particle_m2
                                               : contacts.particle_m2;
     Contact met;
@@ -71,18 +75,31 @@ void finish(Contacts<Real>& contacts) {
     }
 }
 
-template <class Real>
+template <bool Told, bool Felt, class Real>
+void record_blow(Contacts<Real>& contacts, const Walls<Real>& walls, std::uint16_t slot,
+                 Liquid kind, Vec2<Real> place, Vec2<Real> lost) {
+    if constexpr (Told) {
+        record_contact(contacts, walls.body[slot], slot, kind, place, lost);
+    }
+    if constexpr (Felt) {
+        receive_blow(walls, slot, kind, place, lost);
+    }
+}
+
+}  // namespace
+
+template <bool Told, bool Felt, class Real>
 const detail::Blows<Real>& detail::blows() {
-    static constexpr Blows<Real> kBlows{record_blow<Real>};
+    static constexpr Blows<Real> kBlows{record_blow<Told, Felt, Real>,
+                                        Told ? finish<Real> : nullptr};
     return kBlows;
 }
 
-#define WEIR_INSTANTIATE(Real)                                                           \
-    template const detail::Blows<Real>& detail::blows();                                 \
-    template void record(Contacts<Real>&, const Contact&);                               \
-    template void record_blow(Contacts<Real>&, const Body<Real>&, std::uint16_t, Liquid, \
-                              Vec2<Real>, Vec2<Real>);                                   \
-    template void finish(Contacts<Real>&);
+#define WEIR_INSTANTIATE(Real)                                        \
+    template const detail::Blows<Real>& detail::blows<true, true>();  \
+    template const detail::Blows<Real>& detail::blows<true, false>(); \
+    template const detail::Blows<Real>& detail::blows<false, true>(); \
+    template void record(Contacts<Real>&, const Contact&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -11,22 +11,21 @@ namespace weir {
 template <class Real>
 struct Contacts;
 
-/// A blow of a particle: the velocity that one of a liquid lost at a place, in cells and units of
-/// time.
-template <class Real>
-void record_blow(Contacts<Real>& contacts, const Body<Real>& body, std::uint16_t slot,
-                 Liquid kind, Vec2<Real> place, Vec2<Real> lost);
-
-/// By itself: linked where there is room for contacts.
+/// By itself: linked where blows count.
 template <class Real>
 struct detail::Blows {
-    decltype(&record_blow<Real>) record;
+    /// A blow of a particle: the velocity that one of a liquid lost at a place, in cells and units
+    /// of time.
+    void (*record)(Contacts<Real>& contacts, const Walls<Real>& walls, std::uint16_t slot,
+                   Liquid kind, Vec2<Real> place, Vec2<Real> lost);
+    /// Sums of places become means, once the step is over. Null: there is no room for contacts.
+    void (*finish)(Contacts<Real>& contacts);
 };
 
 /// Without room (`capacity` 0) nothing is recorded and nothing is looked at.
 template <class Real>
 struct Contacts {
-    const detail::Blows<Real>* blows = nullptr;  ///< null: there is no room
+    const detail::Blows<Real>* blows = nullptr;  ///< null: nobody wants to know
     Contact* entry = nullptr;
     std::uint16_t capacity = 0;
     std::uint16_t used = 0;
@@ -51,9 +50,5 @@ void clear(Contacts<Real>& contacts) {
 /// Cost: a search among the step's entries, from the last one that was hit.
 template <class Real>
 void record(Contacts<Real>& contacts, const Contact& met);
-
-/// Sums of places become means, once the step is over.
-template <class Real>
-void finish(Contacts<Real>& contacts);
 
 }  // namespace weir

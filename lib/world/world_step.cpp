@@ -108,7 +108,9 @@ void end(detail::WorldState<Real>& state) {
         simulation.walls_behind_s = static_cast<Seconds<Real>>(report.dt_s * units_per_s(state));
     }
     const bool moved = report.dt_s > 0.0F && !report.walls_held;
-    finish(simulation.contacts);
+    if (simulation.contacts.capacity > 0) {
+        simulation.contacts.blows->finish(simulation.contacts);
+    }
     report.contacts_missed = simulation.contacts.missed;
     if (report.particles_slowed > 0) {
         mark(report, Clamped::speed);

@@ -40,7 +40,8 @@ struct TwoWay;
 template <class Real>
 struct Viscosity;
 
-template <class Real>
+/// `Told`: there is room for contacts; `Felt`: bodies are told what liquid does to them.
+template <bool Told, bool Felt, class Real>
 const Blows<Real>& blows();
 template <class Real>
 const Elasticity<Real>& elasticity();
@@ -84,7 +85,9 @@ template <class Real>
                       : moving ? &plain_stages<Bodies::moving, Real>()
                                : &plain_stages<Bodies::still, Real>();
     if (room.contacts > 0) {
-        features.blows = &blows<Real>();
+        features.blows = room.two_way ? &blows<true, true, Real>() : &blows<true, false, Real>();
+    } else if (room.two_way) {
+        features.blows = &blows<false, true, Real>();
     }
     if (room.bodies > 1) {
         features.touching = &touching<Real>();
