@@ -60,4 +60,14 @@ struct FaceAxis {
     }
 };
 
+/// What is asked of walls only where viscous liquid sticks to them: linked with viscosity.
+template <class Real>
+struct StickingWalls {
+    /// Slot of the nearest body to a face if liquid sticks to it, or kNoBody.
+    std::uint16_t (*body)(const FaceAxis<Real>& axis, std::int32_t face);
+    /// Velocity of its surface at a place with the normal n.
+    Vec2<Real> (*velocity)(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real> place,
+                           Vec2<Real> n);
+};
+
 }  // namespace weir

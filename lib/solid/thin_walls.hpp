@@ -2,6 +2,7 @@
 // spikes. Their edges are kept cell by cell, so that whoever stands near one finds it.
 #pragma once
 
+#include "base/never.hpp"
 #include "solid/body_table.hpp"
 #include "grid/staggered_grid.hpp"
 
@@ -175,21 +176,11 @@ void close_thin_faces(const GridShape& shape, const NodeBox& nodes, ThinWalls<Re
                       ShareOf<Real>* open_u, ShareOf<Real>* open_v,
                       ShareOf<Real>* full_density);
 
-/// In place of a pointer to thin walls where there never are any: what asks for them is left out.
-template <class Real>
-struct NoThinWalls {
-    constexpr NoThinWalls() = default;
-    constexpr NoThinWalls(const ThinWalls<Real>*) {}  // NOLINT
-    constexpr operator const ThinWalls<Real>*() const { return nullptr; }  // NOLINT
-    constexpr const ThinWalls<Real>& operator*() const {
-        return *static_cast<const ThinWalls<Real>*>(*this);
-    }
-    constexpr const ThinWalls<Real>* operator->() const { return nullptr; }
-};
 template <class Real>
 inline constexpr bool kHasThinWalls = !Stored<Real>::coarse;
 template <class Real>
 using ThinWallsPointer =
-    std::conditional_t<kHasThinWalls<Real>, const ThinWalls<Real>*, NoThinWalls<Real>>;
+    std::conditional_t<kHasThinWalls<Real>, const ThinWalls<Real>*,
+                       Never<const ThinWalls<Real>>>;
 
 }  // namespace weir

@@ -35,6 +35,8 @@ template <class Real>
 class PictureBeyond;
 template <class Real>
 struct MovingWalls;
+template <class Real>
+struct StickingWalls;
 
 /// What is stored of the tank: all of it, or a part (step/window.hpp). Elsewhere the picture of the
 /// solids is drawn for whoever asks (solid/picture_beyond.hpp).
@@ -52,8 +54,9 @@ template <class Real>
 struct Walls {
     bool active = false;  ///< there are bodies; within a substep: and one is near the liquid
     bool binary = false;                ///< Contour::mid_edge
-    bool sticking = false;              ///< the liquid is viscous, and a body without slip
     bool any_sticking = false;          ///< to a body without slip, if the liquid is viscous
+    /// Null: the liquid is not viscous, or no body without slip.
+    const StickingWalls<Real>* sticking = nullptr;
     const MovingWalls<Real>* moving = nullptr;  ///< null: no body has a velocity or a spin
     DistanceOf<Real>* distance = nullptr;  ///< signed distance at nodes, cells, negative inside
     SlotOf<Real>* nearest = nullptr;   ///< slot of the nearest body at nodes (`nearest_at`)

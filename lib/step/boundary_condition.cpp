@@ -330,7 +330,7 @@ void mirror_together(const Domain<Real>& domain, const TwoFields<Real>& both) {
         {{s, walls, false}, grid.v, grid.mass_v, fields.inverse_diagonal, turns}};
 #if WEIR_HAS_LANES
     if constexpr (kHasLanes<Real>) {
-        if (!walls.sticking && s.nx >= 8) {
+        if (walls.sticking == nullptr && s.nx >= 8) {
             const MirrorTask task = mirrors.mirror_task();
             mirror_rows(s.ny, mirrors, [&](std::int32_t j) { mirrors.row_in_lanes(task, j); });
             return;

@@ -75,7 +75,7 @@ void mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& e
     mirror.normal = normal;
     mirror.wall = walls.moving != nullptr ? walls.moving->velocity(walls, edge.a, edge.b, face)
                                          : Vec2<Real>{};
-    const std::uint16_t slot = walls.sticking ? sticking_body(walls, edge.a, edge.b) : kNoBody;
+    const std::uint16_t slot = walls.sticking != nullptr ? sticking_body(walls, edge.a, edge.b) : kNoBody;
     mirror.sticks = slot != kNoBody;
     if (mirror.sticks) {
         const Body<Real>& body = walls.body[slot];
@@ -243,7 +243,7 @@ template <class Real>
 bool is_mirrored(const Walls<Real>& walls, Real open, Real distance, std::int32_t a,
                  std::int32_t b) {
     if (open > Real(0)) {
-        return walls.sticking && distance < kBoundLayer<Real> &&
+        return walls.sticking != nullptr && distance < kBoundLayer<Real> &&
                sticking_body(walls, a, b) != kNoBody;
     }
     return !(distance < kDeepestMirror<Real>);
@@ -289,7 +289,7 @@ template <class Real>
                                                const PressureFields<Real>& fields,
                                                std::int32_t face) {
     const Real open = axis.open()[face];
-    if (is_positive(open) && !axis.walls.sticking) {
+    if (is_positive(open) && axis.walls.sticking == nullptr) {
         return false;
     }
     return (is_positive(open) || !is_unread(axis, fields, face)) &&

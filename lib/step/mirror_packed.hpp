@@ -186,7 +186,8 @@ inline bool mirror_of(const FaceAxis<Real>& axis, const TwoFields<Real>& both,
                       Whole normal, Mirror& mirror) {
     const Walls<Real>& walls = axis.walls;
     const std::int32_t other = face + axis.other_node();
-    const std::uint16_t slot = walls.sticking ? sticking_body(walls, face, other) : kNoBody;
+    const std::uint16_t slot =
+        walls.sticking != nullptr ? walls.sticking->body(axis, face) : kNoBody;
     mirror.normal = normal;
     mirror.sticks = slot != kNoBody;
     mirror.wall = {};
@@ -195,7 +196,8 @@ inline bool mirror_of(const FaceAxis<Real>& axis, const TwoFields<Real>& both,
         const Vec2<Real> centre{real(from.centre.x), real(from.centre.y)};
         const Vec2<Real> n = as_real(normal);
         const Vec2<Real> wall =
-            mirror.sticks ? axis.wall(slot, centre - Real::of_raw(128 * distance) * n, n)
+            mirror.sticks ? walls.sticking->velocity(
+                                axis, slot, centre - Real::of_raw(128 * distance) * n, n)
                           : walls.moving->velocity(walls, face, other, centre);
         constexpr std::int32_t kMost = 0x7FFFFF00;  // a fast spin's end saturates
         mirror.wall = {rounded_shift(clamp(wall.x.raw, -kMost, kMost), 8),

@@ -40,6 +40,12 @@ struct Look<Real, true> {
     std::uint32_t substeps_left = 0;
 };
 
+/// Packed worlds have none.
+template <class Real>
+inline constexpr bool kHasFreeBodies = !Stored<Real>::shares_momentum;
+template <class Real, class T>
+using OfFreeBodies = std::conditional_t<kHasFreeBodies<Real>, T*, Never<T>>;
+
 template <class Real>
 struct Simulation {
     Settings<Real> settings;
@@ -52,8 +58,9 @@ struct Simulation {
     Layers<Real> layers;
     Seconds<Real> walls_behind_s{};  ///< moving bodies were held for so long in the last step
     Seconds<Real> walls_moved_s{};   ///< and moved on for so long in this substep
-    const FreeBodyStages<Real>* free_bodies = nullptr;  ///< null: there was none yet
-    Real* body_diagonal = nullptr;                      ///< for them, a cell field
+    [[no_unique_address]] OfFreeBodies<Real, const FreeBodyStages<Real>> free_bodies =
+        nullptr;  ///< null: there was none yet
+    [[no_unique_address]] OfFreeBodies<Real, Real> body_diagonal = nullptr;  ///< a cell field
     Contacts<Real> contacts;
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
     [[no_unique_address]] Fall<Real> fall;  ///< empty where velocities are no units

@@ -197,7 +197,7 @@ void skip_empty(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
         GridShape& coarse = simulation.pressure.coarse.shape;
         coarse = {coarse_cells(now.nx), coarse_cells(now.ny), coarse.stride};
         walls.active = walls_reach(now, simulation.bodies, walls);
-        walls.sticking = walls.sticking && walls.active;
+        walls.sticking = walls.active ? walls.sticking : nullptr;
     }
     empty_beyond(tank, simulation.occupied, simulation.grid.shape, simulation.pressure, work);
     if (work.once(1)) {
@@ -244,7 +244,9 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         moved_s = plan.walls_held ? Seconds<Real>{} : plan.dt_s + simulation.walls_behind_s;
         simulation.walls_behind_s = Seconds<Real>{};
         Walls<Real>& walls = simulation.layers.walls;
-        walls.sticking = plan.viscosity > Real(0) && walls.any_sticking;
+        walls.sticking = plan.viscosity > Real(0) && walls.any_sticking
+                             ? simulation.viscosity->sticking
+                             : nullptr;
         if (simulation.stages->move_bodies != nullptr) {
             simulation.stages->move_bodies(simulation.bodies, walls, moved_s);
         }

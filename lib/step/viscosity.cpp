@@ -1,6 +1,7 @@
 #include "step/viscosity.hpp"
 
 #include "grid/diffuse.hpp"
+#include "solid/face_axis.hpp"
 #include "step/no_slip.hpp"
 
 namespace weir {
@@ -69,7 +70,7 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
     PressureFields<Real>& fields = domain.fields;
     StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
-    const bool sticking = Solids && walls.sticking;
+    const bool sticking = Solids && walls.sticking != nullptr;
     if (sticking) {
         centre_at_walls(domain, work);
     }
@@ -100,11 +101,23 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
     }
 }
 
+template <class Real>
+std::uint16_t sticking_to(const FaceAxis<Real>& axis, std::int32_t face) {
+    return axis.sticking(face);
+}
+template <class Real>
+Vec2<Real> velocity_of(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real> place,
+                       Vec2<Real> n) {
+    return axis.wall(slot, place, n);
+}
+
 }  // namespace
 
 template <bool Solids, class Real>
 const detail::Viscosity<Real>& detail::viscosity() {
-    static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>};
+    static constexpr StickingWalls<Real> kSticking{sticking_to<Real>, velocity_of<Real>};
+    static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>,
+                                            Solids ? &kSticking : nullptr};
     return kStage;
 }
 

@@ -19,6 +19,7 @@ template <class Real>
 struct detail::Viscosity {
     void (*diffuse)(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
                     Impulse<Real>* tank, Work work);
+    const StickingWalls<Real>* sticking;  ///< null where there is no room for bodies
 };
 
 }  // namespace weir

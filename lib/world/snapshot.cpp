@@ -169,7 +169,7 @@ void redraw(Simulation<Real>& simulation, const Stale* picture) {
             place(table, table.body[slot]);
         }
     }
-    if constexpr (!Stored<Real>::shares_momentum) {
+    if constexpr (kHasFreeBodies<Real>) {
         simulation.free_bodies = any_free(table) ? &free_body_stages<Real>() : nullptr;
     }
     link_inlets(simulation.pressure);

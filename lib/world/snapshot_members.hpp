@@ -102,7 +102,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             scratch_list, load, vertex_capacity, vertices_used] = bodies;
     auto& [shape, contour, static_distance, static_nearest, walls, thin, touching, nodes,
            scratch] = layers;
-    [[maybe_unused]] auto& [active, binary, sticking, any_sticking, moving,
+    [[maybe_unused]] auto& [active, binary, any_sticking, sticking, moving,
                             distance, nearest, cell_case, open_u, open_v, full_density, near,
                             wall_body, thin_walls, wall_load, particle_mass, stored] = walls;
     any_member(stream, settings.gravity);

@@ -4,6 +4,7 @@
 #include "pressure/projection.hpp"
 #include "step/ladder.hpp"
 #include "step/substep.hpp"
+#include "step/viscosity.hpp"
 #include "world/sleep.hpp"
 #include "world/step_input.hpp"
 #include "world/world_state.hpp"
@@ -34,7 +35,9 @@ void fill_up(const GridShape& stored, Simulation<Real>& simulation) {
     fields.on_surface = false;
     Walls<Real>& walls = simulation.layers.walls;
     walls.active = simulation.bodies.used > 0;
-    walls.sticking = walls.active && simulation.settings.viscosity > Real(0);
+    walls.sticking = walls.active && simulation.settings.viscosity > Real(0)
+                         ? simulation.viscosity->sticking
+                         : nullptr;
 }
 
 template <class Real>

@@ -133,7 +133,9 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
     }
     if (capacity.two_way) {
         carver.take(Block::body_load, simulation.bodies.load);
-        carver.take(Block::body_diagonal, simulation.body_diagonal);
+        if constexpr (kHasFreeBodies<Real>) {
+            carver.take(Block::body_diagonal, simulation.body_diagonal);
+        }
         simulation.layers.walls.load = simulation.bodies.load;
     }
 #if WEIR_PARALLEL
