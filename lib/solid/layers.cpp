@@ -64,7 +64,7 @@ std::int32_t draw(const Layers<Real>& layers, const BodyTable<Real>& table, std:
     const Vec2<Real> size{static_cast<Real>(layers.shape.nx), static_cast<Real>(layers.shape.ny)};
     const RasterPolygon<Real> polygon{table.outline(body), static_cast<std::uint16_t>(slot),
                                       {{}, size}};
-    return rasterize(polygon, box, layers.contour == Contour::mid_edge, kBand<Real>,
+    return rasterize(polygon, box, layers.walls.binary, kBand<Real>,
                      layers.nodes, field_of(layers, distance, nearest));
 }
 
@@ -197,7 +197,7 @@ void update_where_moved(Layers<Real>& layers, const BodyTable<Real>& table) {
 template <class Real>
 [[gnu::noinline]] void deepen(const Layers<Real>& layers, const BodyTable<Real>& table,
                               const NodeBox& box) {
-    if (layers.touching != nullptr && layers.contour != Contour::mid_edge) {
+    if (layers.touching != nullptr && !layers.walls.binary) {
         layers.touching->deepen(layers.shape, DrawnBodies<Real>(table), box,
                                 field_of(layers, layers.static_distance, layers.static_nearest));
     }

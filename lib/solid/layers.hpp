@@ -13,7 +13,6 @@ namespace weir {
 template <class Real>
 struct Layers {
     GridShape shape;
-    Contour contour = Contour::interpolated;
     DistanceOf<Real>* static_distance = nullptr;
     SlotOf<Real>* static_nearest = nullptr;
     Walls<Real> walls;        ///< the merged layer

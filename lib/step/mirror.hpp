@@ -75,7 +75,8 @@ void mirror_of(const GridShape& s, const Walls<Real>& walls, const Edge<Real>& e
     mirror.normal = normal;
     mirror.wall = walls.moving != nullptr ? walls.moving->velocity(walls, edge.a, edge.b, face)
                                          : Vec2<Real>{};
-    const std::uint16_t slot = walls.sticking != nullptr ? sticking_body(walls, edge.a, edge.b) : kNoBody;
+    const std::uint16_t slot =
+        walls.sticking != nullptr ? sticking_body(walls, edge.a, edge.b) : kNoBody;
     mirror.sticks = slot != kNoBody;
     if (mirror.sticks) {
         const Body<Real>& body = walls.body[slot];

@@ -4,7 +4,6 @@
 #include "solid/collide.hpp"
 #include "solid/layers.hpp"
 #include "solid/moving_walls.hpp"
-#include "step/rest_on_solids.hpp"
 #include "step/substep.hpp"
 
 namespace weir {
@@ -26,15 +25,14 @@ const Stages<Real>& stages_around() {
                                               kMoving ? most_nodes<Real> : kMost,
                                               draw_stored<Real>,
                                               empty_lone_slivers<Real>,
-                                              kMoving ? end_leads<Real> : nullptr,
-                                              rest_on_solids<Real>};
+                                              kMoving ? end_leads<Real> : nullptr};
         return kStages;
     } else {
         constexpr auto kNowhere = [](const GridShape&, const Walls<Real>&, Vec2<Real>) {
             return false;
         };
-        static constexpr Stages<Real> kStages{Substep,  nullptr,  kNowhere, kNothing, kNothing,
-                                              kNothing, nullptr,  nullptr,  nullptr};
+        static constexpr Stages<Real> kStages{Substep,  nullptr,  kNowhere, kNothing,
+                                              kNothing, kNothing, nullptr,  nullptr};
         return kStages;
     }
 }

@@ -26,7 +26,6 @@ struct Stages {
     EmptySlivers<Real> empty_slivers;
     /// At the end of a step, if bodies can move; the next one if there are any.
     void (*end_leads)(BodyTable<Real>& table);
-    bool (*rest_on_solids)(const Simulation<Real>& simulation, Real speed, std::uint32_t& looks);
 };
 
 }  // namespace weir

@@ -88,7 +88,8 @@ void inlet_members(Stream& stream, const GridShape& tank, Inlets<Real>& inlets) 
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, density_stale, unit_exponent,
-           still_s, still_gravity, pending, substeps_left, plan, progress, report] = state;
+           still_s, still_gravity, pending, substeps_left, plan, progress, report,
+           rest] = state;
     [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
                             bodies, layers, walls_behind, walls_moved, free_bodies, body_diagonal,
                             contacts, gathered, fall, look, extent, max_speed, ticks, stages,
@@ -100,7 +101,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [position, velocity, count, capacity, kind, tag_of] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
                             scratch_list, load, vertex_capacity, vertices_used] = bodies;
-    auto& [shape, contour, static_distance, static_nearest, walls, thin, touching, nodes,
+    auto& [shape, static_distance, static_nearest, walls, thin, touching, nodes,
            scratch] = layers;
     [[maybe_unused]] auto& [active, binary, any_sticking, sticking, moving,
                             distance, nearest, cell_case, open_u, open_v, full_density, near,

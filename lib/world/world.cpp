@@ -280,6 +280,7 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     carve(Carver(memory, plan), def.capacity, simulation.settings.borders, simulation);
     simulation.pressure.leaps =
         simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F;
+    state_->rest = features.rest;
     simulation.row_order = features.row_order;
     simulation.tension = features.tension;
     simulation.two_way = features.two_way;
@@ -293,7 +294,6 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     simulation.stages = features.stages;
     simulation.layers.touching = features.touching;
     simulation.contacts.blows = features.blows;
-    simulation.layers.contour = def.contour;
     simulation.layers.walls.binary = def.contour == Contour::mid_edge;
     name_units(*state_);
     for (std::int32_t slot = 0; slot < def.capacity.bodies; ++slot) {

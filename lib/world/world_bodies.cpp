@@ -39,6 +39,9 @@ Status check_room(const WorldState<Real>& state, const BodyDef& def, BodyKind ki
     if (find_free_slot(table) < 0) {
         return Status::no_free_body;
     }
+    if (!kHasThinWalls<Real> && def.open) {
+        return Status::no_free_wall_edge;
+    }
     return places_needed(def) > table.vertex_capacity - table.vertices_used
                ? Status::no_free_vertex
                : Status::ok;
@@ -69,7 +72,7 @@ template <class Real>
     body.kind = kind;
     body.surface = surface_law<Real>(def.surface, pace_of(state));
     set_pose(state, def.motion, body);
-    if (def.open) {
+    if (kHasThinWalls<Real> && def.open) {
         add_polyline(table, def, state.cells_per_m, body);
     } else {
         const Decompose<Real> cut = two_way != nullptr ? two_way->decompose : nullptr;

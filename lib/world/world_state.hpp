@@ -28,6 +28,7 @@ struct WorldState {
     SubstepPlan<Real> plan;        ///< of that step
     Progress progress;             ///< in its present substep
     StepReport* report = nullptr;  ///< of that step, with the caller
+    const Rest<Real>* rest = nullptr;  ///< null: the definition does without
 };
 
 /// The unit of time inside, s, and how many are a second: known to be 1 but in packed worlds.

@@ -125,7 +125,7 @@ void end(detail::WorldState<Real>& state) {
     report.max_speed_mps =
         state.def.cell_m * static_cast<float>(simulation.max_speed) * units_per_s(state);
     if (may_sleep(state)) {
-        watch_rest(state, report);
+        state.rest->watch(state, report);
         report.asleep = is_asleep(state);
         const std::int32_t apart =
             simulation.regions != nullptr ? simulation.regions->asleep : 0;

@@ -102,9 +102,9 @@ template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
         ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 928 : 912) + (std::is_same_v<Real, Fixed> ? 16 : 0)
-                              : 1304) +
+                              : 1312) +
               (std::is_same_v<Real, SmallFixed> ? 0 : 80)
-        : 1672;
+        : 1680;
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;

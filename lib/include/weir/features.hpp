@@ -28,6 +28,8 @@ struct Blows;
 template <class Real>
 struct Elasticity;
 template <class Real>
+struct Rest;
+template <class Real>
 struct RowOrder;
 template <class Real>
 struct SecondLiquid;
@@ -49,6 +51,8 @@ template <class Real>
 const RowOrder<Real>& row_order();
 /// `Solids`, here and below: there is room for bodies.
 template <bool Solids, class Real>
+const Rest<Real>& rest();
+template <bool Solids, class Real>
 const SecondLiquid<Real>& second_liquid();
 template <class Real>
 const Tension<Real>& tension();
@@ -66,6 +70,7 @@ struct Features {
     const Stages<Real>* stages = nullptr;  ///< never null; for bodies only if there is room for any
     const Blows<Real>* blows = nullptr;
     const Elasticity<Real>* elasticity = nullptr;
+    const Rest<Real>* rest = nullptr;
     const RowOrder<Real>* row_order = nullptr;
     const SecondLiquid<Real>* second_liquid = nullptr;
     const Tension<Real>* tension = nullptr;
@@ -101,6 +106,9 @@ template <class Real>
     if (room.second_liquid) {
         features.second_liquid =
             open ? &second_liquid<false, Real>() : &second_liquid<true, Real>();
+    }
+    if (def.sleep.speed_mps > 0.0F) {
+        features.rest = open ? &rest<false, Real>() : &rest<true, Real>();
     }
     if (def.surface_tension_m3ps2 > 0.0F) {
         features.tension = &tension<Real>();
