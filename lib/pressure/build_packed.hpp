@@ -100,7 +100,7 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
     const std::int32_t stride = s.stride;
     const Walls<SmallFixed>& walls = weights.walls;
     const PackedLeap leap(fields.leaps, fields.last_dt);
-    const bool wraps = weights.borders.wrap_x;
+    const bool wraps = weights.wraps_x();
     const auto open = [&](std::int32_t c) {
         return !Solids || (untouched(walls, c, c + stride) &&
                            !(walls.moving != nullptr && touches_wall(walls, c)));

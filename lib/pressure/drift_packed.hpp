@@ -124,7 +124,7 @@ private:
     [[gnu::always_inline]] void for_each_face(const Patch& patch, const OnU& on_u,
                                               const OnV& on_v) const {
         const GridShape& s = grid.shape;
-        const std::int32_t first_x = patch.i > 0 || borders.wrap_x ? 0 : 1;
+        const std::int32_t first_x = patch.i > 0 || (!Solids && borders.wrap_x) ? 0 : 1;
         for (std::int32_t y = Every - 1; y < patch.height; y += Every) {
             const std::int32_t c = s.index(patch.i, patch.j + y);
             const Speed* e = fields.divergence + c;
@@ -133,7 +133,7 @@ private:
                     on_u(c + x, 16 * (e[x].raw - e[x - 1].raw) + along_x[x]);
                 }
             }
-            if (patch.j + y == 0 && !borders.wrap_y) {
+            if (patch.j + y == 0 && (Solids || !borders.wrap_y)) {
                 continue;
             }
             const Speed* below = e - s.stride;

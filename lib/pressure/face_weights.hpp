@@ -39,10 +39,13 @@ struct FaceWeights {
                                : (Solids ? open_v(face) : light_v(face));
     }
 
-    bool has_left(std::int32_t i) const { return i > 0 || borders.wrap_x; }
-    bool has_right(std::int32_t i) const { return i + 1 < grid.shape.nx || borders.wrap_x; }
-    bool has_lower(std::int32_t j) const { return j > 0 || borders.wrap_y; }
-    bool has_upper(std::int32_t j) const { return j + 1 < grid.shape.ny || borders.wrap_y; }
+    // A tank with room for solids has no seams.
+    bool wraps_x() const { return !Solids && borders.wrap_x; }
+    bool wraps_y() const { return !Solids && borders.wrap_y; }
+    bool has_left(std::int32_t i) const { return i > 0 || wraps_x(); }
+    bool has_right(std::int32_t i) const { return i + 1 < grid.shape.nx || wraps_x(); }
+    bool has_lower(std::int32_t j) const { return j > 0 || wraps_y(); }
+    bool has_upper(std::int32_t j) const { return j + 1 < grid.shape.ny || wraps_y(); }
 
     /// What flows out of a cell through the open parts of its faces, cells/s. Through those on the
     /// tank's walls that is 0 but where liquid parts from them: as if the wall went along.

@@ -106,7 +106,7 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
     const std::int32_t depth = maximum(0, fields.solve.last_row - lowest + 1);
     const Part part = work.take(2 * sweeps * depth, (s.nx + 1) / 2);
     if constexpr (kHasLanes<Real>) {  // those have a cache
-        const bool seams = weights.borders.wrap_x || weights.borders.wrap_y;
+        const bool seams = weights.wraps_x() || weights.wraps_y();
         if (coupled == nullptr && !seams && part.first == 0 && part.end == 2 * sweeps * depth) {
             sweep_in_fronts(weights, 2 * sweeps, work, fields);
             return;
@@ -258,7 +258,7 @@ void make_incompressible(const Domain<Real>& domain, Seconds<Real> dt_s, std::in
     if (work.once(1)) {
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
     }
-    const bool seams = borders.wrap_x || borders.wrap_y;
+    const bool seams = !Solids && (borders.wrap_x || borders.wrap_y);
     if (seams && work.once(grid.shape.border())) {  // leaps look across, and what is carried
         extend_velocity(borders, grid.shape, grid.mass_u, grid.mass_v);
     }
