@@ -121,7 +121,8 @@ Vec2<Real> carried_along(const Scene<Real>& scene, const Body<Real>& body, Vec2<
 /// Where a particle would be if it had moved with a body. If nodes show the solid there now: the
 /// nearest place on the outline, where they show none.
 template <class Real>
-Vec2<Real> origin_beside(const Scene<Real>& scene, const Body<Real>& body, Vec2<Real> before) {
+[[gnu::cold]] Vec2<Real> origin_beside(const Scene<Real>& scene, const Body<Real>& body,
+                                       Vec2<Real> before) {
     const GridShape& s = scene.shape;
     const Walls<Real>& walls = scene.walls;
     const Vec2<Real> seen = carried_along(scene, body, before);
