@@ -241,7 +241,7 @@ inline typename L::Ints look_at_points(const MirrorTask& task, const std::int32_
     return inside & (L::absolute(pressure) <= L::all(task.most_slack));
 }
 
-/// As `wall_velocity`, at the faces' middles.
+/// As `MovingWalls::velocity`, at the faces' middles.
 template <class L, bool OnU>
 inline void find_walls(const Walls<float>& walls, const MirrorFaces& faces, std::int32_t stride,
                        const LaneVectors<L>& middle, Mirrors& found) {
