@@ -149,19 +149,21 @@ void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
 
 }  // namespace
 
-template <class Real>
+template <bool Seams, class Real>
 void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
+    const bool wrap_x = Seams && b.wrap_x;
+    const bool wrap_y = Seams && b.wrap_y;
     const std::int32_t right = s.nx - 1;
     const std::int32_t top = s.ny - 1;
-    if (b.wrap_y) {
+    if (wrap_y) {
         move_ghosts(grid.mass_u, s, row, top, true);
         move_ghosts(grid.momentum_u(), s, row, top, true);
     } else {
         fold_along(grid.mass_u, grid.momentum_u(), row(s, 0), row(s, -1), b.bottom, Real(1));
         fold_along(grid.mass_u, grid.momentum_u(), row(s, top), row(s, s.ny), b.top, Real(-1));
     }
-    if (b.wrap_x) {
+    if (wrap_x) {
         move_ghosts(grid.mass_v, s, column, right, true);
         move_ghosts(grid.momentum_v(), s, column, right, true);
     } else {
@@ -169,8 +171,8 @@ void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
         fold_along(grid.mass_v, grid.momentum_v(), column(s, right), column(s, s.nx), b.right,
                    Real(1));
     }
-    fold_across(grid.mass_u, grid.momentum_u(), column(s, 0), column(s, s.nx), b.wrap_x);
-    fold_across(grid.mass_v, grid.momentum_v(), row(s, 0), row(s, s.ny), b.wrap_y);
+    fold_across(grid.mass_u, grid.momentum_u(), column(s, 0), column(s, s.nx), wrap_x);
+    fold_across(grid.mass_v, grid.momentum_v(), row(s, 0), row(s, s.ny), wrap_y);
 }
 
 template <class Real>
@@ -234,7 +236,8 @@ void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* l
 }
 
 #define WEIR_INSTANTIATE(Real)                                                           \
-    template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);              \
+    template void fold_borders<true>(const Borders<Real>&, StaggeredGrid<Real>&);        \
+    template void fold_borders<false>(const Borders<Real>&, StaggeredGrid<Real>&);       \
     template void fold_counts(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, \
                               VelocityOf<Real>*);                                        \
     template void extend_velocity(const Borders<Real>&, const GridShape&,                \

@@ -19,7 +19,8 @@ struct Borders {
 };
 
 /// After the scatter: ghost rows are folded back onto the rows that they mirror or repeat.
-template <class Real>
+/// `Seams`: there may be some.
+template <bool Seams, class Real>
 void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
 
 /// The same for a pair of face fields without momentum.
