@@ -34,9 +34,9 @@ void extend_velocity(const Borders<Real>& borders, const GridShape& shape,
                      VelocityOf<Real>* u, VelocityOf<Real>* v);
 
 /// Ghost cells of a cell field take the tank's other side. Walls: nothing is done.
-template <class Real, class Field>
+template <bool Seams = true, class Real, class Field>
 inline void extend_cells(const Borders<Real>& b, const GridShape& s, Field* field) {
-    if (b.wrap_x || b.wrap_y) {
+    if (Seams && (b.wrap_x || b.wrap_y)) {
         fill_ghosts(field, sizeof(Field), s, b.wrap_x, b.wrap_y, true);
     }
 }

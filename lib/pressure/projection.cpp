@@ -128,7 +128,7 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
             if (coupled != nullptr) {
                 coupled->stages->relax(*coupled, kRelaxation<Real>, half_sweep & 1);
             }
-            extend_cells(weights.borders, s, fields.pressure);
+            extend_cells<!Solids>(weights.borders, s, fields.pressure);
         }
         at = end;
     }
@@ -178,7 +178,7 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
     }
     if (work.once(s.border())) {
         make_room_at_inlets(domain);
-        extend_cells(borders, s, fields.pressure);
+        extend_cells<!Solids>(borders, s, fields.pressure);
     }
     if (!fields.on_surface) {
         weigh_start(weights, work, fields);
@@ -199,7 +199,7 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
                 yield_to_correction(*coupled, fields);
             }
             if (work.once(s.border())) {
-                extend_cells(borders, s, fields.pressure);
+                extend_cells<!Solids>(borders, s, fields.pressure);
             }
             sweep(weights, sweeps, coupled, work, fields);
             if (coupled != nullptr && work.once(s.size())) {

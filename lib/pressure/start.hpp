@@ -120,7 +120,7 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
         }
     }
     if (work.once(s.border()) && !nearer) {
-        extend_cells(weights.borders, s, p);
+        extend_cells<!Solids>(weights.borders, s, p);
     }
 }
 

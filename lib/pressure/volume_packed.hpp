@@ -106,7 +106,7 @@ void correct_packed(const Domain<SmallFixed>& domain, SmallFixed gain_per_s,
         packed::find_excess(s, fields, s.index(0, j));
     }
     if (work.once(s.border())) {
-        extend_cells(borders, s, fields.divergence);
+        extend_cells<!Solids>(borders, s, fields.divergence);
     }
     // A column that sound is ten times as fast as is denser by a hundredth under its own weight.
     const std::int32_t least = (fields.elasticity != nullptr ? 2 : 1) * packed::kCrowded;

@@ -119,9 +119,9 @@ std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Re
     return crowded;
 }
 
-#define WEIR_INSTANTIATE_WITH(Real, Seams)             \
-    template std::int32_t particle_to_grid<Real, Seams>( \
-        const Particles<Real>&, const Borders<Real>&, Real, StaggeredGrid<Real>&, \
+#define WEIR_INSTANTIATE_WITH(Real, Seams)                                            \
+    template std::int32_t particle_to_grid<Real, Seams>(                              \
+        const Particles<Real>&, const Borders<Real>&, Real, StaggeredGrid<Real>&,     \
         const ThinWalls<Real>*, Work);
 #define WEIR_INSTANTIATE(Real) \
     WEIR_INSTANTIATE_WITH(Real, true) WEIR_INSTANTIATE_WITH(Real, false)
