@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "step/boundary_condition.hpp"
+#include "step/viscosity.hpp"
 #include "test_world.hpp"
 #include "world/world_state.hpp"
 
@@ -47,7 +48,8 @@ public:
             grid().mass_v[c] = Real(-4.0 + 0.25 * j);
             simulation().pressure.level[c] = Real(i < 18.0 ? 1.0 : -1.0);
         }
-        simulation().layers.walls.sticking = bodies == Bodies::sticking;
+        simulation().layers.walls.sticking =
+            bodies == Bodies::sticking ? simulation().viscosity->sticking : nullptr;
         Progress progress;
         progress.begin();
         progress.resume(kMostWork);
