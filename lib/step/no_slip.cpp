@@ -86,7 +86,7 @@ void centre_component(const FaceAxis<Real>& axis, const VelocityOf<Real>* own,
 template <class Real>
 struct Pull {
     Real weight = Real(0);       ///< Σ 1/θ
-    Real towards = Real(0);      ///< Σ u_wall/θ
+    Real towards = Real(0);      ///< Σ (u_wall + fall)/θ
     Real liquid = Real(0);       ///< Σ of what faces in the liquid pull
     Real turning = Real(0);      ///< Σ of what turning walls are braked by besides
     std::uint16_t slot = kNoBody;
@@ -94,7 +94,8 @@ struct Pull {
 
 template <class Real>
 Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
-                   const VelocityOf<Real>* field, std::int32_t i, std::int32_t j, Real d) {
+                   const VelocityOf<Real>* field, Real fall, std::int32_t i, std::int32_t j,
+                   Real d) {
     const std::int32_t face = axis.s.index(i, j);
     const Real own = share.at(face);
     const Real here = field[face];
@@ -118,7 +119,7 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         const Real stiff = Real(1) / theta;
         // Not the neighbour's normal: on the tank's wall it would ask for nodes beyond.
         pull.weight += stiff;
-        pull.towards += stiff * axis.of(axis.wall(slot, place, axis.normal(face)));
+        pull.towards += stiff * (axis.of(axis.wall(slot, place, axis.normal(face))) + fall);
         // Traction on a wall is ∂u/∂n + (∇u)ᵀn; the Laplacian has the first of the two, the
         // second is that of the wall's own rotation.
         const std::int32_t outward = axis.is_u ? -dj : di;
@@ -145,7 +146,8 @@ void brake(const Walls<Real>& walls, std::uint16_t slot, Face<Real> mass, Vec2<R
 
 template <class Real>
 void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share, Real amount,
-                       std::int32_t from, const VelocityOf<Real>* field, VelocityOf<Real>* out) {
+                       Real fall, std::int32_t from, const VelocityOf<Real>* field,
+                       VelocityOf<Real>* out) {
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         const Real d = axis.distance(face);
         if (!(d < kBand<Real>) || axis.sticking(face) == kNoBody) {
@@ -155,7 +157,7 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
             out[face] = field[face];
             return;
         }
-        const Pull<Real> pull = pull_on(axis, share, field, i, j, d);
+        const Pull<Real> pull = pull_on(axis, share, field, fall, i, j, d);
         const Real unbound = Real(field[face]) + amount * pull.liquid;
         const Real bound = (unbound + amount * pull.towards) /
                            (Real(1) + amount * pull.weight);
@@ -194,21 +196,22 @@ void centre_at_walls(const Domain<Real>& domain, Work work) {
 }
 
 template <class Real>
-void diffuse_to_walls(const Domain<Real>& domain, Real amount, std::int32_t from) {
+void diffuse_to_walls(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
+                      std::int32_t from) {
     const Walls<Real>& walls = domain.walls;
     const PressureFields<Real>& fields = domain.fields;
     const GridShape& s = domain.grid.shape;
     const FaceShare<Real> on_u{fields.density, nullptr, 1};
     const FaceShare<Real> on_v{fields.density, nullptr, s.stride};
-    diffuse_component<Real>({s, walls, true}, on_u, amount, from, fields.divergence,
+    diffuse_component<Real>({s, walls, true}, on_u, amount, fall.x, from, fields.divergence,
                             domain.grid.u);
-    diffuse_component<Real>({s, walls, false}, on_v, amount, from, fields.inverse_diagonal,
-                            domain.grid.v);
+    diffuse_component<Real>({s, walls, false}, on_v, amount, fall.y, from,
+                            fields.inverse_diagonal, domain.grid.v);
 }
 
 #define WEIR_INSTANTIATE(Real)                                \
     template void centre_at_walls(const Domain<Real>&, Work); \
-    template void diffuse_to_walls(const Domain<Real>&, Real, std::int32_t);
+    template void diffuse_to_walls(const Domain<Real>&, Real, Vec2<Real>, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

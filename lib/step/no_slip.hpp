@@ -16,9 +16,11 @@ void centre_at_walls(const Domain<Real>& domain, Work work = {});
 
 /// Viscosity beside walls without slip, over what `diffuse` did there: a neighbour beyond the wall
 /// pulls with the wall's velocity at the wall's distance θ, (u_wall − u)/θ (Gibou, Fedkiw, Cheng &
-/// Kang 2002), the wall's part implicitly, so that no θ is too small. What the walls pull the
-/// bodies receive. Reads the velocity before `diffuse` from the fields' scratch.
+/// Kang 2002), the wall's part implicitly, so that no θ is too small. `fall`: as for the tank's
+/// walls (step/viscosity.hpp). What the walls pull the bodies receive. Reads the velocity before
+/// `diffuse` from the fields' scratch.
 template <class Real>
-void diffuse_to_walls(const Domain<Real>& domain, Real amount, std::int32_t from);
+void diffuse_to_walls(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
+                      std::int32_t from);
 
 }  // namespace weir

@@ -91,7 +91,7 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
     diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, from, fields.inverse_diagonal,
             grid.v);
     if (sticking && work.once(s.size())) {
-        diffuse_to_walls(domain, amount, from);
+        diffuse_to_walls(domain, amount, fall, from);
     }
     if (tank != nullptr && work.once(2 * s.border())) {
         drag_on_tank(domain, on_u, on_v, amount, *tank);

@@ -33,8 +33,8 @@ bool particles_rest(const Simulation<Real>& simulation, Real speed, StepReport& 
            (Solids && rest_on_solids(simulation, speed, report.work[kStageCount - 1]));
 }
 
-/// What is on its way out of a solid moves without a speed of its own. A pause tells nothing: solids
-/// of a world that was restored are not drawn yet.
+/// What is on its way out of a solid moves without a speed of its own. A pause tells nothing:
+/// solids of a world that was restored are not drawn yet.
 template <bool Solids, class Real>
 void watch_rest(WorldState<Real>& state, StepReport& report) {
     if (report.substeps == 0) {
