@@ -10,6 +10,7 @@
 #include "math/vec2.hpp"
 #include "solid/collide.hpp"
 #include "solid/first_entry.hpp"
+#include "solid/moving_walls.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
 
@@ -192,6 +193,7 @@ TEST(Collide, InclinedWallsAreStraight) {
 TEST(Collide, AMovingWallLendsItsVelocity) {
     Stand stand(0.0, 0.0F);
     stand.body.velocity = {3.0F, 1.0F};
+    stand.walls.moving = &moving_walls<float>();
     Vec2<float> x{15.9F, 16.0F};
     Vec2<float> w{0.0F, 0.0F};
     EXPECT_EQ(stand.hit(x, w).reflected, 1);
