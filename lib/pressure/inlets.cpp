@@ -91,7 +91,7 @@ void make_room(const Domain<Real>& domain) {
             continue;
         }
         const Real volume = inlet.owed > kLeastOwed<Real> ? share * inlet.owed
-                                                            : minimum(inlet.owed, least);
+                                                          : minimum(inlet.owed, least);
         add_source(s.index(i, j), volume, fields);
         inlet.owed = inlet.owed - volume;
         if (inlet.owed > Real(0)) {
