@@ -8,11 +8,11 @@ namespace weir {
 
 namespace packed {
 
-/// Whether the surface around a cell leans to the grid by an eighth or more.
-inline bool leans(const LevelOf<SmallFixed>* level, std::int32_t stride) {
+/// Whether the surface around a cell leans to the grid by more than one in `run`.
+inline bool leans(const LevelOf<SmallFixed>* level, std::int32_t stride, std::int32_t run) {
     const std::int32_t along_x = absolute(std::int32_t{level[1].raw} - level[-1].raw);
     const std::int32_t along_y = absolute(std::int32_t{level[stride].raw} - level[-stride].raw);
-    return 8 * minimum(along_x, along_y) > maximum(along_x, along_y);
+    return run * minimum(along_x, along_y) > maximum(along_x, along_y);
 }
 
 /// Share of PIC by a cell's velocity: a half where all is at rest, 0 from a speed on.

@@ -15,9 +15,22 @@ constexpr Real kMostShare = Real(0.5);
 template <class Real>
 constexpr Real kFaster = Real(1.25);
 
-/// Least slope of a surface that leans.
+/// A surface leans from a slope of one in so many on: one that will be level again, which a wave
+/// passes, and one that gravity holds a little aslant.
+constexpr std::int32_t kPassingRun = 8;
+constexpr std::int32_t kLastingRun = 64;
+
+/// What gravity leans by less is a sensor's noise, and where it leans by a quarter the surface leans
+/// by an eighth anyway.
 template <class Real>
-constexpr Real kLeastSlope = Real(0.125);
+std::int32_t least_run(const Vec2<Real>& gravity) {
+    const Real x = absolute(gravity.x);
+    const Real y = absolute(gravity.y);
+    const Real low = minimum(x, y);
+    const Real high = maximum(x, y);
+    const bool lasts = low > Real(1.0F / kLastingRun) * high && low < Real(0.25) * high;
+    return lasts ? kLastingRun : kPassingRun;
+}
 
 /// Cells whose centre is nearer to the surface are asked, cells.
 template <class Real>
@@ -81,10 +94,15 @@ template <class Real>
 struct Quieting {
     const StaggeredGrid<Real>& grid;
     const LevelOf<Real>* level;
-    Real most;  ///< what gravity gives in the step
+    Real most;         ///< what gravity gives in the step
+    Real least_slope;  ///< of what leans
 
-    Quieting(const StaggeredGrid<Real>& faces, const PressureFields<Real>& fields)
-        : grid(faces), level(fields.level), most(fields.cell_weight) {}
+    Quieting(const StaggeredGrid<Real>& faces, const PressureFields<Real>& fields,
+             std::int32_t run)
+        : grid(faces),
+          level(fields.level),
+          most(fields.cell_weight),
+          least_slope(run == kLastingRun ? Real(1.0F / kLastingRun) : Real(1.0F / kPassingRun)) {}
 
     bool leans(std::int32_t c) const {
         const auto rise = [&](std::int32_t step) {
@@ -92,7 +110,7 @@ struct Quieting {
         };
         const Real along_x = rise(1);
         const Real along_y = rise(grid.shape.stride);
-        return minimum(along_x, along_y) > kLeastSlope<Real> * maximum(along_x, along_y);
+        return minimum(along_x, along_y) > least_slope * maximum(along_x, along_y);
     }
 
     /// Less for what is faster, 0 from what gravity gives in the step on.
@@ -179,15 +197,18 @@ struct Quieting<SmallFixed> {
     const StaggeredGrid<SmallFixed>& grid;
     const LevelOf<SmallFixed>* level;
     packed::SlowShare by_speed;
+    std::int32_t run;  ///< of the least slope of what leans
 
-    Quieting(const StaggeredGrid<SmallFixed>& faces, const PressureFields<SmallFixed>& fields)
-        : grid(faces), level(fields.level), by_speed(fields.cell_weight) {}
+    Quieting(const StaggeredGrid<SmallFixed>& faces, const PressureFields<SmallFixed>& fields,
+             std::int32_t of_slope)
+        : grid(faces), level(fields.level), by_speed(fields.cell_weight), run(of_slope) {}
 
     VelocityOf<SmallFixed> share_of(std::int32_t c) const {
         const std::int32_t stride = grid.shape.stride;
         return VelocityOf<SmallFixed>::of_raw(static_cast<std::int16_t>(
-            packed::leans(level + c, stride) ? by_speed.of(grid.mass_u + c, grid.mass_v + c, stride)
-                                             : 0));
+            packed::leans(level + c, stride, run)
+                ? by_speed.of(grid.mass_u + c, grid.mass_v + c, stride)
+                : 0));
     }
 
     void quiet_all(const Shares<SmallFixed>& shares, const Particles<SmallFixed>& particles) const {
@@ -229,7 +250,7 @@ void weigh_row(const Quieting<Real>& quieting, std::int32_t j, const Shares<Real
 
 template <class Real>
 void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields,
-                   Particles<Real>& particles, Work work) {
+                   const Vec2<Real>& gravity, Particles<Real>& particles, Work work) {
     const bool asked =
         fields.cell_weight > Real(0) && !fields.on_surface && !(fields.sound_speed > Real(0));
     std::uint16_t& turn = fields.quiet_turn;
@@ -240,7 +261,7 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
         return;
     }
     const GridShape& s = grid.shape;
-    const Quieting<Real> quieting(grid, fields);
+    const Quieting<Real> quieting(grid, fields, least_run(gravity));
     const Shares<Real> shares{s, fields.divergence};
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         for (std::int32_t j = rows.first; j < rows.end; ++j) {
@@ -267,7 +288,7 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
 
 #define WEIR_INSTANTIATE(Real)                                                     \
     template void quiet_surface(const StaggeredGrid<Real>&, PressureFields<Real>&, \
-                                Particles<Real>&, Work);
+                                const Vec2<Real>&, Particles<Real>&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -127,7 +127,8 @@ void fill_borders(const Domain<Real>& domain, Vec2<Real> fall, Work work) {
 template <class Real>
 void quiet_leaning(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
     if (simulation.layers.walls.thin == nullptr && !plan.settling) {
-        quiet_surface(simulation.grid, simulation.pressure, simulation.particles, work);
+        quiet_surface(simulation.grid, simulation.pressure, simulation.settings.gravity,
+                      simulation.particles, work);
     }
 }
 
