@@ -20,8 +20,8 @@ constexpr Real kFaster = Real(1.25);
 constexpr std::int32_t kPassingRun = 8;
 constexpr std::int32_t kLastingRun = 64;
 
-/// What gravity leans by less is a sensor's noise, and where it leans by a quarter the surface leans
-/// by an eighth anyway.
+/// What gravity leans by less is a sensor's noise, and where it leans by a quarter the surface
+/// leans by an eighth anyway.
 template <class Real>
 std::int32_t least_run(const Vec2<Real>& gravity) {
     const Real x = absolute(gravity.x);
