@@ -1,6 +1,6 @@
 // Area, centre and inside test of polygons as callers give them, in double.
-#include "geometry/rings.hpp"
 #include "geometry/polygon.hpp"
+#include "geometry/rings.hpp"
 
 namespace weir {
 

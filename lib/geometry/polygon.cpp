@@ -2,9 +2,14 @@
 
 namespace weir {
 
+namespace {
+
+/// In double products of floats are exact, and squares cannot overflow.
 double turn_in_double(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
     return turn(convert<double>(a), convert<double>(b), convert<double>(c));
 }
+
+}  // namespace
 
 double twice_area_in_double(View<Vec2f> ring) {
     double sum = 0.0;

@@ -15,9 +15,6 @@ constexpr Product<Real> turn(Vec2<Real> a, Vec2<Real> b, Vec2<Real> c) {
     return cross(b - a, c - a);
 }
 
-/// The same in double, where products of floats are exact and squares cannot overflow.
-double turn_in_double(const Vec2f& a, const Vec2f& b, const Vec2f& c);
-
 /// Whether a point is in a triangle that turns left, or on its rim.
 inline bool in_triangle(Vec2<double> a, Vec2<double> b, Vec2<double> c, Vec2<double> p) {
     return turn(c, a, p) >= 0.0 && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0;

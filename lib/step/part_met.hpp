@@ -105,7 +105,7 @@ void part_met(Simulation<Real>& simulation, Work work) {
         std::uint32_t& left = simulation.look.substeps_left;
         if (work.once(1)) {
             const Walls<Real>& walls = simulation.layers.walls;
-            if (Solids && walls.active && walls.moving) {
+            if (Solids && walls.active && walls.moving != nullptr) {
                 look_for_met(simulation);
             }
             left -= left > 0 ? 1 : 0;
