@@ -19,10 +19,10 @@ constexpr int kCases = 200000;
 class Numbers {
 public:
     /// Of all sizes up to so many bits.
-    std::uint32_t size(int bits) {
+    std::uint32_t size(unsigned bits) {
         return static_cast<std::uint32_t>(random_()) & ((1U << (random_() % bits + 1U)) - 1U);
     }
-    std::int32_t either(int bits) {
+    std::int32_t either(unsigned bits) {
         const auto value = static_cast<std::int32_t>(size(bits));
         return random_() % 2U == 0 ? value : -value;
     }

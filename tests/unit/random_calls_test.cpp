@@ -152,7 +152,8 @@ void look(World<Real>& world, Dice dice, const RandomDef& random) {
     Display display;
     display.width = dice.integer(1, 60);
     display.height = dice.integer(1, 40);
-    std::vector<std::uint8_t> pixels((display.width + 1) / 2 * display.height);
+    std::vector<std::uint8_t> pixels(
+        static_cast<std::size_t>((display.width + 1) / 2 * display.height));
     display.pixels = pixels.data();
     const Vec2f size = place(dice, random, dice.one_of({0.1F, 1.0F, 1000.0F}));
     display.shown_m = {{low.x - size.x, low.y - size.y}, {low.x + size.x, low.y + size.y}};
