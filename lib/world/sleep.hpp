@@ -54,10 +54,16 @@ Real resting_speed(const detail::WorldState<Real>& state) {
     return static_cast<Real>(pace_of(state) * static_cast<Face<Real>>(state.def.sleep.speed_mps));
 }
 
-/// Whether particles may have to be looked at to tell whether they rest.
+/// How many particles, and patches of 4 × 4 cells, may have to be looked at to tell whether all
+/// rests.
 template <class Real>
-bool looks_at_particles(const detail::WorldState<Real>& state) {
-    return may_sleep(state) && state.simulation.bodies.capacity > 0;
+std::int32_t most_looks(const detail::WorldState<Real>& state, std::int32_t patches) {
+    if (!may_sleep(state)) {
+        return 0;
+    }
+    const Simulation<Real>& simulation = state.simulation;
+    return (Stored<Real>::coarse ? 0 : patches) +
+           (simulation.bodies.capacity > 0 ? simulation.particles.capacity : 0);
 }
 
 }  // namespace weir

@@ -88,8 +88,10 @@ Status World<Real>::work_bound(float dt_s, WorkBound* bound, std::int32_t rung) 
     plan.surface_tension = simulation.settings.surface_tension;
     const bool cold = !(simulation.pressure.last_dt > Seconds<Real>{});
     std::int32_t& item = bound->largest_item;
+    std::int32_t patches = 0;
     const auto foresee_in = [&](const GridShape& stored) {
         fill_up(stored, simulation);
+        patches = maximum(patches, simulation.pressure.coarse.shape.size());
         const std::int64_t one = foresee(simulation, plan, 1, bound->substep, item);
         const std::int64_t first =
             foresee(simulation, plan, kColdStart, bound->first_substep, item);
@@ -108,9 +110,9 @@ Status World<Real>::work_bound(float dt_s, WorkBound* bound, std::int32_t rung) 
             }
         });
     }
-    if (looks_at_particles(*state_)) {  // once, at the end of a step
+    const std::int32_t looks = most_looks(*state_, patches);  // once, at the end of a step
+    if (looks > 0) {
         constexpr std::int32_t kLast = kStageCount - 1;
-        const std::int32_t looks = simulation.particles.capacity;
         bound->substep[kLast] += looks;
         bound->first_substep[kLast] += looks;
         bound->step += looks;
