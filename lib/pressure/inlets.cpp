@@ -1,5 +1,6 @@
 #include "pressure/inlets.hpp"
 
+#include "math/packed_arithmetic.hpp"
 #include "pressure/domain.hpp"
 #include "pressure/make_room.hpp"
 
@@ -21,6 +22,10 @@ constexpr Real kThin = Real(0.5);
 /// second liquid may weigh more.
 template <class Real>
 constexpr Real kMostHead = Real(1.25);
+/// So much of what would have been asked for is forgotten there: a pool that was just set in motion
+/// yields again, a full tank does not.
+template <class Real>
+constexpr Real kForgotten = Real(0.125);
 
 /// Which part of what is owed a substep asks for: spread over the time in which gravity moves
 /// something by half a cell, so that it stirs no more than a steady inflow would.
@@ -54,13 +59,18 @@ bool wants_room(const Domain<Real>& domain, std::int32_t i, std::int32_t j) {
         return false;
     }
     const std::int32_t c = s.index(i, j);
+    const auto wet = [&](std::int32_t at) { return f.level[at] > Real(0); };
+    return Real(f.density[c]) > kThin<Real> && !is_zero(Real(f.inverse_diagonal[c])) &&
+           is_beneath(s, domain.walls, i, j, wet);
+}
+
+/// Whether there is hope for room.
+template <class Real>
+bool yields(const GridShape& s, std::int32_t c, const PressureFields<Real>& f) {
     const Real column = static_cast<Real>(maximum(s.nx, s.ny)) * f.cell_weight;
     const bool any_pressure =
         f.elasticity == nullptr && (is_zero(column) || f.second_liquid != nullptr);
-    const bool yields = any_pressure || f.pressure[c] < kMostHead<Real> * column;
-    const auto wet = [&](std::int32_t at) { return f.level[at] > Real(0); };
-    return yields && Real(f.density[c]) > kThin<Real> &&
-           !is_zero(Real(f.inverse_diagonal[c])) && is_beneath(s, domain.walls, i, j, wet);
+    return any_pressure || f.pressure[c] < kMostHead<Real> * column;
 }
 
 /// A source of so much volume in this substep.
@@ -90,9 +100,14 @@ void make_room(const Domain<Real>& domain) {
         if (!wants_room(domain, i, j)) {
             continue;
         }
-        const Real volume = inlet.owed > kLeastOwed<Real> ? share * inlet.owed
-                                                          : minimum(inlet.owed, least);
-        add_source(s.index(i, j), volume, fields);
+        const std::int32_t c = s.index(i, j);
+        Real volume = inlet.owed > kLeastOwed<Real> ? share * inlet.owed
+                                                    : minimum(inlet.owed, least);
+        if (yields(s, c, fields)) {
+            add_source(c, volume, fields);
+        } else {
+            volume = kForgotten<Real> * volume;
+        }
         inlet.owed = inlet.owed - volume;
         if (inlet.owed > Real(0)) {
             inlets.at[left++] = inlet;
@@ -123,7 +138,38 @@ Inlet<Real>* inlet_for(std::int32_t i, std::int32_t j, Inlets<Real>& inlets) {
     return &added;
 }
 
+/// Excess from which on a packed cell asks, 128ths: more than most lattices have.
+constexpr std::int32_t kDense = 8;
+
 }  // namespace
+
+void note_dense(const GridShape& tank, Vec2<SmallFixed> place, PressureFields<SmallFixed>& fields) {
+    const std::int32_t c =
+        tank.index(static_cast<std::int32_t>(place.x), static_cast<std::int32_t>(place.y));
+    if (fields.pressure[c] > fields.cell_weight) {
+        fields.room_turns = kRoomTurns;
+    }
+}
+
+/// Of what a cell has too much 4 g dt² flow out of it in a substep, half of it in the longest: the
+/// less time there is the less is asked for, so that nothing is flung. Nothing yields under two
+/// columns of the tank.
+void make_room_packed(const GridShape& s, PressureFields<SmallFixed>& fields) {
+    const std::int32_t weight = fields.cell_weight.raw;
+    const std::int32_t most = 2 * maximum(s.nx, s.ny) * (weight >> 8);
+    for (std::int32_t j = fields.solve.first_row; j <= fields.solve.last_row; ++j) {
+        const std::int32_t end = s.index(s.nx, j);
+        for (std::int32_t c = s.index(0, j); c < end; ++c) {
+            const std::int32_t over = fields.density[c].raw - (128 + kDense);
+            const std::int32_t pressure = fields.pressure[c].raw;
+            if (over > 0 && pressure > weight && pressure >> 8 < most &&
+                fields.inverse_diagonal[c].raw != 0) {
+                std::int16_t& flow = fields.divergence[c].raw;
+                flow = short_of(flow - ((over * (weight >> 6)) >> 8));
+            }
+        }
+    }
+}
 
 template <class Real>
 void link_inlets([[maybe_unused]] PressureFields<Real>& fields) {

@@ -55,6 +55,16 @@ void note_inlet(const GridShape& tank, const Walls<Real>& walls, Vec2<Real> plac
 template <class Real>
 void link_inlets(PressureFields<Real>& fields);
 
+/// Packed worlds, which have no bytes to remember where it was, ask for so many substeps for all
+/// that is too dense beneath liquid. For ever, what a splash presses together would gain energy.
+inline constexpr std::uint8_t kRoomTurns = 128;
+
+/// That something was added there: nothing if no liquid was over it in the last substep.
+void note_dense(const GridShape& tank, Vec2<SmallFixed> place, PressureFields<SmallFixed>& fields);
+
+/// Between the equations and their solve.
+void make_room_packed(const GridShape& s, PressureFields<SmallFixed>& fields);
+
 /// Asks for what a substep asks for.
 template <class Real>
 void make_room_at_inlets(const Domain<Real>& domain) {

@@ -51,7 +51,7 @@ template <class Real>
 inline constexpr Real kSettling = Real(Stored<Real>::coarse ? 0.25 : 1.0 / 256.0);
 
 /// Substeps from one in which leaning surfaces are quieted to the next.
-inline constexpr std::uint16_t kQuietEvery = 4;
+inline constexpr std::uint8_t kQuietEvery = 4;
 
 /// A solve starts from so many times the last pressure at most.
 template <class Real>
@@ -74,7 +74,9 @@ struct PressureFields {
     std::uint16_t drift_turn = 0;
     /// Substeps since leaning surfaces were quieted, or were to be; kQuietEvery if there was none.
     /// In packed worlds viscosity rounds, and drift is paid for, by it.
-    std::uint16_t quiet_turn = 0;
+    std::uint8_t quiet_turn = 0;
+    /// Packed: for so many substeps what is too dense asks for room (inlets.hpp).
+    std::uint8_t room_turns = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest
     [[no_unique_address]] InletsOf<Real> inlets;  ///< where liquid was added that waits for room

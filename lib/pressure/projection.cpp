@@ -180,6 +180,11 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
         make_room_at_inlets(domain);
         extend_cells<!Solids>(borders, s, fields.pressure);
     }
+    if constexpr (Stored<Real>::coarse) {
+        if ((fields.room_turns > 0 || work.foreseeing()) && work.once(s.size())) {
+            make_room_packed(s, fields);
+        }
+    }
     if (!fields.on_surface) {
         weigh_start(weights, work, fields);
     }
@@ -257,6 +262,7 @@ void make_incompressible(const Domain<Real>& domain, Seconds<Real> dt_s, std::in
     const Borders<Real>& borders = domain.borders;
     if (work.once(1)) {
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
+        fields.room_turns = static_cast<std::uint8_t>(maximum(fields.room_turns - 1, 0));
     }
     const bool seams = !Solids && (borders.wrap_x || borders.wrap_y);
     if (seams && work.once(grid.shape.border())) {  // leaps look across, and what is carried

@@ -253,9 +253,9 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
                    const Vec2<Real>& gravity, Particles<Real>& particles, Work work) {
     const bool asked =
         fields.cell_weight > Real(0) && !fields.on_surface && !(fields.sound_speed > Real(0));
-    std::uint16_t& turn = fields.quiet_turn;
+    std::uint8_t& turn = fields.quiet_turn;
     if (work.once(1)) {
-        turn = static_cast<std::uint16_t>((turn + 1) % kQuietEvery);
+        turn = static_cast<std::uint8_t>((turn + 1) % kQuietEvery);
     }
     if (!(asked && turn % kQuietEvery == 0) && !work.foreseeing()) {
         return;

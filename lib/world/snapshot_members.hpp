@@ -95,9 +95,9 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
                             contacts, gathered, fall, look, extent, max_speed, ticks, stages,
                             regions, row_order, tension, two_way, viscosity] = simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
-                            on_surface, leaps, drift_turn, quiet_turn, crowded, settling, inlets,
-                            last_dt, change, sound_speed, cell_weight, solve, elasticity,
-                            second_liquid] = pressure_fields;
+                            on_surface, leaps, drift_turn, quiet_turn, room_turns, crowded,
+                            settling, inlets, last_dt, change, sound_speed, cell_weight,
+                            solve, elasticity, second_liquid] = pressure_fields;
     auto& [position, velocity, count, capacity, kind, tag_of] = particles;
     [[maybe_unused]] auto& [body, body_capacity, used, movable, local, placed, pieces,
                             scratch_list, load, vertex_capacity, vertices_used] = bodies;
@@ -122,6 +122,9 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(drift_turn, 0, 0xFFFF);
     stream.member(quiet_turn, 0, kQuietEvery);
     stream.member(crowded, false, true);
+    if constexpr (Stored<Real>::coarse) {
+        stream.member(room_turns, 0, kRoomTurns);
+    }
     stream.member(still_s, 0.0F, def.sleep.after_s);
     stream.member(stepped_s, 0.0F, 1.0e9F);
     any_member(stream, still_gravity);

@@ -28,21 +28,35 @@ Status check_kind(const WorldState<Real>& state, Liquid kind) {
     return state.def.capacity.second_liquid ? Status::ok : Status::no_second_liquid;
 }
 
-template <class Real>
-void add(Simulation<Real>& simulation, Vec2<Real> at, Vec2<Real> velocity, Liquid kind) {
-    Particles<Real>& particles = simulation.particles;
-    particles.add(at, velocity, kind);
-    if (simulation.regions != nullptr) {
-        simulation.regions->stages->touch_at(*simulation.regions,
-                                             particles.position[particles.count - 1]);
-    }
-}
-
 /// Whether a sleeping region is there: its pressure stands elsewhere.
 template <class Real>
 bool lies_asleep(const Simulation<Real>& simulation, Vec2<Real> at) {
     const Regions<Real>* const regions = simulation.regions;
     return regions != nullptr && regions->sleeps(regions->tile_of(Vec2<PositionOf<Real>>(at)));
+}
+
+template <class Real>
+[[gnu::noinline]] void add(Simulation<Real>& simulation, Vec2<Real> at, Vec2<Real> velocity,
+                           Liquid kind) {
+    Particles<Real>& particles = simulation.particles;
+    PressureFields<Real>& fields = simulation.pressure;
+    const GridShape& tank = simulation.layers.shape;
+    if constexpr (Stored<Real>::coarse) {  // what is at rest drifts again
+        fields.crowded = simulation.settings.volume_gain > Real(0);
+    }
+    if (!lies_asleep(simulation, at)) {
+        if constexpr (Stored<Real>::coarse) {
+            note_dense(tank, at, fields);
+        } else {
+            note_inlet(tank, simulation.layers.walls, at,
+                       Real(1) / simulation.settings.rest_count, fields);
+        }
+    }
+    particles.add(at, velocity, kind);
+    if (simulation.regions != nullptr) {
+        simulation.regions->stages->touch_at(*simulation.regions,
+                                             particles.position[particles.count - 1]);
+    }
 }
 
 template <class Real>
@@ -140,12 +154,6 @@ Status World<Real>::add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid ki
         return Status::particle_inside_solid;
     }
     const Vec2<Real> velocity = inner_velocity(*state_, velocity_mps);
-    if constexpr (kHasInlets<Real>) {
-        if (!lies_asleep(simulation, inside)) {
-            note_inlet(simulation.layers.shape, walls, inside,
-                       Real(1) / simulation.settings.rest_count, simulation.pressure);
-        }
-    }
     add(simulation, inside, velocity, kind);
     note_changed(*state_);
     note_speed(simulation, velocity);

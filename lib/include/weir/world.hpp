@@ -106,7 +106,8 @@ public:
     /// All or nothing: refuses if not every particle has room. A box takes about its area over
     /// cell_m² times `particles_per_cell`; one that holds no point of the lattice adds 0, and is
     /// ok. A box that reaches beyond the tank is refused (`Status::box_outside_domain`). Particles
-    /// that are there already stay, so where there is liquid there is twice as much then.
+    /// that are there already stay, so where there is liquid there is twice as much then, and room
+    /// is asked for as `add_particle` does: an inlet may be a small box that is filled each step.
     /// @param added number of particles, may be null; with `Status::no_free_particle` how many it
     /// would have been.
     Status fill(const Box& box_m, std::int32_t* added = nullptr, Liquid kind = Liquid::first);
@@ -114,8 +115,9 @@ public:
     /// them, or gives them a speed. Where liquid stood all around in the last step, the pressure is
     /// asked for the room of what is added: an inlet beneath the surface lifts it. At a time four
     /// cells' worth in a place, in eight places more than four cells apart. What is more presses
-    /// together what is there, which takes tens of seconds to spread; so do `fill`, and all that is
-    /// added in SmallFixed and in a tank that is full.
+    /// together what is there, which takes tens of seconds to spread; so does all that is added in
+    /// a tank that is full, in still liquid without gravity and, in SmallFixed, with an equation of
+    /// state.
     /// Rates, of an inlet or an outlet, go by `StepReport::dt_s`: a step may simulate less than it
     /// was asked for.
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
