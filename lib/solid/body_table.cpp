@@ -148,7 +148,7 @@ void place(BodyTable<Real>& table, const Body<Real>& body) {
 
 template <class Real>
 void lead(BodyTable<Real>& table, std::int32_t slot, bool led) {
-    table.body[slot].led = led;
+    table.body[slot].led = led ? Lead::now : Lead::none;
     if (table.load == nullptr || table.load[slot].is_free() != led) {
         return;
     }
@@ -159,16 +159,31 @@ void lead(BodyTable<Real>& table, std::int32_t slot, bool led) {
 }
 
 template <class Real>
-void end_leads(BodyTable<Real>& table) {
+void end_leads(BodyTable<Real>& table, bool held) {
     for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
         Body<Real>& body = table.body[slot];
-        if (!body.led) {
+        if (body.led == Lead::none) {
+            continue;
+        }
+        if (held) {
+            body.led = Lead::held;
             continue;
         }
         lead(table, slot, false);
         if (table.load == nullptr || !table.load[slot].is_free()) {
             body.velocity = Vec2<Real>{};
             body.spin = Real(0);
+        }
+    }
+}
+
+template <class Real>
+void slow_leads(BodyTable<Real>& table, Face<Real> share) {
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
+        Body<Real>& body = table.body[slot];
+        if (body.led == Lead::held) {
+            body.velocity = convert<Real>(share * convert<Face<Real>>(body.velocity));
+            body.spin = static_cast<Real>(share * static_cast<Face<Real>>(body.spin));
         }
     }
 }
@@ -206,7 +221,8 @@ void remove(BodyTable<Real>& table, std::int32_t slot) {
     template bool any_free(const BodyTable<Real>&);                                        \
     template void place(BodyTable<Real>&, const Body<Real>&);                              \
     template void lead(BodyTable<Real>&, std::int32_t, bool);                              \
-    template void end_leads(BodyTable<Real>&);                                             \
+    template void end_leads(BodyTable<Real>&, bool);                                       \
+    template void slow_leads(BodyTable<Real>&, Face<Real>);                                \
     template void remove(BodyTable<Real>&, std::int32_t);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

@@ -16,6 +16,10 @@ using Wide = Vec2<Face<Real>>;
 
 enum class BodyKind : std::uint8_t { free, fixed, moving };
 
+/// `World::move_body`: whether a body has a place to be at by the end of the step; or had one in
+/// the last step, which held it, and was not told another.
+enum class Lead : std::uint8_t { none, now, held };
+
 /// How far a body's furthest point goes along an axis at most, if its position goes that way and
 /// it turns by so much. The same of velocities.
 template <class Number>
@@ -47,7 +51,7 @@ struct Body {
     bool moved = false;             ///< since it was last rasterized
     bool open = false;              ///< a polyline
     bool hollow = false;            ///< thin all over: the nodes do not show it
-    bool led = false;               ///< until the step is done: `World::move_body`
+    Lead led = Lead::none;          ///< until the step is done: `World::move_body`
     bool leapt = false;             ///< a call has put it elsewhere since the last step
 
     bool has_speed() const {
@@ -144,9 +148,14 @@ void place(BodyTable<Real>& table, const Body<Real>& body);
 template <class Real>
 void lead(BodyTable<Real>& table, std::int32_t slot, bool led);
 
-/// Ends it for all: who is not free stands still.
+/// Ends it for all: who is not free stands still. `held`: not yet, the next step takes them there.
 template <class Real>
-void end_leads(BodyTable<Real>& table);
+void end_leads(BodyTable<Real>& table, bool held);
+
+/// A step begins that takes as much longer as the last one held: who was led there, and is led on
+/// no further, takes all of it for that way.
+template <class Real>
+void slow_leads(BodyTable<Real>& table, Face<Real> share);
 
 /// Frees the slot and closes the gap that its vertices leave.
 template <class Real>

@@ -25,14 +25,16 @@ const Stages<Real>& stages_around() {
                                               kMoving ? most_nodes<Real> : kMost,
                                               draw_stored<Real>,
                                               empty_lone_slivers<Real>,
-                                              kMoving ? end_leads<Real> : nullptr};
+                                              kMoving ? end_leads<Real> : nullptr,
+                                              kMoving ? slow_leads<Real> : nullptr};
         return kStages;
     } else {
         constexpr auto kNowhere = [](const GridShape&, const Walls<Real>&, Vec2<Real>) {
             return false;
         };
         static constexpr Stages<Real> kStages{Substep,  nullptr,  kNowhere, kNothing,
-                                              kNothing, kNothing, nullptr,  nullptr};
+                                              kNothing, kNothing, nullptr,  nullptr,
+                                              nullptr};
         return kStages;
     }
 }

@@ -25,7 +25,9 @@ struct Stages {
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
     EmptySlivers<Real> empty_slivers;
     /// At the end of a step, if bodies can move; the next one if there are any.
-    void (*end_leads)(BodyTable<Real>& table);
+    void (*end_leads)(BodyTable<Real>& table, bool held);
+    /// At the beginning of one after a step that held them, or null.
+    void (*slow_leads)(BodyTable<Real>& table, Face<Real> share);
 };
 
 }  // namespace weir

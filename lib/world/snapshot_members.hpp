@@ -172,7 +172,7 @@ void body_members(Stream& stream, std::int32_t most_places, const BodyTable<Real
     stream.member(no_slip, false, true);
     positive_member(stream, radius);
     stream.member(open, false, true);
-    stream.member(led, false, true);
+    stream.member(led, Lead::none, Lead::held);
     stream.member(leapt, false, true);
     any_member(stream, met_position);
     angle_member(stream, met_angle);

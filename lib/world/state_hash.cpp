@@ -84,8 +84,8 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table, bool thin_walls) {
         if (body.open) {
             hash.add(std::uint32_t{1});
         }
-        if (body.led) {
-            hash.add(std::uint32_t{2});
+        if (body.led != Lead::none) {
+            hash.add(std::uint32_t{body.led == Lead::now ? 2U : 4U});
         }
         if (body.leapt) {
             hash.add(std::uint32_t{3});

@@ -92,6 +92,14 @@ void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepR
                 unit * (static_cast<float>(plan.substeps) * static_cast<float>(plan.dt_s));
         }
         report.substeps = plan.substeps;
+        if (simulation.walls_behind_s > Seconds<Real>{} &&
+            simulation.stages->slow_leads != nullptr) {
+            using Number = Face<Real>;
+            const auto behind = static_cast<Number>(simulation.walls_behind_s);
+            const Number step =
+                static_cast<Number>(plan.substeps) * static_cast<Number>(plan.dt_s);
+            simulation.stages->slow_leads(simulation.bodies, behind / (behind + step));
+        }
         state.plan = plan;
         state.substeps_left = plan.substeps;
         state.density_stale = false;
@@ -107,7 +115,6 @@ void end(detail::WorldState<Real>& state) {
     if (report.walls_held) {
         simulation.walls_behind_s = static_cast<Seconds<Real>>(report.dt_s * units_per_s(state));
     }
-    const bool moved = report.dt_s > 0.0F && !report.walls_held;
     if (simulation.contacts.capacity > 0) {
         simulation.contacts.blows->finish(simulation.contacts);
     }
@@ -131,8 +138,8 @@ void end(detail::WorldState<Real>& state) {
             simulation.regions != nullptr ? simulation.regions->asleep : 0;
         report.particles_asleep = report.asleep ? report.particles : apart;
     }
-    if (moved && simulation.stages->end_leads != nullptr) {
-        simulation.stages->end_leads(simulation.bodies);
+    if (report.dt_s > 0.0F && simulation.stages->end_leads != nullptr) {
+        simulation.stages->end_leads(simulation.bodies, report.walls_held);
     }
     state.stepping = false;
 }

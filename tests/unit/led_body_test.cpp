@@ -116,6 +116,31 @@ TYPED_TEST(LedBody, ArrivesAfterAStepThatHeldIt) {
     EXPECT_EQ(m.velocity_mps.x, 0.0F);
 }
 
+/// Who is not led on stands where it was led to, however long the step that takes it there is.
+TYPED_TEST(LedBody, GoesNoFurtherAfterAStepThatHeldIt) {
+    WorldDef def = pool_def(24, 20);
+    def.capacity.two_way = false;
+    for (const float dt_s : {kDt, 0.4F * kDt, 5.0F * kDt}) {
+        TestWorld<TypeParam> world{def};
+        TestWorld<TypeParam> restored{def};
+        expect_ok(world->fill({{0, 0}, {0.48F, 0.1F}}));
+        const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
+        world->step(kDt);
+        expect_ok(world->move_body(id, {0.11F, 0.105F}, 0.2F, kDt));
+        ASSERT_TRUE(world->step(kDt, 3).walls_held);
+        change_worlds(world, restored, def);
+        world->step(dt_s);
+        restored->step(dt_s);
+        EXPECT_EQ(world->state_hash(), restored->state_hash());
+        const Motion m = motion_of(*world, id);
+        EXPECT_NEAR(m.position_m.x, 0.11F, 3e-5F);
+        EXPECT_NEAR(m.position_m.y, 0.105F, 3e-5F);
+        EXPECT_NEAR(m.angle_rad, 0.2F, 1e-3F);
+        EXPECT_EQ(m.velocity_mps.x, 0.0F);
+        EXPECT_EQ(m.spin_radps, 0.0F);
+    }
+}
+
 /// A character that wades to and fro, known by its position alone.
 template <class Real>
 void expect_wading_keeps_volume() {
