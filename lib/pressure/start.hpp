@@ -124,13 +124,19 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     }
 }
 
+/// A much longer step than the last starts from less than the last pressure would suggest. But an
+/// equation of state solves for nothing: what liquid is pressed by it has stored, and keeps, as far
+/// as last digits of a short step bear it.
+template <class Real>
+inline constexpr Real kMostStretch = Real(std::is_floating_point<Real>::value ? 1.0e9 : 4096.0);
+
 /// What a solve starts from.
 template <class Real>
 Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Real>& fields) {
     const bool cold = !(fields.last_dt > Seconds<Real>{});
-    // A much longer step than the last starts from less than the last pressure would suggest.
+    const Real most = fields.elasticity != nullptr ? kMostStretch<Real> : kMostRescale<Real>;
     const Real rescale =
-        cold ? Real(0) : minimum(fields.change * (dt_s / fields.last_dt), kMostRescale<Real>);
+        cold ? Real(0) : minimum(fields.change * (dt_s / fields.last_dt), most);
     fields.change = Real(1);
     fields.last_dt = dt_s;
     Solve<Real> solve;

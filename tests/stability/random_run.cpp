@@ -219,12 +219,13 @@ void random_scenes(Report& report, const Effort& effort) {
     const std::int32_t count =
         effort.scenes > 0 ? effort.scenes : (effort.full ? 10000 : 300);
     Campaign campaign;
-    if (effort.seed != 0) {
+    if (effort.seed != 0 && effort.scenes == 0) {
         const RandomScene scene = random_scene(effort.seed);
         campaign.take(scene, play(scene, effort.scalar), true);
     } else {
-        for (std::int32_t k = 1; k <= count; ++k) {
-            const RandomScene scene = random_scene(static_cast<std::uint64_t>(k));
+        const std::uint64_t first = effort.seed != 0 ? effort.seed : 1;
+        for (std::int32_t k = 0; k < count; ++k) {
+            const RandomScene scene = random_scene(first + static_cast<std::uint64_t>(k));
             campaign.take(scene, play(scene, effort.scalar), false);
         }
     }

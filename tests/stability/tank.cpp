@@ -7,6 +7,7 @@
 #include "contour/marching_squares.hpp"
 #include "math/vec2.hpp"
 #include "measure/tank_def.hpp"
+#include "world/world_state.hpp"
 
 namespace stability {
 
@@ -133,7 +134,7 @@ void Tank<Real>::set_gravity(Vec2f gravity_mps2) {
 }
 
 /// What has flown into a cell is given back: p² / 2ρc², more where a cell is thin, which takes less
-/// flow to the same pressure.
+/// flow to the same pressure, and where sound was made slower than asked for.
 template <class Real>
 double Tank<Real>::stored_energy() const {
     if (def_.pressure != weir::Pressure::equation_of_state) {
@@ -141,8 +142,14 @@ double Tank<Real>::stored_energy() const {
     }
     const auto pressure = world_.pressure();
     const auto density = world_.density();
-    const double to_speed = static_cast<double>(world_.pressure_scale() /
-                                                (def_.sound_speed_mps * def_.cell_m));
+    const auto& state =
+        *reinterpret_cast<const weir::detail::WorldState<Real>*>(memory_.data());
+    const double sound = to_cells_ * static_cast<double>(state.simulation.pressure.sound_speed);
+    if (!(sound > 0.0)) {  // there was no step yet
+        return 0.0;
+    }
+    const double cell_m = static_cast<double>(def_.cell_m);
+    const double to_speed = static_cast<double>(world_.pressure_scale()) / (sound * cell_m * cell_m);
     double sum = 0.0;
     for (std::int32_t j = 0; j < pressure.rows; ++j) {
         for (std::int32_t i = 0; i < pressure.columns; ++i) {

@@ -131,6 +131,21 @@ TYPED_TEST(ElasticArithmetic, LosesEnergyThatFallsOntoABar) {
     EXPECT_LE(most, 1.001 * start);  // packed places are known to 1/256
 }
 
+/// Pressure is what liquid has stored: a step that is a thousandth of the others takes none of it.
+TYPED_TEST(ElasticArithmetic, AShortStepLeavesItsPressure) {
+    TestWorld<TypeParam> world{elastic_def(16, 20, 16 * 12 * 4)};
+    expect_ok(world->fill({{0, 0}, {16 * kCell, 12 * kCell}}));
+    for (int k = 0; k < 240; ++k) {
+        world->step(1.0F / 60.0F);
+    }
+    world->step(1.0e-5F);
+    float fastest = 0.0F;
+    for (int k = 0; k < 30; ++k) {
+        fastest = std::fmax(fastest, world->step(1.0F / 60.0F).max_speed_mps);
+    }
+    EXPECT_LT(fastest, 0.03F * std::sqrt(9.81F * 12.0F * kCell));
+}
+
 /// Half a box, in steps of four substeps, each of which gives less than a quarter of a cell/s.
 TEST(ElasticPacked, APoolStopsToTheBit) {
     WorldDef def = elastic_def(16, 16, 512);
