@@ -4,11 +4,9 @@
 // that is restored from the first one now and then. Half of the definitions are any that a world
 // may have. Looks change nothing, and no step is so short that it flings the liquid.
 #include <cstdlib>
-#include <limits>
 #include <optional>
 
-#include "random_def.hpp"
-#include "weir/display.hpp"
+#include "random_calls.hpp"
 
 namespace weir {
 namespace {
@@ -21,149 +19,25 @@ void backwards(void (*task)(void*, std::int32_t), void* context, std::int32_t co
     }
 }
 
-/// Now and then what no caller should say.
-float number(Dice& dice, float low, float high) {
-    using Limits = std::numeric_limits<float>;
-    constexpr float kAbsurd[] = {Limits::quiet_NaN(), Limits::infinity(), -1e30F, 3e38F, -0.0F};
-    const float sane = dice.uniform(low, high);
-    const float absurd = dice.one_of(kAbsurd);
-    return dice.chance(0.02F) ? absurd : sane;
-}
-
-Vec2f vector(Dice& dice, float low, float high) {
-    const float x = number(dice, low, high);
-    return {x, number(dice, low, high)};
-}
-
-template <class Real>
-BodyId any_body(const World<Real>& world, Dice& dice, const RandomDef& random) {
-    BodyId id;
-    static_cast<void>(world.body_in_slot(dice.below(random.def.capacity.bodies + 1), &id));
-    id.generation = static_cast<std::uint16_t>(id.generation + (dice.chance(0.05F) ? 1 : 0));
-    return id;
-}
-
-/// Of the tank.
-Vec2f place(Dice& dice, const RandomDef& random, float share = 1.0F) {
-    const Vec2f tank = random.tank_m();
-    const float x = number(dice, 0.0F, share * tank.x);
-    return {x, number(dice, 0.0F, share * tank.y)};
-}
-
-template <class Real>
-Status add_some_body(World<Real>& world, Dice& dice, const RandomDef& random) {
-    const float c = random.def.cell_m;
-    Ring ring = dice.chance(0.8F) ? busy_ring(dice) : Ring{vector(dice, -0.1F, 0.1F),
-                                                          {0.05F, 0.0F}, {0.0F, 0.05F}};
-    for (Vec2f& vertex : ring) {  // busy ones are made for cells of 2 cm
-        vertex = {vertex.x * (c / 0.02F), vertex.y * (c / 0.02F)};
+/// Odd ones first, then the even ones from the last on.
+void mixed(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
+    for (std::int32_t k = 1; k < count; k += 2) {
+        task(context, k);
     }
-    BodyDef def = body_of(ring, place(dice, random), number(dice, -3.0F, 3.0F));
-    const float fastest = 0.5F * random.speed_mps;
-    def.motion.velocity_mps = vector(dice, -fastest, fastest);
-    def.open = dice.chance(0.1F);
-    def.motion.spin_radps = number(dice, -5.0F, 5.0F);
-    def.surface = {number(dice, 0, 1), number(dice, 0, 1), dice.chance(0.5F),
-                   number(dice, -fastest, fastest)};
-    def.density_ratio = number(dice, 0.1F, 3.0F);
-    def.hold = static_cast<Hold>(dice.below(5));
-    if (dice.chance(0.02F)) {
-        def.polygon = {nullptr, 4};
-    }
-    BodyId id;
-    switch (dice.below(3)) {
-        case 0: return world.add_static_body(def, &id);
-        case 1: return world.add_moving_body(def, &id);
-        default: return world.add_free_body(def, &id);
+    for (std::int32_t k = (count - 1) / 2 * 2; k >= 0; k -= 2) {
+        task(context, k);
     }
 }
 
-template <class Real>
-Status change_some_body(World<Real>& world, Dice& dice, const RandomDef& random) {
-    const BodyId id = any_body(world, dice, random);
-    Motion motion;
-    static_cast<void>(world.motion(id, &motion));
-    const float furthest = 1.5F * random.def.cell_m;
-    const Vec2f way = vector(dice, -furthest, furthest);
-    motion.position_m = {motion.position_m.x + way.x, motion.position_m.y + way.y};
-    motion.spin_radps = number(dice, -5.0F, 5.0F);
-    switch (dice.below(4)) {
-        case 0: return world.set_motion(id, motion);
-        case 1: return world.move_body(id, motion.position_m, motion.angle_rad,
-                                       number(dice, 0.0F, 0.03F));
-        case 2: return world.set_surface(id, {number(dice, 0, 1), number(dice, 0, 1), false, 0});
-        default: return world.remove_body(id);
-    }
-}
-
-template <class Real>
-Status change_liquid(World<Real>& world, Dice& dice, const RandomDef& random) {
-    const Vec2f low = place(dice, random, 0.8F);
-    const Vec2f size = place(dice, random, dice.chance(0.5F) ? 0.3F : 0.6F);
-    const Box box{low, {low.x + size.x, low.y + size.y}};
-    const Vec2f speed = vector(dice, -random.speed_mps, random.speed_mps);
-    const std::int32_t index = dice.below(world.particle_positions().size + 4) - 2;
-    const auto tag = static_cast<std::uint8_t>(dice.below(256));
-    const bool second = world.particle_kinds().data != nullptr && dice.chance(0.5F);
-    const Liquid kind = second ? Liquid::second : Liquid::first;
-    switch (dice.below(9)) {
-        case 0: return world.add_particle(low, speed, kind);
-        case 1: return world.remove_particle(index);
-        case 2: return world.drain(box);
-        case 3: return world.stir(box, speed, number(dice, 0.0F, 1.0F));
-        case 4: return world.tag(box, tag);
-        case 5: return world.tag_particle(index, tag);
-        default: return world.fill(box, nullptr, kind);
-    }
-}
-
-template <class Real>
-Status call(World<Real>& world, Dice dice, const RandomDef& random) {
-    const float pull = random.gravity_mps2;
-    switch (dice.below(9)) {
-        case 0:
-        case 1: return add_some_body(world, dice, random);
-        case 2:
-        case 3: return change_some_body(world, dice, random);
-        case 4: return world.set_gravity(vector(dice, -pull, pull));
-        case 5: return world.restore(&dice, sizeof dice);
-        default: return change_liquid(world, dice, random);
-    }
-}
-
-/// All that may be asked and drawn; numbers are numbers.
-template <class Real>
-void look(World<Real>& world, Dice dice, const RandomDef& random) {
-    Diagnostics sums;
-    expect_ok(world.diagnose(&sums));
-    double sum = sums.mass_m2 + sums.kinetic_energy_m4ps2 + sums.volume_m2;
-    const auto density = world.density();
-    for (std::int32_t k = 0; k < density.columns * density.rows; ++k) {
-        sum += static_cast<double>(density.at(k % density.columns, k / density.columns));
-    }
-    EXPECT_EQ(sum - sum, 0.0);
-    LiquidIn found;
-    const Vec2f low = place(dice, random);
-    static_cast<void>(world.liquid_in({{-low.x, -low.y}, low}, &found));
-    BodyForce force;
-    static_cast<void>(world.tank_force(&force));
-    static_cast<void>(world.force(any_body(world, dice, random), &force));
-    static_cast<void>(world.rung_within(number(dice, 0.0F, 0.1F), dice.below(100000)));
-    Display display;
-    display.width = dice.integer(1, 60);
-    display.height = dice.integer(1, 40);
-    std::vector<std::uint8_t> pixels(
-        static_cast<std::size_t>((display.width + 1) / 2 * display.height));
-    display.pixels = pixels.data();
-    const Vec2f size = place(dice, random, dice.one_of({0.1F, 1.0F, 1000.0F}));
-    display.shown_m = {{low.x - size.x, low.y - size.y}, {low.x + size.x, low.y + size.y}};
-    EXPECT_LT(draw(world, display).last, display.height);
+std::uint64_t counted() {
+    static std::uint64_t now = 0;
+    return ++now;
 }
 
 /// From none to what is far too long.
 float step_time(Dice& dice) {
     switch (dice.below(8)) {
-        case 0: return number(dice, 0.0F, 10.0F);
+        case 0: return dice.chance(0.3F) ? 0.0F : number(dice, 0.0F, 10.0F);
         case 1: return any_size(dice, 1.0e-10F, 1.0F);
         default: return number(dice, 0.0F, 0.03F);
     }
@@ -183,7 +57,11 @@ float fastest(const World<Real>& world, std::int32_t bodies) {
         Motion motion;
         static_cast<void>(world.body_in_slot(slot, &id));
         if (world.motion(id, &motion) == Status::ok) {
-            const float turning = 16.0F * world.cell_m() * std::fabs(motion.spin_radps);
+            const Vec2f at = motion.position_m;
+            const float away = std::fabs(at.x) + std::fabs(at.y) +
+                               world.cell_m() * static_cast<float>(16 + world.cells_x() +
+                                                                   world.cells_y());
+            const float turning = away * std::fabs(motion.spin_radps);
             most = std::fmax(most, turning + std::fabs(motion.velocity_mps.x) +
                                        std::fabs(motion.velocity_mps.y));
         }
@@ -191,18 +69,41 @@ float fastest(const World<Real>& world, std::int32_t bodies) {
     return most;
 }
 
-/// A step in slices of any size; calls that would change something are refused meanwhile.
+/// Goes on with a step in slices of any size, at most so many of them; calls that would change
+/// something are refused meanwhile, and what may be asked is answered. True: it is done.
 template <class Real>
-void step_in_slices(World<Real>& world, float dt_s, std::int32_t rung, Dice dice,
-                    const RandomDef& random) {
-    StepReport report;
-    expect_ok(world.begin_step(dt_s, &report, rung));
+bool advance_by(World<Real>& world, std::int32_t slices, const StepReport& report,
+                std::int32_t largest_item, Dice dice, const RandomDef& random) {
     const std::int32_t most = dice.chance(0.5F) ? 300 : 5000;
-    while (!world.advance(1 + dice.below(most))) {
+    std::int64_t before = work_of(report);
+    for (std::int32_t k = 0; k < slices; ++k) {
+        const std::int32_t budget = 1 + dice.below(most);
+        const bool done = world.advance(budget);
+        EXPECT_LT(work_of(report) - before, std::int64_t{budget} + largest_item);
+        before = work_of(report);
+        if (done) {
+            return true;
+        }
         if (dice.chance(0.1F)) {
             EXPECT_NE(call(world, Dice(dice.bits()), random), Status::ok);
+            EXPECT_EQ(world.let_regions_sleep() == Status::ok, false);
+            EXPECT_TRUE(world.contacts().size == 0);
+            EXPECT_TRUE(all_inside(world));
         }
     }
+    return false;
+}
+
+/// What a report says must fit what was asked for, and itself.
+void expect_consistent(const StepReport& r, float dt_s, const WorldDef& def) {
+    EXPECT_TRUE(r.dt_s >= 0.0F && r.dt_s <= 256.0F);
+    EXPECT_TRUE(r.max_speed_mps >= 0.0F && r.max_speed_mps < 1e30F);
+    constexpr float kUnit = 256.0F / 1073741824.0F;  // of the slowest packed worlds
+    EXPECT_TRUE(!(dt_s >= 0.0F) || r.dt_s <= dt_s * 1.00001F + kUnit);
+    EXPECT_LE(r.substeps, def.max_substeps);
+    EXPECT_EQ(r.has(Clamped::speed), r.particles_slowed > 0);
+    EXPECT_EQ(r.has(Clamped::body_speed), r.bodies_slowed > 0);
+    EXPECT_TRUE(!r.asleep || r.particles_asleep == r.particles);
 }
 
 template <class Real>
@@ -211,13 +112,20 @@ public:
     explicit Lives(Dice& dice)
         : random_(random_def(dice)), def_(random_.def), whole_(def_), back_(def_) {
         WorldDef def = def_;
-        def.parallel_for = backwards;
+        def.parallel_for = dice.chance(0.5F) ? backwards : mixed;
+        def.ticks = counted;
         sliced_.emplace(def);
-        if (def_.capacity.sleeping_regions && dice.chance(0.8F)) {
-            for (World<Real>* world : {&*whole_, &**sliced_, &*back_}) {
-                expect_ok(world->let_regions_sleep());
-            }
+        if (def_.capacity.sleeping_regions && dice.chance(0.6F)) {
+            let_regions_sleep();
         }
+    }
+
+    /// Also once more, or where there is no room for it.
+    void let_regions_sleep() {
+        const Status status = whole_->let_regions_sleep();
+        EXPECT_EQ(status == Status::ok, def_.capacity.sleeping_regions);
+        EXPECT_EQ((*sliced_)->let_regions_sleep(), status);
+        EXPECT_EQ(back_->let_regions_sleep(), status);
     }
 
     void call_all(Dice dice) {
@@ -232,17 +140,69 @@ public:
 
     void step_all(Dice& dice) {
         const float dt_s = step_time(dice);
-        const std::int32_t rung = dice.below(kRungs);
+        step_all(dt_s, dice.below(kRungs), dice);
+    }
+
+    void step_all(float dt_s, std::int32_t rung, Dice& dice) {
         WorkBound bound;
         expect_ok(whole_->work_bound(dt_s, &bound, rung));
         const std::int32_t before = whole_->particle_positions().size;
         const StepReport report = whole_->step(dt_s, rung);
         EXPECT_LE(work_of(report), bound.step);
+        expect_consistent(report, dt_s, def_);
         EXPECT_EQ(report.particles, before - report.particles_removed_stuck);
         EXPECT_EQ(report.particles_reset, 0);
         EXPECT_TRUE(all_inside(*whole_));
-        step_in_slices(**sliced_, dt_s, rung, Dice(dice.bits()), random_);
+        StepReport cut;
+        expect_ok((*sliced_)->begin_step(dt_s, &cut, rung));
+        EXPECT_TRUE(advance_by(**sliced_, 1 << 30, cut, bound.largest_item, Dice(dice.bits()),
+                               random_));
         back_->step(dt_s, rung);
+    }
+
+    /// A fountain, as much as there is room for and more.
+    void pour_all(Dice& dice) {
+        const Vec2f at = place(dice, random_);
+        const float c = def_.cell_m;
+        for (std::int32_t k = dice.one_of({3, 30, 30, 1600}); k > 0; --k) {
+            const Vec2f off = {at.x + c * dice.uniform(0.0F, 3.0F),
+                               at.y + c * dice.uniform(0.0F, 3.0F)};
+            const Vec2f speed = {0.1F * random_.speed_mps * dice.uniform(-1.0F, 1.0F), 0.0F};
+            const Status status = whole_->add_particle(off, speed);
+            EXPECT_EQ((*sliced_)->add_particle(off, speed), status);
+            EXPECT_EQ(back_->add_particle(off, speed), status);
+        }
+    }
+
+    /// Long enough to come to rest, and to fall asleep.
+    void wait_all(Dice& dice) {
+        const float dt_s = dice.one_of({1.0F / 60.0F, 1.0F / 60.0F, 0.1F, 1.0e-4F});
+        for (std::int32_t k = dice.integer(10, 60); k > 0 && !testing::Test::HasFailure(); --k) {
+            step_all(dt_s, 0, dice);
+        }
+    }
+
+    /// Amid a step it goes back to where the others are; or another step finishes what was begun.
+    void break_off(Dice& dice) {
+        StepReport report;
+        WorkBound bound;
+        const float dt_s = step_time(dice);
+        const std::int32_t rung = dice.below(kRungs);
+        const Bytes bytes = saved(*whole_, def_.capacity);
+        expect_ok((*sliced_)->work_bound(dt_s, &bound, rung));
+        expect_ok((*sliced_)->begin_step(dt_s, &report, rung));
+        advance_by(**sliced_, dice.below(40), report, bound.largest_item, Dice(dice.bits()),
+                   random_);
+        if (dice.chance(0.6F)) {
+            expect_ok((*sliced_)->restore(bytes.data(), bytes.size()));
+            return;
+        }
+        const float next_s = step_time(dice);
+        (*sliced_)->step(next_s);
+        for (TestWorld<Real>* world : {&whole_, &back_}) {
+            (*world)->step(dt_s, rung);
+            (*world)->step(next_s);
+        }
     }
 
     /// After things that happened to it alone.
@@ -325,17 +285,25 @@ TYPED_TEST(RandomCalls, ChangeNothingWhenRefusedAndAllLivesAlike) {
         Lives<TypeParam> world(dice);
         for (std::int32_t k = 0; k < kCalls && !testing::Test::HasFailure(); ++k) {
             SCOPED_TRACE(k);
-            const std::int32_t what = k < 8 ? 0 : dice.below(22);
-            if (what < 9) {
+            const std::int32_t what = k < 8 ? 0 : dice.below(250);
+            if (what < 95) {
                 world.call_all(Dice(dice.bits()));
-            } else if (what < 18) {
+            } else if (what < 190) {
                 world.step_all(dice);
-            } else if (what < 20) {
+            } else if (what < 210) {
                 world.restore_one(dice);
-            } else if (what < 21) {
+            } else if (what < 220) {
                 world.look_at_one(dice);
-            } else {
+            } else if (what < 230) {
                 world.make_a_short_step(dice);
+            } else if (what < 238) {
+                world.break_off(dice);
+            } else if (what < 246) {
+                world.pour_all(dice);
+            } else if (what < 248) {
+                world.wait_all(dice);
+            } else {
+                world.let_regions_sleep();
             }
             world.expect_one();
         }

@@ -124,7 +124,8 @@ RandomDef any_def(Dice& dice) {
     Capacity& room = def.capacity;
     const float c = dice.chance(0.3F) ? 0.02F : any_size(dice, 1.1e-6F, 9.0e2F);
     def.cell_m = c;
-    random.gravity_mps2 = std::min(dice.chance(0.5F) ? 9.81F : any_size(dice, 1e-3F, 9e2F),
+    const float pull = dice.chance(0.1F) ? kMaxGravity : any_size(dice, 1e-3F, 9e2F);
+    random.gravity_mps2 = std::min(dice.chance(0.5F) ? 9.81F : pull,
                                    2.9e4F * c);  // what fixed point bears
     def.gravity_mps2 = {dice.one_of({0.0F, 0.5F, -0.3F}) * random.gravity_mps2,
                         dice.one_of({0.0F, -1.0F, -1.0F, 0.4F}) * random.gravity_mps2};
@@ -147,6 +148,11 @@ RandomDef any_def(Dice& dice) {
         def.periodic_y = dice.chance(0.4F);
         room.cells_x += def.periodic_x ? room.cells_x % 2 : 0;
         room.cells_y += def.periodic_y ? room.cells_y % 2 : 0;
+        if (room.window_cells > 0) {  // of an axis with a seam all of it is stored
+            const std::int32_t columns = def.periodic_x ? room.cells_x + 2 : 68;
+            const std::int32_t rows = def.periodic_y ? room.cells_y + 2 : 28;
+            room.window_cells = std::max(room.window_cells, columns * rows);
+        }
     }
     return random;
 }
