@@ -120,6 +120,24 @@ TYPED_TEST(LadderOf, BodiesAreHeldEveryOtherStep) {
 }
 
 /// Whoever stays on a rung for ever gets slower and rougher water, nothing worse.
+/// Who was put elsewhere is drawn there in the next step, in that of a restored world, too.
+TYPED_TEST(LadderOf, SnapshotKnowsWhoWasPutElsewhere) {
+    const WorldDef def = small_def();
+    TestWorld<TypeParam> world(def);
+    TestWorld<TypeParam> restored(def);
+    BodyDef body = body_of(kSquare4cm, {0.1F, 0.1F});
+    body.motion.velocity_mps = {0.1F, 0.0F};
+    const BodyId id = put_moving(*world, body);
+    world->step(1.0F / 60.0F);
+    Motion motion = motion_of(*world, id);
+    motion.position_m.y += 0.01F;
+    expect_ok(world->set_motion(id, motion));
+    change_worlds(world, restored, def);
+    EXPECT_FALSE(world->step(1.0F / 60.0F, 3).walls_held);
+    EXPECT_FALSE(restored->step(1.0F / 60.0F, 3).walls_held);
+    EXPECT_EQ(restored->state_hash(), world->state_hash());
+}
+
 TYPED_TEST(LadderOf, EveryRungStaysTame) {
     for (std::int32_t rung = 1; rung < kRungs; ++rung) {
         SCOPED_TRACE(rung);

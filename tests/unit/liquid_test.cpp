@@ -377,5 +377,28 @@ TEST(Symmetry, IsCloseWhateverTheWidth) {
     EXPECT_LT(asymmetry<float>(32, 12), 0.02);
 }
 
+/// A step is cut as who was thrown in needs it, though nothing had moved before.
+TEST(World, WhoIsThrownInIsNotSlowed) {
+    TestWorld<float> world(tank_def(32, 32, 10));
+    world->step(1.0F / 60.0F);
+    expect_ok(world->add_particle({0.1F, 0.3F}, {12.0F, 0.0F}));
+    const StepReport report = world->step(1.0F / 60.0F);
+    EXPECT_EQ(report.particles_slowed, 0);
+    EXPECT_GE(report.substeps, 10);
+    EXPECT_NEAR(static_cast<double>(world->particle_positions()[0].x), 15.0, 0.1);
+}
+
+/// Told of the end of a step, not of all of its substeps.
+TEST(World, CellsAreOverfullOnce) {
+    TestWorld<float> world(tank_def(16, 16, 2048));
+    for (int k = 0; k < 2; ++k) {
+        expect_ok(world->fill({{0, 0}, {0.32F, 0.32F}}));
+    }
+    const StepReport report = world->step(0.1F);
+    EXPECT_GE(report.substeps, 6);
+    EXPECT_GT(report.cells_overfull, 200);
+    EXPECT_LE(report.cells_overfull, 256);
+}
+
 }  // namespace
 }  // namespace weir

@@ -305,6 +305,42 @@ TEST(Sleep, GravityMayTrembleButNotDrift) {
     EXPECT_LT(slept, 125) << "woken at 0.1 m/s² of tilt";
 }
 
+/// Noise is about what gravity was when rest began, not about the first one.
+TEST(Sleep, GravityMayTrembleAboutAnotherOne) {
+    WorldDef def = pool_def();
+    def.sleep.gravity_mps2 = 0.1F;
+    Pool<float> pool(def);
+    Dice dice(8);
+    const auto tremble = [&] {
+        expect_ok(pool->set_gravity({0.5F + dice.uniform(-0.02F, 0.02F), -kGravity}));
+        return pool->step(kDt).asleep;
+    };
+    std::int32_t steps = 0;
+    while (!tremble() && steps < 3000) {
+        ++steps;
+    }
+    for (int k = 0; k < 50; ++k) {
+        EXPECT_TRUE(tremble());
+    }
+}
+
+/// It goes a cell a substep, with no velocity of its own.
+TEST(Sleep, NotWhileAnybodyIsOnTheWayOutOfASolid) {
+    WorldDef def = tank_def(48, 48, 4, 1, 4);
+    def.gravity_mps2 = {};
+    def.sleep = {0.02F, 0.1F, 0.0F};
+    TestWorld<float> world(def);
+    expect_ok(world->add_particle({0.48F, 0.5F}, {}));
+    put_static(*world, body_of(rectangle(0.6F, 0.6F), {0.48F, 0.48F}));
+    std::int32_t steps = 0;
+    for (StepReport report = world->step(kDt); report.particles_stuck > 0 && steps < 40; ++steps) {
+        EXPECT_FALSE(report.asleep);
+        report = world->step(kDt);
+    }
+    EXPECT_GT(steps, 8) << "longer than it takes to fall asleep";
+    EXPECT_LT(steps, 40);
+}
+
 TEST(Sleep, NotWhileABodyMovesOrLiquidFalls) {
     Pool<float> pool;
     Motion motion;
