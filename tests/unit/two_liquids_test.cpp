@@ -356,5 +356,27 @@ TEST(TwoLiquids, ASecondLiquidIsAByteAParticleAndTwoNumbersACell) {
     EXPECT_EQ(world->particle_kinds().size, 0);
 }
 
+/// A drop of liquid three times as dense gives a free body three times the momentum.
+TEST(TwoLiquids, TheDenserOneHitsHarder) {
+    float pushed[2] = {};
+    for (const Liquid kind : {Liquid::first, Liquid::second}) {
+        WorldDef def = tank_def(32, 32, 4, 1, 4);
+        def.gravity_mps2 = {};
+        def.capacity.two_way = def.capacity.second_liquid = true;
+        def.second_density_ratio = 3.0F;
+        TestWorld<float> world(def);
+        BodyDef body = body_of(kSquare4cm, {0.32F, 0.32F});
+        body.density_ratio = 1.0F;
+        const BodyId id = put_free(*world, body);
+        expect_ok(world->add_particle({0.25F, 0.32F}, {1.0F, 0.0F}, kind));
+        for (int step = 0; step < 20; ++step) {
+            world->step(1.0F / 120.0F);
+        }
+        pushed[kind == Liquid::second ? 1 : 0] = motion_of(*world, id).velocity_mps.x;
+    }
+    EXPECT_GT(pushed[0], 0.01F);
+    EXPECT_NEAR(pushed[1] / pushed[0], 3.0F, 0.5F);
+}
+
 }  // namespace
 }  // namespace weir
