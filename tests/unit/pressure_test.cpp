@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pressure/start.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
 
@@ -96,6 +97,42 @@ TEST(Volume, ADenseStartExpandsSoon) {
         world->step(kStep);
     }
     EXPECT_LT(bottom_error(*world, 16.0), 0.004);
+}
+
+/// Of the old pressure p as much is taken as brings it nearer to the solution, in eighths; pᵀb and
+/// pᵀAp tell.
+TEST(PressureStart, IsNoFurtherThanNone) {
+    const double wanted[] = {1.0, 0.5, 0.4, 0.26, 0.13, 0.1, 0.0, -1.0};
+    const double share[] = {1.0, 1.0, 0.375, 0.25, 0.125, 0.0, 0.0, 0.0};
+    for (int k = 0; k < 8; ++k) {
+        EXPECT_EQ(share_of_start<double>(wanted[k], 1.0), share[k]) << wanted[k];
+    }
+}
+
+TEST(PressureStart, OfAMuchLongerStepIsLess) {
+    const auto rescaled = [](float dt_s, float change) {
+        PressureFields<float> fields;
+        fields.last_dt = 1.0e-3F;
+        fields.change = change;
+        const float rescale = begin_solve(8, dt_s, fields).rescale;
+        EXPECT_EQ(fields.change, 1.0F);
+        return rescale;
+    };
+    EXPECT_FLOAT_EQ(rescaled(5.0e-3F, 1.0F), 5.0F);
+    EXPECT_EQ(rescaled(0.1F, 1.0F), kMostRescale<float>);
+    EXPECT_FLOAT_EQ(rescaled(2.0e-4F, 1.0F), 0.2F);
+    EXPECT_FLOAT_EQ(rescaled(2.0e-3F, 0.5F), 1.0F) << "gravity has halved";
+}
+
+/// Pressure pushes through a narrow gap with four times its share; compressible liquid through its
+/// surface with no more than that.
+TEST(NarrowGap, IsNoLever) {
+    PressureFields<float> fields;
+    EXPECT_FLOAT_EQ(push_through(fields, true, 0.1F), 0.4F);
+    EXPECT_EQ(push_through(fields, true, 0.5F), 1.0F);
+    fields.sound_speed = 10.0F;
+    EXPECT_EQ(push_through(fields, true, 0.1F), 0.1F);
+    EXPECT_FLOAT_EQ(push_through(fields, false, 0.1F), 0.4F);
 }
 
 }  // namespace
