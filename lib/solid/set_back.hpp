@@ -15,6 +15,16 @@ inline constexpr Real kFastestWayOut = Real(1);
 template <class Real>
 inline constexpr Real kBeyond = Real(0.5);
 
+/// Between bodies that move particles are set back over and over, each time by another wall, and
+/// half of their way brings them nearer to each other until they meet. All of it keeps them as far
+/// apart as they were. Packed worlds part those who have met.
+template <class Real>
+Real part_beyond(const Walls<Real>& walls, std::uint16_t slot) {
+    const bool moves = !Stored<Real>::coarse && walls.moving != nullptr &&
+                       walls.body[slot].kind == BodyKind::moving;
+    return moves ? Real(1) : kBeyond<Real>;
+}
+
 /// In a corner a particle that is set back to one wall may be behind the next: so often.
 inline constexpr std::int32_t kMostWalls = 4;
 
@@ -106,7 +116,8 @@ template <class Real>
         blows.normal[blows.count] = normal;
         ++blows.count;
         const Vec2<Real> wall = back.to + minimum(way, kFastestWayOut<Real>) * normal;
-        const Real beyond = binary ? Real(0) : Real(0) - kBeyond<Real> * at.hit.distance;
+        const Real part = binary ? Real(0) : part_beyond(scene.walls, at.slot);
+        const Real beyond = Real(0) - part * at.hit.distance;
         back.to = as_kept(within_tank(scene.shape, wall + beyond * normal));
         at = standing(scene.shape, scene.walls, back.to);
         if (!binary && !at.inside && on_other_side(scene, wall, normal, from)) {

@@ -10,6 +10,12 @@ namespace {
 template <class Real>
 constexpr Real kClearance = Real(1.0 / 512.0);
 
+/// Who is found behind a wall gets as far in front of it, this at most, cells. Set to the wall
+/// itself, or only some of the way back, particles that walls push into a corner would come nearer
+/// to each other by so much in each substep until all are in one place.
+template <class Real>
+constexpr Real kMostBeyond = Real(0.5);
+
 /// Where a place of the tank would be if it had moved with the body since particles met it.
 template <class Real>
 Vec2<Real> seen_from(const ThinBody<Real>& at, const Body<Real>& body, Vec2<Real> place) {
@@ -169,7 +175,9 @@ bool keep_side(const ThinWalls<Real>& thin, const GridShape& shape, const Body<R
             stop.normal[hit] = stop.normal[again];
             vertex[hit] = vertex[again];
         }
-        const Real short_of_it = kClearance<Real> - height_over(thin, stop, hit, vertex[hit]);
+        const Real depth = Real(0) - height_over(thin, stop, hit, vertex[hit]);
+        const Real beyond = clamp<Real>(depth, Real(0), kMostBeyond<Real>);
+        const Real short_of_it = kClearance<Real> + depth + beyond;
         stop.place = within_tank(shape, stop.place + short_of_it * stop.normal[hit]);
     }
     // In a corner too narrow to slide along: back to where it was, as the wall took it along.
