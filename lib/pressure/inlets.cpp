@@ -143,10 +143,12 @@ constexpr std::int32_t kDense = 8;
 
 }  // namespace
 
-void note_dense(const GridShape& tank, Vec2<SmallFixed> place, PressureFields<SmallFixed>& fields) {
+void note_dense(const GridShape& tank, Vec2<SmallFixed> place, SmallFixed gravity,
+                PressureFields<SmallFixed>& fields) {
     const std::int32_t c =
         tank.index(static_cast<std::int32_t>(place.x), static_cast<std::int32_t>(place.y));
-    if (fields.pressure[c] > fields.cell_weight) {
+    // The fields' own weight of a cell is no part of a snapshot.
+    if (fields.pressure[c] > fields.last_dt * gravity) {
         fields.room_turns = kRoomTurns;
     }
 }

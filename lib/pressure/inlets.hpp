@@ -60,7 +60,9 @@ void link_inlets(PressureFields<Real>& fields);
 inline constexpr std::uint8_t kRoomTurns = 128;
 
 /// That something was added there: nothing if no liquid was over it in the last substep.
-void note_dense(const GridShape& tank, Vec2<SmallFixed> place, PressureFields<SmallFixed>& fields);
+/// `gravity`: the stronger part of it.
+void note_dense(const GridShape& tank, Vec2<SmallFixed> place, SmallFixed gravity,
+                PressureFields<SmallFixed>& fields);
 
 /// Between the equations and their solve.
 void make_room_packed(const GridShape& s, PressureFields<SmallFixed>& fields);

@@ -46,7 +46,8 @@ template <class Real>
     }
     if (!lies_asleep(simulation, at)) {
         if constexpr (Stored<Real>::coarse) {
-            note_dense(tank, at, fields);
+            const Vec2<Real> g = simulation.settings.gravity;
+            note_dense(tank, at, maximum(absolute(g.x), absolute(g.y)), fields);
         } else {
             note_inlet(tank, simulation.layers.walls, at,
                        Real(1) / simulation.settings.rest_count, fields);
