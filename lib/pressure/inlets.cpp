@@ -143,12 +143,11 @@ constexpr std::int32_t kDense = 8;
 
 }  // namespace
 
-void note_dense(const GridShape& tank, Vec2<SmallFixed> place, SmallFixed gravity,
+void note_dense(const GridShape& tank, Vec2<SmallFixed> place, SmallFixed weight,
                 PressureFields<SmallFixed>& fields) {
     const std::int32_t c =
         tank.index(static_cast<std::int32_t>(place.x), static_cast<std::int32_t>(place.y));
-    // The fields' own weight of a cell is no part of a snapshot.
-    if (fields.pressure[c] > fields.last_dt * gravity) {
+    if (fields.pressure[c] > weight) {
         fields.room_turns = kRoomTurns;
     }
 }

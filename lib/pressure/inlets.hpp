@@ -60,8 +60,8 @@ void link_inlets(PressureFields<Real>& fields);
 inline constexpr std::uint8_t kRoomTurns = 128;
 
 /// That something was added there: nothing if no liquid was over it in the last substep.
-/// `gravity`: the stronger part of it.
-void note_dense(const GridShape& tank, Vec2<SmallFixed> place, SmallFixed gravity,
+/// `weight`: of a cell in that one.
+void note_dense(const GridShape& tank, Vec2<SmallFixed> place, SmallFixed weight,
                 PressureFields<SmallFixed>& fields);
 
 /// Between the equations and their solve.

@@ -36,8 +36,7 @@ void solve_pressure(Simulation<Real>& simulation, const Domain<Real>& domain,
     const Settings<Real>& settings = simulation.settings;
     const detail::Elasticity<Real>* elasticity = simulation.pressure.elasticity;
     if (work.once(1)) {
-        const Vec2<Real> g = settings.gravity;
-        simulation.pressure.cell_weight = plan.dt_s * maximum(absolute(g.x), absolute(g.y));
+        simulation.pressure.cell_weight = settings.cell_weight(plan.dt_s);
         if (elasticity != nullptr) {
             elasticity->follow_sound(plan.sound_speed, simulation.pressure);
         }

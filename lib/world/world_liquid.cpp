@@ -46,8 +46,8 @@ template <class Real>
     }
     if (!lies_asleep(simulation, at)) {
         if constexpr (Stored<Real>::coarse) {
-            const Vec2<Real> g = simulation.settings.gravity;
-            note_dense(tank, at, maximum(absolute(g.x), absolute(g.y)), fields);
+            // The fields' own weight of a cell is no part of a snapshot.
+            note_dense(tank, at, simulation.settings.cell_weight(fields.last_dt), fields);
         } else {
             note_inlet(tank, simulation.layers.walls, at,
                        Real(1) / simulation.settings.rest_count, fields);
