@@ -101,7 +101,7 @@ inline constexpr std::int32_t kMostInlets = 8;
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 928 : 912) + (std::is_same_v<Real, Fixed> ? 16 : 0)
+        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 944 : 912) + (std::is_same_v<Real, Fixed> ? 16 : 0)
                               : 1312) +
               (std::is_same_v<Real, SmallFixed> ? 0 : 80)
         : 1680;
