@@ -1,5 +1,5 @@
-# One program for whatever the build is for: an executable on a host, an image for each board of a
-# cross build.
+# One program for whatever the build is for: an executable for a system, this one or one that is
+# emulated (both a "host"), or an image for each board.
 
 # weir_add_program(NAME name SOURCES file... [LIBRARIES target...] [BOARDS board...]
 #                  [STACK bytes] [RAM bytes])
@@ -32,6 +32,9 @@ function(weir_add_program_test)
       list(APPEND rest ${option} ${arg_${option}})
     endif()
   endforeach()
+  if(EMSCRIPTEN AND arg_ARGS)  # its programs have no command line
+    return()
+  endif()
   if(TARGET weir_port_host)
     if(NOT DEFINED arg_EXIT_CODE)
       set(arg_EXIT_CODE 0)
@@ -40,7 +43,8 @@ function(weir_add_program_test)
       set(arg_TIMEOUT 120)
     endif()
     add_test(NAME ${arg_NAME} COMMAND ${WEIR_PORT_DIR}/check ${arg_EXIT_CODE}
-      ${arg_PASS_REGULAR_EXPRESSION} -- $<TARGET_FILE:${arg_PROGRAM}> ${arg_ARGS})
+      ${arg_PASS_REGULAR_EXPRESSION} --
+      ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${arg_PROGRAM}> ${arg_ARGS})
     set_tests_properties(${arg_NAME} PROPERTIES TIMEOUT ${arg_TIMEOUT})
     return()
   endif()

@@ -1,11 +1,12 @@
-// Four floats side by side, where the processor has registers for them (SSE2, NEON). Lane by lane
-// + − × are the plain ones, so that a loop in lanes gives the plain loop's bits.
+// Four floats side by side, where the processor has registers for them (SSE2, NEON, WebAssembly).
+// Lane by lane + − × are the plain ones, so that a loop in lanes gives the plain loop's bits. NEON
+// of 32-bit Arm flushes denormals: not there.
 #pragma once
 
 #include "math/scalar.hpp"
 
-#if (defined(__SSE2__) || defined(__ARM_NEON)) && !defined(WEIR_PLAIN_LOOPS) && \
-    (defined(__clang__) || __GNUC__ >= 12)
+#if (defined(__SSE2__) || defined(__aarch64__) || defined(__wasm_simd128__)) && \
+    !defined(WEIR_PLAIN_LOOPS) && (defined(__clang__) || __GNUC__ >= 12)
 #define WEIR_HAS_LANES 1
 #else
 #define WEIR_HAS_LANES 0

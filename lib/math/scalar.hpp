@@ -293,14 +293,16 @@ float square_root_in_integers(float value);
 double square_root_in_integers(double value);
 
 inline float square_root(float value) {
-#if defined(__SSE2__) || defined(__aarch64__) || (defined(__ARM_FP) && (__ARM_FP & 4))
+#if defined(__SSE2__) || defined(__aarch64__) || defined(__wasm__) || \
+    (defined(__ARM_FP) && (__ARM_FP & 4))
     return __builtin_sqrtf(value);
 #else
     return square_root_in_integers(value);
 #endif
 }
 inline double square_root(double value) {
-#if defined(__SSE2__) || defined(__aarch64__) || (defined(__ARM_FP) && (__ARM_FP & 8))
+#if defined(__SSE2__) || defined(__aarch64__) || defined(__wasm__) || \
+    (defined(__ARM_FP) && (__ARM_FP & 8))
     return __builtin_sqrt(value);
 #else
     return square_root_in_integers(value);

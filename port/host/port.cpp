@@ -7,6 +7,11 @@
 #include <cstdlib>
 #include <cstring>
 
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
+
 namespace port {
 namespace {
 
@@ -21,8 +26,17 @@ std::size_t copy_value(const char* value, char* out, std::size_t size) {
   return length;
 }
 
-/// The words of the command line, each ended by a zero, as Linux shows them; 0 bytes elsewhere.
-/// Read from /proc because it needs nothing of main(), which then looks the same on every port.
+/// The words of the command line, each ended by a zero, on Linux and Windows; 0 bytes elsewhere.
+/// Not taken from main(), which so looks the same on every port.
+#ifdef _WIN32
+std::size_t command_line(char* out, std::size_t size) {
+  std::size_t bytes = 0;
+  for (int k = 0; k < __argc && bytes + std::strlen(__argv[k]) < size; ++k) {
+    bytes += copy_value(__argv[k], out + bytes, size - bytes) + 1;
+  }
+  return bytes;
+}
+#else
 std::size_t command_line(char* out, std::size_t size) {
   std::FILE* file = std::fopen("/proc/self/cmdline", "rb");
   if (file == nullptr) return 0;
@@ -31,10 +45,19 @@ std::size_t command_line(char* out, std::size_t size) {
   out[bytes] = '\0';
   return bytes;
 }
+#endif
 
 }  // namespace
 
+#ifdef _WIN32
+/// Lines end as they are written.
+void init() {
+  _setmode(_fileno(stdout), _O_BINARY);
+  _setmode(_fileno(stderr), _O_BINARY);
+}
+#else
 void init() {}
+#endif
 
 void write(const char* text, std::size_t bytes) { std::fwrite(text, 1, bytes, stdout); }
 
@@ -78,11 +101,3 @@ bool file_write(const char* name, const void* data, std::size_t bytes, bool appe
 
 }  // namespace port
 
-// To stderr, where death tests look, and without running destructors: the program's state is not to
-// be trusted.
-extern "C" [[gnu::weak]] void weir_fault(const char* expression, const char* file, int line) {
-  std::fflush(stdout);
-  std::fprintf(stderr, "FAULT %s %s:%d\n", expression, file, line);
-  std::fflush(stderr);
-  std::_Exit(3);
-}

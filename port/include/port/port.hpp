@@ -66,6 +66,5 @@ bool file_write(const char* name, const void* data, std::size_t bytes, bool appe
 
 /// The one function Weir calls upward: a programmer's error was found and going on would be wrong.
 /// Must say where, and must not return. The ports here print `FAULT expression file:line` and
-/// exit(3); they define it weak, so a program may bring its own (log to flash, restart, light a
-/// lamp).
+/// exit(3); a program may bring its own (log to flash, restart, light a lamp).
 extern "C" [[noreturn]] void weir_fault(const char* expression, const char* file, int line);
