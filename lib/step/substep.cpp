@@ -83,8 +83,9 @@ void update_grid(Simulation<Real>& simulation, const Domain<Real>& domain,
                  const SubstepPlan<Real>& plan, Work work) {
     const Vec2<Real> exact = simulation.settings.fall_in(plan.dt_s);
     const Real most = most_owed(simulation, plan);
-    // Only beside solids does it matter who is reached: elsewhere 0 is exact in fixed point, too.
-    const Real unreached = simulation.layers.walls.active ? kNoVelocity<Real> : Real(-0.0);
+    // Only beside solids does it matter who is reached: without any 0 is exact in fixed point, too.
+    // Not by whether they are within reach: what creeps by a last digit would tell.
+    const Real unreached = simulation.bodies.used > 0 ? kNoVelocity<Real> : Real(-0.0);
     grid_update(domain, simulation.fall.of(exact, most), work, unreached);
     if (work.once(1)) {
         simulation.fall.give(exact, most);

@@ -148,6 +148,31 @@ TYPED_TEST(Occupied, SolidsOutOfReachAreNotAsked) {
     EXPECT_GT(tested, 50) << "and then they met";
 }
 
+/// Nor by what creeps by a last digit of fixed point, in which beside solids another number stands
+/// for a face that no particle reaches.
+TYPED_TEST(Occupied, SolidsOutOfReachSlowNothingThatCreeps) {
+    using Real = TypeParam;
+    WorldDef def = small_def();
+    def.capacity.cells_y = 40;
+    def.gravity_mps2 = {};
+    TestWorld<Real> skips(def);
+    def.capacity.two_way = true;
+    TestWorld<Real> asks(def);
+    const float digit_mps = def.cell_m / 65536.0F;
+    for (TestWorld<Real>* world : {&skips, &asks}) {
+        put_static(**world, body_of(kSquare4cm, {0.16F, 0.64F}));
+        expect_ok((*world)->fill({{0.04F, 0.04F}, {0.16F, 0.16F}}));
+        expect_ok((*world)->stir({{}, {0.32F, 0.32F}}, {digit_mps, -digit_mps}, 1.0F));
+        for (int k = 0; k < 5; ++k) {
+            (*world)->step(1.0F / 60.0F);
+        }
+    }
+    const auto a = skips->particle_velocities();
+    const auto b = asks->particle_velocities();
+    ASSERT_EQ(a.size, b.size);
+    EXPECT_EQ(std::memcmp(a.data, b.data, static_cast<std::size_t>(a.size) * sizeof a[0]), 0);
+}
+
 TEST(OccupiedPart, IsAllThatCostsWork) {
     CornerPool<float> small(40, 60), large(800, 600);
     small.world.step(1.0F / 60.0F);  // the first one empties the tank
