@@ -40,5 +40,23 @@ TEST(DriftWeights, DisorderHasItsDigits) {
     EXPECT_NEAR(told / kOfDisorder<Fixed>, 16.0 * given * given, 1.0e-6);
 }
 
+/// A torn patch that is not pressed makes as much of its drift as it can pay for; in order, or let
+/// down, or pressed, all of it.
+TEST(DriftWeights, WhatIsTornIsDrawnUpAsFarAsItPays) {
+    Weights<float> weights;
+    weights.moving[0] = 64.0F;
+    weights.raised[0] = 3.0F;
+    weights.disorder[0] = kTorn<float> + kStirred<float>;
+    EXPECT_FLOAT_EQ(share_of_drift(weights, false), 0.25F);
+    EXPECT_EQ(share_of_drift(weights, true), 1.0F);
+    weights.disorder[0] = kTorn<float> + 0.5F * kStirred<float>;
+    EXPECT_FLOAT_EQ(share_of_drift(weights, false), 0.4F);
+    weights.disorder[0] = kTorn<float>;
+    EXPECT_EQ(share_of_drift(weights, false), 1.0F);
+    weights.disorder[0] = 1.0F;
+    weights.raised[0] = -3.0F;
+    EXPECT_EQ(share_of_drift(weights, false), 1.0F);
+}
+
 }  // namespace
 }  // namespace weir

@@ -164,5 +164,20 @@ TEST(ElasticPacked, APoolStopsToTheBit) {
     EXPECT_EQ(world->state_hash(), before);
 }
 
+/// Steps too long for sound make it slower. It stiffens again by a sixteenth a substep, not at once.
+TEST(EquationOfState, SoundRecoversSlowly) {
+    WorldDef def = elastic_def(16, 20, 16 * 8 * 4);
+    def.max_substeps = 1;
+    TestWorld<float> world(def);
+    expect_ok(world->fill({{0, 0}, {16 * kCell, 8 * kCell}}));
+    EXPECT_TRUE(world->step(1.0F / 60.0F).has(Clamped::sound_speed));
+    std::int32_t steps = 0;
+    while (world->step(1.0e-4F).has(Clamped::sound_speed) && steps < 200) {
+        ++steps;
+    }
+    EXPECT_GT(steps, 8);
+    EXPECT_LT(steps, 100);
+}
+
 }  // namespace
 }  // namespace weir

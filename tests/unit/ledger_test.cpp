@@ -43,6 +43,7 @@ void expect_balance(const Stirred& how, double most_settled) {
 
 using Scalars = testing::Types<Fixed, SmallFixed>;
 WEIR_SUITE(WholeLedgerOf, Scalars);
+WEIR_SUITE(TankOf, EveryScalar);
 
 TYPED_TEST(WholeLedgerOf, BalancesAPool) {
     expect_balance<TypeParam>({}, 0.01);
@@ -99,6 +100,27 @@ TEST(WholeLedger, BalancesTwoLiquidsWithAFreeBody) {
     Stirred how;
     how.bodies = how.floating = how.second = how.swings = true;
     expect_balance<Fixed>(how, 0.2);
+}
+
+/// What a tank receives does not depend on whether there is room for bodies.
+TYPED_TEST(TankOf, ReceivesTheSameWithoutRoomForBodies) {
+    WorldDef def = small_def();
+    def.capacity.two_way = true;
+    TestWorld<TypeParam> roomy(def);
+    def.capacity.bodies = def.capacity.vertices = 0;
+    TestWorld<TypeParam> bare(def);
+    for (TestWorld<TypeParam>* world : {&roomy, &bare}) {
+        expect_ok((*world)->fill({{0.04F, 0.06F}, {0.20F, 0.14F}}));
+    }
+    for (int k = 0; k < 60; ++k) {
+        roomy->step(1.0F / 60.0F);
+        bare->step(1.0F / 60.0F);
+        BodyForce one, other;
+        expect_ok(roomy->tank_force(&one));
+        expect_ok(bare->tank_force(&other));
+        ASSERT_EQ(one.impulse_m3ps.x, other.impulse_m3ps.x) << k;
+        ASSERT_EQ(one.impulse_m3ps.y, other.impulse_m3ps.y) << k;
+    }
 }
 
 }  // namespace

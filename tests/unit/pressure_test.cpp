@@ -7,6 +7,7 @@
 #include "pressure/start.hpp"
 #include "test_world.hpp"
 #include "weir/weir.hpp"
+#include "world/world_state.hpp"
 
 namespace weir {
 namespace {
@@ -133,6 +134,55 @@ TEST(NarrowGap, IsNoLever) {
     fields.sound_speed = 10.0F;
     EXPECT_EQ(push_through(fields, true, 0.1F), 0.1F);
     EXPECT_FLOAT_EQ(push_through(fields, false, 0.1F), 0.4F);
+}
+
+/// A jet's cells hold more than the liquid fraction: all of that is moved by what is more than a
+/// cell's weight. Not by less, nor where liquid has no weight, unless it is compressible.
+TEST(JetShare, OfMoreThanAWeightMovesAllThatIsThere) {
+    float level[] = {0.25F, -0.25F};
+    float density[] = {1.0F, 0.5F};
+    float pressure[] = {4.0F, 0.0F};
+    PressureFields<float> fields;
+    fields.level = level;
+    fields.density = density;
+    fields.pressure = pressure;
+    const auto share = [&] { return jet_share(fields, 0, 1, 1.0F, 1.0F); };
+    EXPECT_EQ(share(), 1.0F) << "no weight";
+    fields.cell_weight = 8.0F;
+    const float fraction = liquid_fraction(fields, level[0], level[1], 1.0F);
+    EXPECT_FLOAT_EQ(share(), fraction) << "of a mass of 1";
+    pressure[0] = 3.0F;  // half of a weight more than a weight
+    EXPECT_FLOAT_EQ(share(), 0.5F + 0.5F * fraction);
+    pressure[0] = 2.0F;
+    EXPECT_EQ(share(), 1.0F);
+    pressure[0] = 4.0F;
+    fields.on_surface = true;
+    EXPECT_EQ(share(), 1.0F) << "bent surfaces make pressure, too";
+    fields.on_surface = false;
+    fields.sound_speed = 10.0F;
+    fields.cell_weight = 0.0F;
+    EXPECT_FLOAT_EQ(share(), liquid_fraction(fields, level[0], level[1], 1.0F) / 0.75F);
+}
+
+/// Gravity that grows takes the pressure along up to twice as much; compressible liquid's not.
+TEST(PressureStart, FollowsGravityToTwiceItAtMost) {
+    for (const Pressure pressure : {Pressure::projection, Pressure::equation_of_state}) {
+        WorldDef def = small_def();
+        def.pressure = pressure;
+        def.gravity_mps2 = {0.0F, -1.0F};
+        TestWorld<float> world(def);
+        const auto change = [&] {
+            return reinterpret_cast<detail::WorldState<float>*>(world.memory())
+                ->simulation.pressure.change;
+        };
+        const bool elastic = pressure == Pressure::equation_of_state;
+        expect_ok(world->set_gravity({0.0F, -1.5F}));
+        EXPECT_FLOAT_EQ(change(), elastic ? 1.0F : 1.5F);
+        expect_ok(world->set_gravity({0.0F, -9.0F}));
+        EXPECT_FLOAT_EQ(change(), elastic ? 1.0F : 3.0F);
+        expect_ok(world->set_gravity({0.0F, -4.5F}));
+        EXPECT_FLOAT_EQ(change(), elastic ? 0.5F : 1.5F);
+    }
 }
 
 }  // namespace

@@ -120,5 +120,53 @@ TYPED_TEST(SqueezedBody, StaysInItsRange) {
     }
 }
 
+/// Of what hits a body that is lighter it takes as much as brings it to that speed.
+TEST(LightBody, TakesNoMoreThanTheSpeedOfWhatHitsIt) {
+    WorldDef def = tank_def(32, 16, 4, 1, 4);
+    def.capacity.two_way = true;
+    def.gravity_mps2 = {};
+    TestWorld<float> world(def);
+    BodyDef body = body_of(kSquare4cm, {0.30F, 0.16F});
+    body.density_ratio = 0.01F;
+    const BodyId id = put_free(*world, body);
+    expect_ok(world->add_particle({0.25F, 0.16F}, {1.0F, 0.0F}));
+    Motion motion;
+    for (int k = 0; k < 12; ++k) {
+        world->step(1.0F / 240.0F);
+    }
+    expect_ok(world->motion(id, &motion));
+    EXPECT_GT(motion.velocity_mps.x, 0.5F);
+    EXPECT_LT(motion.velocity_mps.x, 1.5F);
+}
+
+/// A free body meets drops where it has come to in a substep, not where it was.
+TEST(FastFreeBody, HasNoDropInsideAfterAStep) {
+    WorldDef def = tank_def(48, 16, 100, 1, 4);
+    def.capacity.two_way = true;
+    def.gravity_mps2 = {};
+    def.max_substeps = 1;
+    TestWorld<float> world(def);
+    const Ring box = rectangle(0.12F, 0.12F);
+    BodyDef body = body_of(box, {0.10F, 0.16F});
+    body.density_ratio = 1000.0F;
+    body.motion.velocity_mps.x = 0.9F * 0.02F * 60.0F;
+    const BodyId id = put_free(*world, body);
+    for (int k = 0; k < 30; ++k) {
+        const float row = static_cast<float>(k % 3 - 1);
+        expect_ok(world->add_particle({0.24F + 0.02F * static_cast<float>(k), 0.16F + 0.04F * row},
+                                      {}));
+    }
+    for (int k = 0; k < 10; ++k) {
+        world->step(kDt);
+        Motion motion;
+        expect_ok(world->motion(id, &motion));
+        for (const auto& x : world->particle_positions()) {
+            const float dx = std::fabs(x.x * def.cell_m - motion.position_m.x);
+            const float dy = std::fabs(x.y * def.cell_m - motion.position_m.y);
+            EXPECT_FALSE(dx < 0.055F && dy < 0.055F) << k;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace weir
