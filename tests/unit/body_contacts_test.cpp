@@ -168,5 +168,34 @@ TYPED_TEST(BodyContacts, WithoutRoomChangeNothing) {
     EXPECT_EQ(hash[0], hash[1]);
 }
 
+/// A particle of the second liquid strikes as hard as it is heavy: so the contact says, and the
+/// body.
+TYPED_TEST(BodyContacts, OfTheSecondLiquidHaveItsWeight) {
+    WorldDef def = dry_def(4);
+    def.gravity_mps2 = {};
+    def.capacity.second_liquid = true;
+    def.second_density_ratio = 5.0F;
+    float impulse[2] = {};
+    for (const Liquid kind : {Liquid::first, Liquid::second}) {
+        TestWorld<TypeParam> world(def);
+        BodyDef crate = body_of(kCrate, {0.4F, 0.4F});
+        crate.density_ratio = 20.0F;
+        const BodyId id = put_free(*world, crate);
+        expect_ok(world->add_particle({0.32F, 0.4F}, {2.0F, 0.0F}, kind));
+        float told = 0.0F;
+        for (int k = 0; k < 10; ++k) {
+            world->step(kDt);
+            for (const Contact& contact : world->contacts()) {
+                told += contact.impulse_m3ps.x;
+            }
+        }
+        const float gained = mass_of(*world, id) * motion_of(*world, id).velocity_mps.x;
+        EXPECT_NEAR(gained, told, 0.05F * told);
+        impulse[kind == Liquid::second ? 1 : 0] = told;
+    }
+    EXPECT_NEAR(impulse[0], 2.0F * 1.0e-4F, 2.0e-5F) << "a quarter of a cell";
+    EXPECT_NEAR(impulse[1], 5.0F * impulse[0], 0.05F * impulse[1]);
+}
+
 }  // namespace
 }  // namespace weir

@@ -169,6 +169,34 @@ TEST(Display, ManyPixelsOverManyCells) {
     EXPECT_EQ(std::count(last, last + 511, 0), 511);
 }
 
+/// A shade is kept while it is no further off than it has to be, and a solid's is none of liquid.
+TEST(Display, KeepsAShadeThatIsNearEnough) {
+    TestWorld<float> world(small_def());
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.2F, 0.1F}}));
+    world->step(0.01F);
+    std::vector<std::uint8_t> pixels(16 * 8, 0);
+    Display display;
+    display.width = 16;
+    display.height = 16;
+    display.pixels = pixels.data();
+    display.liquid = 8;
+    display.solid = 9;
+    display.hysteresis = 0;
+    draw(*world, display);
+    const std::size_t last = pixels.size() - 8;  // the lower left pixel is amid liquid
+    EXPECT_EQ(pixels[last] >> 4, 8);
+    for (const int off : {7, 9}) {
+        pixels[last] = static_cast<std::uint8_t>((pixels[last] & 0x0F) | off << 4);
+        display.hysteresis = 0;
+        EXPECT_EQ(draw(*world, display).last, 15) << off;
+        EXPECT_EQ(pixels[last] >> 4, 8) << off;
+        pixels[last] = static_cast<std::uint8_t>((pixels[last] & 0x0F) | off << 4);
+        display.hysteresis = 200;  // of 256 a shade, beyond the half
+        EXPECT_EQ(draw(*world, display).last, off == 7 ? -1 : 15) << off;
+        EXPECT_EQ(pixels[last] >> 4, off == 7 ? 7 : 8) << off;
+    }
+}
+
 TEST(BodyName, TellsBodiesApart) {
     TestWorld<float> world(small_def());
     TestWorld<float> elsewhere(small_def());

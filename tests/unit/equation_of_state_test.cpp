@@ -164,7 +164,8 @@ TEST(ElasticPacked, APoolStopsToTheBit) {
     EXPECT_EQ(world->state_hash(), before);
 }
 
-/// Steps too long for sound make it slower. It stiffens again by a sixteenth a substep, not at once.
+/// Steps too long for sound make it slower. It stiffens again by a sixteenth a substep, not at
+/// once.
 TEST(EquationOfState, SoundRecoversSlowly) {
     WorldDef def = elastic_def(16, 20, 16 * 8 * 4);
     def.max_substeps = 1;

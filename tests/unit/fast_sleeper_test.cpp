@@ -18,8 +18,8 @@ WorldDef def_of(std::int32_t cells_x) {
     return def;
 }
 
-/// A particle in four is looked at in a substep. Two cells in each take it from one tile to the next
-/// but one meanwhile, away from the mark that it left.
+/// A particle in four is looked at in a substep. Two cells in each take it from one tile to the
+/// next but one meanwhile, away from the mark that it left.
 TEST(FastSleeper, WhatFliesFromTileToTileStaysAwake) {
     WorldDef def = def_of(400);
     def.gravity_mps2 = {};
