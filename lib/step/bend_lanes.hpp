@@ -84,9 +84,6 @@ inline void bend_group(const BendTask& task, std::int32_t face, std::int32_t don
     if (done > 0) {
         kept &= L::load(kOnlyMiddle + 16 - done) == L::all(0.0F);
     }
-    if (!L::any_true(kept)) {
-        return;
-    }
     const auto around = [&](std::int32_t cell, std::int32_t next) {
         return L::minimum(L::minimum(own, level(next)),
                           L::minimum(level(cell - side), level(cell + side)));
@@ -117,6 +114,30 @@ inline void bend_group(const BendTask& task, std::int32_t face, std::int32_t don
     L::store(task.out + face, bent ? now + share * turned : now);
 }
 
+/// Soon told, and most of what there is: faces in air, and, `amid` a row whose cells may be
+/// straight, those between straight cells.
+template <class L>
+inline bool no_bend(const BendTask& task, std::int32_t face, bool amid) {
+    const std::ptrdiff_t back = task.back;
+    const std::ptrdiff_t side = back == 1 ? task.stride : 1;
+    const float* here = task.level + face;
+    const float* before = here - back;
+    const auto lower = [](const float* a, const float* b) {
+        return L::minimum(L::load(a), L::load(b));
+    };
+    const auto own = lower(here, before);
+    if (!L::any_true(own > L::all(kEmptyLevel<float>))) {
+        return true;
+    }
+    if (!amid) {
+        return false;
+    }
+    const auto along = L::minimum(own, lower(here + back, before - back));
+    const auto sides = L::minimum(lower(here - side, here + side),
+                                  lower(before - side, before + side));
+    return !L::any_true(L::minimum(along, sides) <= L::all(0.0F));
+}
+
 /// Bends faces `face`, `face` + 1 … of a row, the last few beside some that are done; faces from
 /// `row` on exist. Returns the next one to do: there may be too few for a group.
 template <class L>
@@ -126,8 +147,13 @@ inline std::int32_t bend_faces(const BendTask& task, std::int32_t row, std::int3
     if (last < row) {
         return face;
     }
+    const std::int32_t first_amid = task.first + task.back - task.before;
+    const std::int32_t last_amid = task.leaps && task.leapt ? task.last - L::kLanes + 1 : -1;
     for (; face < end; face += L::kLanes) {
-        bend_group<L>(task, face <= last ? face : last, face <= last ? 0 : face - last);
+        const std::int32_t at = minimum(face, last);
+        if (!no_bend<L>(task, at, at >= first_amid && at <= last_amid)) {
+            bend_group<L>(task, at, face - at);
+        }
     }
     return end;
 }
