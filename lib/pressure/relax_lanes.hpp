@@ -76,14 +76,23 @@ template <class L>
     return air;
 }
 
+/// What each group asks for, kept in registers: to a compiler a store may change the task.
+struct RelaxedFields {
+    float* pressure;
+    const float* divergence;
+    const float* inverse_diagonal;
+    std::ptrdiff_t stride;
+    float omega;
+};
+
 /// Every other cell from c on, as many as there are lanes, of those that are asked for.
 template <class L, Weighing Where>
 [[gnu::always_inline]] inline typename L::Floats relax_group(const RelaxTask& task,
+                                                             const RelaxedFields& fields,
                                                              std::int32_t c,
                                                              typename L::Floats before,
                                                              typename L::Ints asked) {
-    const PressureFields<float>& fields = task.fields;
-    const std::int32_t stride = task.stride;
+    const std::ptrdiff_t stride = fields.stride;
     float* const p = fields.pressure;
     const auto zero = L::all(0.0F);
     const auto every_second = [](const float* from) { return L::load_alternate(from).even; };
@@ -91,7 +100,7 @@ template <class L, Weighing Where>
     const auto here = L::load_alternate(p + c);
     const auto relaxed = [&](typename L::Floats sum) {
         const auto target = (sum - every_second(fields.divergence + c)) * inverse;
-        return here.even + L::all(task.omega) * (target - here.even);
+        return here.even + L::all(fields.omega) * (target - here.even);
     };
     // Nearly all are amid liquid: one question for them.
     if (Where != Weighing::everywhere && L::all_true((inverse > zero) & asked)) {
@@ -132,14 +141,16 @@ template <class L, Weighing Where>
 /// `Last`: lanes for what is left at the ends of rows.
 template <class L, class Last, Weighing Where>
 inline void relax_rows(const RelaxTask& task) {
-    const float* const p = task.fields.pressure;
+    const RelaxedFields fields{task.fields.pressure, task.fields.divergence,
+                               task.fields.inverse_diagonal, task.stride, task.omega};
+    const float* const p = fields.pressure;
     const auto groups = [&](std::int32_t c, typename L::Floats before, typename L::Ints asked)
                             __attribute__((always_inline)) {
-        return relax_group<L, Where>(task, c, before, asked);
+        return relax_group<L, Where>(task, fields, c, before, asked);
     };
     const auto rest = [&](std::int32_t c, typename Last::Floats before,
                           typename Last::Ints asked) __attribute__((always_inline)) {
-        return relax_group<Last, Where>(task, c, before, asked);
+        return relax_group<Last, Where>(task, fields, c, before, asked);
     };
     for (std::int32_t row = 0; row < task.rows; ++row) {
         const std::int32_t end = task.end - row * task.stride;
