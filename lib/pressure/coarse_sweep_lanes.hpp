@@ -21,13 +21,16 @@ template <class L>
 inline void relax_apart(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
                         const Part& rows) {
     const GridShape& s = coarse.shape;
+    const std::int32_t width = s.nx + 1;
     const std::int32_t stride = s.stride;
+    const std::int32_t evens = evens_of(s);
     float* const p = coarse.correction;
-    for (std::int32_t j = rows.first; j < rows.end; ++j, i = 1 - i) {
-        const std::int32_t row = s.index(-1, j);
-        const std::int32_t count = (s.nx + 1 - i) / 2;
-        std::int32_t c = row + (i == 0 ? 0 : evens_of(s) + 1);
-        std::int32_t left = row + (i == 0 ? evens_of(s) : 0);
+    std::int32_t row = s.index(-1, rows.first);
+    const std::int32_t end = s.index(-1, rows.end);
+    for (; row < end; row += stride, i = 1 - i) {
+        const std::int32_t count = (width - i) / 2;
+        std::int32_t c = row + (i == 0 ? 0 : evens + 1);
+        std::int32_t left = row + (i == 0 ? evens : 0);
         for (std::int32_t k = 0; k < count; k += L::kLanes, c += L::kLanes, left += L::kLanes) {
             const auto inverse = L::load(coarse.inverse_diagonal + c);
             auto wet = inverse != L::all(0.0F);
