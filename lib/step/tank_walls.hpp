@@ -1,6 +1,8 @@
 // The end of grid-to-particle: a particle's way, kept within what is allowed and within the tank.
 #pragma once
 
+#include <type_traits>
+
 #include "step/grid_to_particle.hpp"
 
 namespace weir {
@@ -53,11 +55,27 @@ struct TankBlow {
     }
 };
 
-/// Where a particle is set back to that went to x, past a wall: half as far before it. Set to the
-/// wall itself, all that go to a corner would meet in one place, and never part again.
+/// The share of its way past a wall by which a particle is set back before it. What corners press
+/// together over and over ends in one place in Fixed, as its last digits are coarse. So those of a
+/// particle's velocity, whatever its signs, choose between 3/8 and 5/8. For what is slow, 2 cells/s
+/// in all, it is half: leaning liquid would rest less.
 template <class Real>
-inline Real back_from(Real wall, Real x) {
-    return wall + Real(0.5) * (wall - x);
+inline Real share_beyond([[maybe_unused]] Real v, [[maybe_unused]] Real along) {
+    if constexpr (std::is_same<Real, Fixed>::value) {
+        const auto digits = static_cast<std::uint32_t>(absolute(v).raw) +
+                            static_cast<std::uint32_t>(absolute(along).raw);
+        if (digits > 2U << 16U) {
+            return Real::of_raw(24576 + static_cast<std::int32_t>(digits % 1024U) * 16);
+        }
+    }
+    return Real(0.5);
+}
+
+/// Where a particle is set back to that went to x, past a wall: about half as far before it. Set to
+/// the wall itself, all that go to a corner would meet in one place, and never part again.
+template <class Real>
+inline Real back_from(Real wall, Real x, Real share) {
+    return wall + share * (wall - x);
 }
 
 /// One axis at the tank's walls: back to the wall, the velocity towards it given back, and rubbed
@@ -68,14 +86,14 @@ template <class Real>
                                       const SurfaceLaw<Real>& low, const SurfaceLaw<Real>& high,
                                       Real sense) {
     if (x < kWallGap<Real>) {
-        x = back_from(kWallGap<Real>, x);
+        x = back_from(kWallGap<Real>, x, share_beyond(v, along));
         if (v < Real(0)) {
             along = low.friction > Real(0) ? rubbed(along, sense * low.conveyor, low, -v) : along;
             v = -low.restitution * v;
             return true;
         }
     } else if (x > size - kWallGap<Real>) {
-        x = back_from(size - kWallGap<Real>, x);
+        x = back_from(size - kWallGap<Real>, x, share_beyond(v, along));
         if (v > Real(0)) {
             along = high.friction > Real(0) ? rubbed(along, -sense * high.conveyor, high, v)
                                             : along;
