@@ -61,7 +61,7 @@ struct TankBlow {
 /// in all, it is half: leaning liquid would rest less.
 template <class Real>
 inline Real share_beyond([[maybe_unused]] Real v, [[maybe_unused]] Real along) {
-    if constexpr (std::is_same<Real, Fixed>::value) {
+    if constexpr (std::is_same_v<Real, Fixed>) {
         const auto digits = static_cast<std::uint32_t>(absolute(v).raw) +
                             static_cast<std::uint32_t>(absolute(along).raw);
         if (digits > 2U << 16U) {
