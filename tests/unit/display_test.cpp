@@ -125,6 +125,43 @@ TEST(Display, ShowsAPartOfTheTank) {
     }
 }
 
+/// A pixel is what its centre is in, to the nearest 256th of a cell: also if its place is none.
+TEST(Display, CentresAreRoundedToTheNearest) {
+    TestWorld<float> world(small_def());
+    world->step(0.01F);
+    const float unit_m = small_def().cell_m / 256.0F;
+    std::uint8_t pixels[2] = {};
+    Display display;
+    display.width = 3;
+    display.height = 1;
+    display.pixels = pixels;
+    for (const float off : {-0.25F, 0.0F, 0.25F}) {
+        display.shown_m = {{(off - 10.0F) * unit_m, 0.1F}, {(off + 10.0F) * unit_m, 0.2F}};
+        pixels[0] = pixels[1] = 0x77;
+        draw(*world, display);
+        EXPECT_EQ(pixels[0], display.solid << 4) << "the middle one is on the tank's edge " << off;
+        EXPECT_EQ(pixels[1], 0x07);
+    }
+}
+
+/// A centre on a body's edge is the body's.
+TEST(Display, EdgesAreSolid) {
+    TestWorld<float> world(small_def());
+    put_static(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
+    expect_ok(world->fill({{0.1F, 0.04F}, {0.18F, 0.16F}}));
+    world->step(0.01F);
+    std::uint8_t pixel = 0;
+    Display display;
+    display.width = display.height = 1;
+    display.pixels = &pixel;
+    display.shown_m = {{0.17F, 0.09F}, {0.19F, 0.11F}};
+    draw(*world, display);
+    EXPECT_EQ(pixel, display.solid << 4);
+    display.shown_m = {{0.15F, 0.09F}, {0.17F, 0.11F}};
+    draw(*world, display);
+    EXPECT_LE(pixel, display.liquid << 4) << "a cell before it";
+}
+
 TEST(Display, OfNoPlaceIsLeftAsItIs) {
     const WorldDef def = small_def();
     TestWorld<float> world(def);
