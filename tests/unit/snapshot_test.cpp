@@ -131,6 +131,22 @@ TEST(Snapshot, PictureDoesNotTellWhenBodiesCame) {
     }
 }
 
+/// What is drawn stays where the snapshot has the same: not of a body that was moved since.
+TEST(Snapshot, DrawsABodyThatWasMovedSince) {
+    WorldDef def = small_def();
+    def.capacity.wall_edges = 0;  // or all is drawn anew
+    TestWorld<float> world(def);
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
+    world->step(0.01F);
+    Motion motion = motion_of(*world, id);
+    motion.position_m = {0.2F, 0.2F};
+    expect_ok(world->set_motion(id, motion));
+    const Bytes snapshot = saved(*world, def.capacity);
+    expect_ok(world->restore(snapshot.data(), snapshot.size()));
+    EXPECT_EQ(world->add_particle({0.2F, 0.2F}, {}), Status::particle_inside_solid);
+    EXPECT_EQ(world->add_particle({0.1F, 0.1F}, {}), Status::ok);
+}
+
 TEST(Snapshot, RollsBackTheSameWorld) {
     const WorldDef def = busy_def(0);
     TestWorld<float> world(def);
