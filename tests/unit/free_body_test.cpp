@@ -42,6 +42,39 @@ TEST(Moments, OfARectangleWithAHoleAboutAnyOrigin) {
     }
 }
 
+/// Liquid slows the spin of what is small, even if it is round; air does not.
+TEST(FreeBody, SpinsOnInAirOnly) {
+    Ring wheel;
+    for (int k = 0; k < 12; ++k) {
+        const float turned = 0.5235988F * static_cast<float>(k);
+        wheel.push_back({0.02F * std::cos(turned), 0.02F * std::sin(turned)});
+    }
+    for (const bool wet : {false, true}) {
+        TestWorld<float> world{two_way_def()};
+        BodyDef body = body_of(wheel, {0.32F, 0.3F});
+        body.motion.spin_radps = 2.0F;
+        const BodyId id = put_free(*world, body);
+        if (wet) {
+            expect_ok(world->fill({{0.0F, 0.0F}, {0.64F, 0.5F}}));
+        }
+        for (int step = 0; step < 10; ++step) {
+            world->step(kDt);
+        }
+        EXPECT_NEAR(motion_of(*world, id).spin_radps, wet ? 0.25F : 2.0F, wet ? 0.25F : 1e-5F);
+    }
+}
+
+/// Whoever is put beyond a wall is back with the next step.
+TEST(FreeBody, IsTakenBackIntoTheTank) {
+    TestWorld<float> world{two_way_def()};
+    const BodyId id = put_free(*world, body_of(kSquare4cm, {0.3F, 0.3F}));
+    Motion motion = motion_of(*world, id);
+    motion.position_m = {-0.1F, 0.3F};
+    expect_ok(world->set_motion(id, motion));
+    world->step(kDt);
+    EXPECT_GT(motion_of(*world, id).position_m.x, 0.0199F);
+}
+
 TEST(FreeBody, WantsRoomAndDensity) {
     WorldDef def = two_way_def();
     def.capacity.two_way = false;
