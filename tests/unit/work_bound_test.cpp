@@ -57,6 +57,20 @@ TYPED_TEST(WorkBoundOf, NoStepDoesMore) {
     }
 }
 
+/// At a step's end all particles are looked at, whether they may sleep.
+TEST(WorkBound, HoldsForTheLookBeforeSleep) {
+    WorldDef def = tank_def(16, 16, 1000, 3, 12);
+    def.sleep.speed_mps = 1.0F;
+    def.sleep.after_s = 0.1F;
+    TestWorld<float> world(def);
+    put_static(*world, body_of(kSquare4cm, {0.2F, 0.2F}));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.32F, 0.16F}}));
+    for (std::int32_t step = 0; step < 30 && !world->step(0.0F).asleep; ++step) {
+        expect_within_bound(*world, kDt, 20, step == 0);
+    }
+    EXPECT_TRUE(world->step(0.0F).asleep);
+}
+
 TEST(WorkBound, HoldsForFreeBodies) {
     WorldDef def = busy_def(0);
     def.capacity.two_way = true;
