@@ -61,5 +61,15 @@ TYPED_TEST(BodyMotion, WhatCreepsIsLedInTime) {
     }
 }
 
+/// A step of no time is none of those that a body has.
+TYPED_TEST(BodyMotion, IsLedAcrossAPause) {
+    TestWorld<TypeParam> world(small_def());
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
+    expect_ok(world->move_body(id, {0.11F, 0.1F}, 0.0F, 0.01F));
+    world->step(0.0F);
+    world->step(0.01F);
+    EXPECT_NEAR(motion_of(*world, id).position_m.x, 0.11F, 1e-4F);
+}
+
 }  // namespace
 }  // namespace weir
