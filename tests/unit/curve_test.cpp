@@ -205,6 +205,12 @@ TEST(Simplify, DoesNotLetARingCrossItself) {
     }
 }
 
+/// However the vertices are spread along it, no more stay than it has corners.
+TEST(Simplify, KeepsCornersOnly) {
+    const Ring triangle = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {0, 4}};
+    EXPECT_EQ(simplified(triangle, 0.1F).size(), 3U);
+}
+
 TEST(Simplify, RefusesWhatIsNoPolygon) {
     const Ring bow = {{0, 0}, {4, 4}, {4, 0}, {0, 4}};
     std::uint8_t keep[4];
