@@ -100,4 +100,3 @@ bool file_write(const char* name, const void* data, std::size_t bytes, bool appe
 }
 
 }  // namespace port
-
