@@ -42,19 +42,19 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
                               some.count,
                               {size.x, size.y},
                               kWallGap<float>,
-                              minimum(transfer.near, transfer.limit),
                               transfer.limit,
                               transfer.flip_ratio,
                               transfer.dt_s,
                               OneByOne::move,
                               &rest};
 #if WEIR_HAS_WIDE_LANES
-        const float fastest = wide ? gather_wide(task) : gather_all<FourLanes>(task);
+        const Gathered fastest = wide ? gather_wide(task) : gather_all<FourLanes>(task);
 #else
-        const float fastest = gather_all<FourLanes>(task);
+        const Gathered fastest = gather_all<FourLanes>(task);
 #endif
         result.add(rest.result);
-        result.max_speed = maximum(result.max_speed, fastest);
+        result.far += fastest.along > transfer.near ? 1 : 0;
+        result.max_speed = maximum(result.max_speed, fastest.speed);
     };
 #if WEIR_HAS_WIDE_LANES
     // Of the last two one may be missing, and is looked up where the tank begins: that must exist.

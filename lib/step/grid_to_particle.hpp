@@ -13,7 +13,7 @@ template <class Real>
 struct TransferResult {
     std::int32_t reset = 0;     ///< particles with a non-finite state, put to rest
     std::int32_t slowed = 0;    ///< particles limited to `limit`
-    std::int32_t far = 0;       ///< particles that moved faster than `near` along an axis
+    std::int32_t far = 0;       ///< above 0: some moved faster than `near` along an axis
     Real max_speed = Real(0);   ///< along an axis, cells/s
 
     void add(const TransferResult& other) {
@@ -30,7 +30,7 @@ struct Transfer {
     Real flip_ratio;
     Real limit;             ///< cells/s; nothing moves faster
     Borders<Real> borders = {};
-    Real near = Real(1.0e30);  ///< cells/s: who moves faster along an axis is counted as far
+    Real near = Real(1.0e30);  ///< cells/s: who moves faster along an axis is told as far
     Impulse<Real>* tank = nullptr;  ///< takes what hits the tank's walls; null: nobody asks
     const Face<Real>* particle_mass = nullptr;  ///< then: of either liquid, cells²
     bool settling = false;     ///< packed velocities lose a unit, slow ones of Fixed half

@@ -68,13 +68,19 @@ struct GatherTask {
     std::int32_t count;
     float size[2];     ///< of the tank
     float gap;         ///< kWallGap
-    float near;        ///< cells/s, of the way
     float limit;       ///< cells/s
     float flip_ratio;
     float dt;
     /// Moves particle k, which is too fast or leaves the tank; `found`: as in Run.
     void (*move_one)(void* context, std::int32_t k, const float* found);
     void* context;
+};
+
+/// The largest components of the velocities of those that nothing was in the way of, and of what
+/// carried them, cells/s.
+struct Gathered {
+    float speed;
+    float along;
 };
 
 /// Both stencils of particles, two a group.
@@ -126,11 +132,25 @@ inline void sample_run(const Pairs<const float>& pairs, std::int32_t count, Run&
     }
 }
 
+/// `Gathered`, lane by lane.
+template <class L>
+struct Fastest {
+    typename L::Floats speed = L::all(0.0F);
+    typename L::Floats along = L::all(0.0F);
+
+    static float largest(typename L::Floats of) {
+        float most = 0.0F;
+        for (std::int32_t lane = 0; lane < 4 * L::kGroups; ++lane) {
+            most = most < of[lane] ? of[lane] : most;
+        }
+        return most;
+    }
+};
+
 /// The third part: particles move, two a group, unless something is in the way of one of them.
-/// `fastest` grows by their speeds.
 template <class L>
 inline void move_run(const GatherTask& task, std::int32_t first, std::int32_t count,
-                     const Run& run, typename L::Floats& fastest) {
+                     const Run& run, Fastest<L>& fastest) {
     const auto lowest = L::all(task.gap);
     const auto highest =
         L::repeat(task.size[0], task.size[1], task.size[0], task.size[1]) - lowest;
@@ -148,11 +168,13 @@ inline void move_run(const GatherTask& task, std::int32_t first, std::int32_t co
         const auto along = L::first_pairs(a, b);
         const auto faster = L::all(task.flip_ratio) * L::load(v + 2 * k) + L::last_pairs(a, b);
         const auto speed = L::absolute(faster);
+        const auto way = L::absolute(along);
         const auto moved = L::load(x + 2 * k) + L::all(task.dt) * along;
-        if (L::all_true((speed <= L::all(task.limit)) &
-                        (L::absolute(along) <= L::all(task.near)) & (moved >= lowest) &
+        // A way that is no number is lost in the maximum, but it leads nowhere.
+        if (L::all_true((L::maximum(speed, way) <= L::all(task.limit)) & (moved >= lowest) &
                         (moved <= highest))) {
-            fastest = L::maximum(fastest, speed);
+            fastest.speed = L::maximum(fastest.speed, speed);
+            fastest.along = L::maximum(fastest.along, way);
             L::store(x + 2 * k, moved);
             L::store(v + 2 * k, faster);
         } else {
@@ -162,23 +184,18 @@ inline void move_run(const GatherTask& task, std::int32_t first, std::int32_t co
     one_by_one(k, count);
 }
 
-/// Moves particles; answers the largest component of a velocity of those that nothing was in the
-/// way of.
+/// Moves particles.
 template <class L>
-inline float gather_all(const GatherTask& task) {
+inline Gathered gather_all(const GatherTask& task) {
     Run run;
-    auto fastest = L::all(0.0F);
+    Fastest<L> fastest;
     for (std::int32_t first = 0; first < task.count; first += kRun) {
         const std::int32_t count = task.count - first < kRun ? task.count - first : kRun;
         find_stencils<L>(task.pairs.stride, task.position + 2 * first, count, run);
         sample_run<L>(task.pairs, count, run);
         move_run<L>(task, first, count, run, fastest);
     }
-    float most = 0.0F;
-    for (std::int32_t lane = 0; lane < 4 * L::kGroups; ++lane) {
-        most = most < fastest[lane] ? fastest[lane] : most;
-    }
-    return most;
+    return {fastest.largest(fastest.speed), fastest.largest(fastest.along)};
 }
 
 /// What particles, one a group, add to the rows of their stencils: mass and momentum of the left

@@ -8,7 +8,7 @@
 
 namespace weir {
 
-float gather_wide(const GatherTask& task) {
+Gathered gather_wide(const GatherTask& task) {
     return gather_all<EightLanes>(task);
 }
 

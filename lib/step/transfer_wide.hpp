@@ -8,7 +8,7 @@ namespace weir {
 
 #if WEIR_HAS_WIDE_LANES
 /// As the loops of `EightLanes`; only where `has_wide_lanes()`.
-float gather_wide(const GatherTask& task);
+Gathered gather_wide(const GatherTask& task);
 void scatter_wide(const float* position, const float* velocity, std::int32_t count,
                   const Pairs<float>& pairs);
 void scatter_between_wide(const float* position, const float* velocity, std::int32_t count,
