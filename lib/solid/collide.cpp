@@ -247,6 +247,9 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
     const ClearTask task{scene.walls.cell_case + s.index(0, 0),
                          scene.walls.distance + s.index(0, 0), s.stride, &position->x,
                          &flight.before->x, kClear<float>};
+    if (flight.far && is_open_around(block, count)) {
+        return;
+    }
     std::int32_t numbers[kBlock<float> + 8];
     std::uint32_t cells[kBlock<float> + 8];
     NearWall near{0, numbers, cells};

@@ -110,6 +110,86 @@ inline void find_near_wall(const BlockTask& task, std::int32_t count, NearWall& 
     fill_up(found);
 }
 
+/// Whether all of some bytes are 0.
+inline bool are_zero(const std::uint8_t* bytes, std::int32_t count) {
+    std::uint64_t any = 0;
+    std::int32_t k = 0;
+    for (; k + 8 <= count; k += 8) {
+        std::uint64_t eight;
+        __builtin_memcpy(&eight, bytes + k, sizeof eight);
+        any |= eight;
+    }
+    for (; k < count; ++k) {
+        any |= bytes[k];
+    }
+    return any == 0;
+}
+
+/// Between which places the particles of a block go, along both axes.
+struct BlockBox {
+    Vec2<float> low;
+    Vec2<float> high;
+};
+
+template <class L>
+inline BlockBox box_of(const BlockTask& task, std::int32_t count) {
+    const float* before = &task.before->x;
+    const float* position = &task.position->x;
+    auto low = L::all(1.0e30F);
+    auto high = L::all(-1.0e30F);
+    std::int32_t k = 0;
+    const auto add = [&](auto a, auto b) {
+        low = L::minimum(low, L::minimum(a, b));
+        high = L::maximum(high, L::maximum(a, b));
+    };
+    for (; k + L::kLanes <= 2 * count; k += L::kLanes) {
+        add(L::load(before + k), L::load(position + k));
+    }
+    for (; k < 2 * count; k += 2) {
+        add(L::repeat(before[k], before[k + 1], before[k], before[k + 1]),
+            L::repeat(position[k], position[k + 1], position[k], position[k + 1]));
+    }
+    BlockBox of{{low[0], low[1]}, {high[0], high[1]}};
+    for (std::int32_t lane = 2; lane < L::kLanes; lane += 2) {
+        of.low = {minimum(of.low.x, low[lane]), minimum(of.low.y, low[lane + 1])};
+        of.high = {maximum(of.high.x, high[lane]), maximum(of.high.y, high[lane + 1])};
+    }
+    return of;
+}
+
+#if WEIR_HAS_WIDE_LANES
+BlockBox box_wide(const BlockTask& task, std::int32_t count);
+#endif
+
+/// Whether there is no solid around all ways of a block, if that is sooner told than asked for each
+/// of its particles.
+[[gnu::noinline]] inline bool is_open_around(const BlockTask& task, std::int32_t count) {
+#if WEIR_HAS_WIDE_LANES
+    const BlockBox of = has_wide_lanes() ? box_wide(task, count) : box_of<FourLanes>(task, count);
+#else
+    const BlockBox of = box_of<FourLanes>(task, count);
+#endif
+    constexpr float kRounding = 1.0F / 64.0F;  // of the way in is_path_open
+    constexpr std::int32_t kCellsAParticle = 4;
+    const GridShape& s = task.shape;
+    const auto cell = [](float x, std::int32_t cells) {
+        return clamp(static_cast<std::int32_t>(x), 0, cells - 1);
+    };
+    const std::int32_t i0 = cell(of.low.x - kRounding, s.nx);
+    const std::int32_t j0 = cell(of.low.y - kRounding, s.ny);
+    const std::int32_t width = cell(of.high.x + kRounding, s.nx) + 1 - i0;
+    const std::int32_t height = cell(of.high.y + kRounding, s.ny) + 1 - j0;
+    if (width * height > kCellsAParticle * count) {
+        return false;
+    }
+    for (std::int32_t y = 0; y < height; ++y) {
+        if (!are_zero(task.cell_case + s.index(i0, j0 + y), width)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// What `clearly_outside` looks at in each case.
 enum ClearRule : std::int32_t {
     kFlipX = 1,    ///< the corner is on the right
