@@ -206,7 +206,17 @@ struct EightLanes : WideGroups<8> {
     }
     static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
     static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
-    static Ints bytes(const std::uint8_t* from) { return widened(from); }
+    static Ints bytes(const std::uint8_t* from) {
+#if defined(__clang__)
+        return widened(from);
+#else  // g++ would take each by itself
+        using Words = long long __attribute__((vector_size(16)));
+        using Bytes = char __attribute__((vector_size(16)));
+        Words lanes{};
+        __builtin_memcpy(&lanes, from, 8);
+        return __builtin_ia32_pmovzxbd256(reinterpret_cast<Bytes>(lanes));
+#endif
+    }
     static void store_bytes(std::uint8_t* to, Ints lanes) { store_narrowed(to, lanes); }
     static Ints shorts(const std::uint16_t* from) { return widened(from); }
     static void store_shorts(std::uint16_t* to, Ints lanes) { store_narrowed(to, lanes); }
