@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "call_effects.hpp"
 #include "random_def.hpp"
 #include "weir/display.hpp"
 
@@ -122,11 +123,16 @@ Status add_some_body(World<Real>& world, Dice& dice, const RandomDef& random) {
         def.polygon = {nullptr, 4};
     }
     BodyId id;
+    Status status = Status::ok;
     switch (dice.below(3)) {
-        case 0: return world.add_static_body(def, &id);
-        case 1: return world.add_moving_body(def, &id);
-        default: return world.add_free_body(def, &id);
+        case 0: status = world.add_static_body(def, &id); break;
+        case 1: status = world.add_moving_body(def, &id); break;
+        default: status = world.add_free_body(def, &id); break;
     }
+    if (status == Status::ok) {
+        expect_put(world, id, def.motion);
+    }
+    return status;
 }
 
 /// Set elsewhere, led, given another surface, or removed.
@@ -148,13 +154,25 @@ Status change_some_body(World<Real>& world, Dice& dice, const RandomDef& random)
     if (dice.chance(0.2F)) {
         motion.angle_rad = motion.angle_rad + number(dice, -4.0F, 4.0F);
     }
-    switch (dice.below(4)) {
-        case 0: return world.set_motion(id, motion);
+    const std::int32_t what = dice.below(4);
+    Status status = Status::ok;
+    switch (what) {
+        case 0:
+            status = world.set_motion(id, motion);
+            if (status == Status::ok) {
+                expect_put(world, id, motion);
+            }
+            return status;
         case 1: return world.move_body(id, motion.position_m, motion.angle_rad,
                                        dice.chance(0.1F) ? any_size(dice, 1e-12F, 1e6F)
                                                          : number(dice, 0.0F, 0.03F));
         case 2: return world.set_surface(id, call_surface(dice, 0.5F * random.speed_mps));
-        default: return world.remove_body(id);
+        default:
+            status = world.remove_body(id);
+            if (status == Status::ok) {
+                EXPECT_EQ(world.motion(id, &motion), Status::stale_body);
+            }
+            return status;
     }
 }
 
@@ -177,14 +195,14 @@ Status change_liquid(World<Real>& world, Dice& dice, const RandomDef& random) {
     const Liquid kind = second ? Liquid::second : Liquid::first;
     const auto of = static_cast<Liquids>(dice.chance(0.6F) ? 0 : dice.below(4));
     switch (dice.below(9)) {
-        case 0: return world.add_particle(box.min_m, speed, kind);
+        case 0: return add_and_look(world, box.min_m, speed, kind);
         case 1: return world.remove_particle(index);
-        case 2: return world.drain(box, nullptr, of);
-        case 3: return world.stir(box, dice.chance(0.3F) ? Vec2f{} : speed,
-                                  number(dice, 0.0F, 1.0F), of);
-        case 4: return world.tag(box, tag, of);
+        case 2: return drain_and_look(world, box, of);
+        case 3: return stir_and_look(world, box, dice.chance(0.3F) ? Vec2f{} : speed,
+                                     number(dice, 0.0F, 1.0F), of);
+        case 4: return tag_and_look(world, box, tag, of);
         case 5: return world.tag_particle(index, tag);
-        default: return world.fill(box, nullptr, kind);
+        default: return fill_and_look(world, box, kind);
     }
 }
 
@@ -280,8 +298,11 @@ void look(World<Real>& world, Dice dice, const RandomDef& random) {
     EXPECT_EQ(sum - sum, 0.0);
     LiquidIn found;
     const Vec2f low = place(dice, random);
-    static_cast<void>(world.liquid_in({{-low.x, -low.y}, low}, &found,
-                                      static_cast<Liquids>(dice.below(4))));
+    const Box corner{{-low.x, -low.y}, low};
+    const auto of = static_cast<Liquids>(dice.below(4));
+    if (world.liquid_in(corner, &found, of) == Status::ok) {
+        expect_as_seen(world, corner, of, found);
+    }
     look_at_bodies(world, dice, random);
     expect_rung(world, number(dice, 0.0F, 0.1F), dice.below(100000));
     std::byte room[100];

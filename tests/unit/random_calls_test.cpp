@@ -94,8 +94,34 @@ bool advance_by(World<Real>& world, std::int32_t slices, const StepReport& repor
     return false;
 }
 
+/// Nothing is told of what a world has no room for.
+template <class Real>
+void expect_of_what_is_there(const StepReport& r, const WorldDef& def) {
+    const Capacity& room = def.capacity;
+    EXPECT_TRUE(!r.walls_held || (r.rung >= 3 && room.bodies > 0 && room.moving_bodies));
+    EXPECT_TRUE(r.particles_beyond == 0 || room.window_cells > 0);
+    EXPECT_TRUE(r.contacts_missed == 0 || room.contacts > 0);
+    EXPECT_TRUE(r.particles_crowded == 0 || !std::is_floating_point_v<Real>);
+    EXPECT_TRUE(r.bodies_slowed == 0 || room.two_way);
+    // Of the least tension fixed point knows none.
+    const bool round = def.surface_tension_m3ps2 > 0.0F && std::is_floating_point_v<Real>;
+    EXPECT_TRUE(r.cells_overfull == 0 || (def.volume_gain > 0.0F && !round));
+    EXPECT_TRUE(r.particles_asleep == 0 || r.asleep || room.sleeping_regions);
+    EXPECT_TRUE(!r.asleep || def.sleep.speed_mps > 0.0F);
+    EXPECT_TRUE(!r.has(Clamped::sound_speed) || def.pressure == Pressure::equation_of_state);
+    EXPECT_TRUE(!r.has(Clamped::viscosity) || def.viscosity_m2ps > 0.0F);
+    EXPECT_TRUE(!r.has(Clamped::surface_tension) || def.surface_tension_m3ps2 > 0.0F);
+    EXPECT_TRUE(room.bodies > 0 || (r.particles_tested == 0 && r.particles_reflected == 0 &&
+                                    r.particles_stuck == 0 && r.nodes_rasterized == 0));
+}
+
 /// What a report says must fit what was asked for, and itself.
-void expect_consistent(const StepReport& r, float dt_s, const WorldDef& def) {
+template <class Real>
+void expect_consistent(const StepReport& r, float dt_s, std::int32_t rung, const WorldDef& def) {
+    expect_of_what_is_there<Real>(r, def);
+    EXPECT_EQ(r.rung, rung);
+    EXPECT_EQ(r.has(Clamped::not_finite), r.particles_reset > 0);
+    EXPECT_FALSE(r.has(Clamped::not_initialised));
     EXPECT_TRUE(r.dt_s >= 0.0F && r.dt_s <= 256.0F);
     EXPECT_TRUE(r.max_speed_mps >= 0.0F && r.max_speed_mps < 1e30F);
     constexpr float kUnit = 256.0F / 1073741824.0F;  // of the slowest packed worlds
@@ -111,6 +137,7 @@ class Lives {
 public:
     explicit Lives(Dice& dice)
         : random_(random_def(dice)), def_(random_.def), whole_(def_), back_(def_) {
+        begin_again_in_noise(back_, dice);
         WorldDef def = def_;
         def.parallel_for = dice.chance(0.5F) ? backwards : mixed;
         def.ticks = counted;
@@ -149,7 +176,7 @@ public:
         const std::int32_t before = whole_->particle_positions().size;
         const StepReport report = whole_->step(dt_s, rung);
         EXPECT_LE(work_of(report), bound.step);
-        expect_consistent(report, dt_s, def_);
+        expect_consistent<Real>(report, dt_s, rung, def_);
         EXPECT_EQ(report.particles, before - report.particles_removed_stuck);
         EXPECT_EQ(report.particles_reset, 0);
         EXPECT_TRUE(all_inside(*whole_));
@@ -157,7 +184,8 @@ public:
         expect_ok((*sliced_)->begin_step(dt_s, &cut, rung));
         EXPECT_TRUE(advance_by(**sliced_, 1 << 30, cut, bound.largest_item, Dice(dice.bits()),
                                random_));
-        back_->step(dt_s, rung);
+        expect_same_report(cut, report, false);  // who was restored clears more
+        expect_same_report(back_->step(dt_s, rung), report, false);
     }
 
     /// A fountain, as much as there is room for and more.
@@ -264,6 +292,16 @@ private:
                       static_cast<std::ptrdiff_t>(memory.size()));
         }
         return busy_random_def<Real>(dice);
+    }
+
+    /// Whatever memory held, the world in it is the same.
+    void begin_again_in_noise(TestWorld<Real>& world, Dice& dice) {
+        const std::size_t bytes = world_bytes<Real>(def_.capacity);
+        std::uint64_t noise = dice.bits();
+        for (std::size_t at = 0; at < bytes; ++at, noise = noise << 9U | noise >> 55U) {
+            world.memory()[at] = static_cast<std::byte>(noise + at / 7);
+        }
+        expect_ok(world.init_again());
     }
 
     RandomDef random_;

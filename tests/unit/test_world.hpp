@@ -143,6 +143,34 @@ inline std::int64_t work_of(const StepReport& report) {
     return all;
 }
 
+/// All that is told of two steps but ticks, and work if it is not asked for.
+inline void expect_same_report(const StepReport& a, const StepReport& b, bool work = true) {
+    for (std::int32_t stage = 0; work && stage < kStageCount; ++stage) {
+        EXPECT_EQ(a.work[stage], b.work[stage]) << stage_name(static_cast<weir::Stage>(stage));
+    }
+    EXPECT_EQ(a.nodes_rasterized, work ? b.nodes_rasterized : a.nodes_rasterized);
+    EXPECT_EQ(a.substeps, b.substeps);
+    EXPECT_EQ(a.clamped, b.clamped);
+    EXPECT_EQ(a.asleep, b.asleep);
+    EXPECT_EQ(a.rung, b.rung);
+    EXPECT_EQ(a.walls_held, b.walls_held);
+    EXPECT_EQ(a.dt_s, b.dt_s);
+    EXPECT_EQ(a.max_speed_mps, b.max_speed_mps);
+    EXPECT_EQ(a.particles, b.particles);
+    EXPECT_EQ(a.particles_asleep, b.particles_asleep);
+    EXPECT_EQ(a.particles_tested, b.particles_tested);
+    EXPECT_EQ(a.particles_reflected, b.particles_reflected);
+    EXPECT_EQ(a.particles_stuck, b.particles_stuck);
+    EXPECT_EQ(a.particles_removed_stuck, b.particles_removed_stuck);
+    EXPECT_EQ(a.particles_beyond, b.particles_beyond);
+    EXPECT_EQ(a.contacts_missed, b.contacts_missed);
+    EXPECT_EQ(a.cells_overfull, b.cells_overfull);
+    EXPECT_EQ(a.particles_crowded, b.particles_crowded);
+    EXPECT_EQ(a.particles_reset, b.particles_reset);
+    EXPECT_EQ(a.particles_slowed, b.particles_slowed);
+    EXPECT_EQ(a.bodies_slowed, b.bodies_slowed);
+}
+
 /// Saves one world and goes on in another.
 template <class Real>
 void change_worlds(TestWorld<Real>& from, TestWorld<Real>& to, const WorldDef& def) {
