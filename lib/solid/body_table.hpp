@@ -43,7 +43,7 @@ struct Body {
     std::int32_t rings = 1;         ///< 1 + holes
     std::int32_t piece_length = 0;  ///< used entries of its piece list
     NodeBox drawn;                  ///< nodes that it wrote when it was last rasterized
-    NodeBox left;                   ///< and the time before
+    NodeBox left;                   ///< while it is rasterized anew: the time before
     Vec2<Real> met_position;        ///< where it was when particles last met it
     Real met_angle = Real(0);
     std::uint16_t generation = 0;

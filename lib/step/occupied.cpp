@@ -192,7 +192,7 @@ bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies, const Wal
     };
     for (std::int32_t slot = 0; slot < bodies.capacity; ++slot) {
         const Body<Real>& body = bodies.body[slot];
-        if (body.kind != BodyKind::free && (reached(body.drawn) || reached(body.left))) {
+        if (body.kind != BodyKind::free && reached(body.drawn)) {
             return true;
         }
     }

@@ -148,6 +148,29 @@ TYPED_TEST(Occupied, SolidsOutOfReachAreNotAsked) {
     EXPECT_GT(tested, 50) << "and then they met";
 }
 
+/// Nor are those that were in reach before, which a world that was restored knows nothing of: from
+/// its second step on it does the same work.
+TYPED_TEST(Occupied, SolidsThatWentAreForgotten) {
+    WorldDef def = small_def();
+    def.capacity.cells_y = 60;
+    def.gravity_mps2 = {};
+    TestWorld<TypeParam> world(def);
+    TestWorld<TypeParam> restored(def);
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.2F, 0.05F}));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.1F, 0.1F}}));
+    const StepReport beside = world->step(1.0F / 60.0F);
+    Motion motion = motion_of(*world, id);
+    motion.position_m.y = 1.0F;
+    expect_ok(world->set_motion(id, motion));
+    world->step(1.0F / 60.0F);
+    change_worlds(world, restored, def);
+    world->step(1.0F / 60.0F);
+    restored->step(1.0F / 60.0F);
+    const StepReport without = world->step(1.0F / 60.0F);
+    expect_same_report(restored->step(1.0F / 60.0F), without);
+    EXPECT_LT(work_of(without), work_of(beside));
+}
+
 /// Nor by what creeps by a last digit of fixed point, in which beside solids another number stands
 /// for a face that no particle reaches.
 TYPED_TEST(Occupied, SolidsOutOfReachSlowNothingThatCreeps) {
