@@ -6,17 +6,14 @@ namespace weir {
 
 namespace {
 
-bool same_body(BodyId one, BodyId other) {
-    return one.slot == other.slot && one.generation == other.generation;
-}
-
-/// Entry of a body with what it met, a new one if need be; −1 if there is no room.
+/// Entry of a body with what it met, a new one if need be; −1 if there is no room. Within a step a
+/// slot is always of the same body.
 template <class Real>
 std::int32_t entry_of(Contacts<Real>& contacts, const Contact& met) {
     const auto holds = [&](std::int32_t at) {
         const Contact& entry = contacts.entry[at];
-        return same_body(entry.body, met.body) && entry.with == met.with &&
-               same_body(entry.other, met.other);
+        return entry.body.slot == met.body.slot && entry.with == met.with &&
+               entry.other.slot == met.other.slot;
     };
     if (contacts.last < contacts.used && holds(contacts.last)) {
         return contacts.last;
