@@ -41,7 +41,7 @@ bool by_vertex(const Layout& plan, std::int32_t block) {
 template <class Real>
 void write(SnapshotWriter& writer, const Layout& plan, const Head& head,
            WorldState<Real>& state) {
-    write_head(writer, plan, head);
+    write_head<Real>(writer, head);
     const Extents extents = world_members(writer, state);
     const BodyTable<Real>& table = state.simulation.bodies;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
@@ -227,7 +227,7 @@ Status World<Real>::restore(const void* snapshot, std::size_t bytes) {
         return Status::snapshot_missing;
     }
     const Layout plan = layout<Real>(state_->def.capacity);
-    const Status frame = check_frame(snapshot, bytes, plan, *state_);
+    const Status frame = check_frame(snapshot, bytes, *state_);
     if (frame != Status::ok) {
         return frame;
     }

@@ -93,15 +93,15 @@ inline std::uint64_t capacity_code(const Capacity& of) {
     return hash.value();
 }
 
-/// kSnapshotVersion, and how `layout` describes the blocks.
-inline std::uint32_t format_code(const Layout& plan) {
+/// kSnapshotVersion, and how blocks are described, whatever the capacity.
+template <class Real>
+std::uint32_t format_code() {
     Hash hash;
     hash.add(kSnapshotVersion);
-    for (std::int32_t block = 0; block < kBlockCount; ++block) {
+    for (const detail::BlockKind& kind : detail::kBlockKinds<Real>) {
         // Pointers make these two blocks longer on some machines; their members do not.
-        const bool members = plan.kept[block] == Kept::members;
-        hash.add(static_cast<std::uint32_t>(plan.kept[block]));
-        hash.add(members ? 0U : static_cast<std::uint32_t>(plan.element_bytes[block]));
+        hash.add(static_cast<std::uint32_t>(kind.kept));
+        hash.add(kind.kept == Kept::members ? 0U : std::uint32_t{kind.element_bytes});
     }
     return static_cast<std::uint32_t>(hash.value());
 }
@@ -118,9 +118,10 @@ Head head_of(const detail::WorldState<Real>& state, std::size_t bytes) {
             definition_code(state)};
 }
 
-inline void write_head(SnapshotWriter& writer, const Layout& plan, const Head& head) {
+template <class Real>
+void write_head(SnapshotWriter& writer, const Head& head) {
     writer.word(kSnapshotMagic);
-    writer.word(format_code(plan));
+    writer.word(format_code<Real>());
     writer.word64(head.bytes);
     writer.word64(head.scalar);
     writer.word64(head.capacity);
@@ -129,8 +130,7 @@ inline void write_head(SnapshotWriter& writer, const Layout& plan, const Head& h
 
 /// Whether frame and checksum are those of a snapshot, and of a snapshot of this world.
 template <class Real>
-Status check_frame(const void* data, std::size_t size, const Layout& plan,
-                   const detail::WorldState<Real>& state) {
+Status check_frame(const void* data, std::size_t size, const detail::WorldState<Real>& state) {
     SnapshotReader reader(data, size);
     const std::uint32_t magic = reader.word();
     const std::uint32_t format = reader.word();
@@ -142,7 +142,7 @@ Status check_frame(const void* data, std::size_t size, const Layout& plan,
         return Status::snapshot_not_recognised;
     }
     const std::uint64_t scalar = scalar_code<Real>();
-    if (format != format_code(plan) && head.scalar == scalar) {
+    if (format != format_code<Real>() && head.scalar == scalar) {
         return Status::snapshot_of_other_version;
     }
     if (head.bytes > size) {
