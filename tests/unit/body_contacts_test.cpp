@@ -149,6 +149,23 @@ TYPED_TEST(BodyContacts, AreShownOnceTheStepIsDone) {
     }
 }
 
+/// They name a body that was removed since, and are none of a state that is gone back to.
+TYPED_TEST(BodyContacts, OutliveTheirBodyAndNoRestore) {
+    const WorldDef def = dry_def(4);
+    TestWorld<TypeParam> world{def};
+    const BodyId id = put_free(*world, body_of(kCrate, {0.4F, 0.05F}));
+    world->step(kDt);
+    ASSERT_EQ(world->contacts().size, 1);
+    const std::vector<std::byte> bytes = saved(*world, def.capacity);
+    expect_ok(world->remove_body(id));
+    ASSERT_EQ(world->contacts().size, 1);
+    EXPECT_EQ(world->contacts()[0].body, id);
+    expect_ok(world->restore(bytes.data(), bytes.size()));
+    EXPECT_EQ(world->contacts().size, 0);
+    world->step(kDt);
+    EXPECT_EQ(world->contacts().size, 1);
+}
+
 /// Without room they are counted, and nothing is different for it.
 TYPED_TEST(BodyContacts, WithoutRoomChangeNothing) {
     std::uint64_t hash[2];

@@ -149,6 +149,39 @@ TEST(Coverage, CountsHolesAndCutsOffWhatIsBeyondTheGrid) {
     EXPECT_NEAR(sum(share), 0.5, 1e-6);
 }
 
+/// A grid that shows a part of another one has that part's shares, and beyond a polygon there is
+/// none at all: no dust of rounding.
+TEST(Coverage, OfAPartIsThatOfTheWhole) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    constexpr int kWhole = 40;
+    constexpr int kPart = 9;
+    for (int scene = 0; scene < 200; ++scene) {
+        std::vector<Vec2f> whole;
+        std::vector<Vec2f> part;
+        const int i0 = 1 + int(30 * unit(random));
+        const int j0 = 1 + int(30 * unit(random));
+        const Point centre{8.0 + 20.0 * unit(random), 8.0 + 20.0 * unit(random)};
+        for (const Point p : star(centre, 1.0 + 7.0 * unit(random), 3 + scene % 4, scene)) {
+            whole.push_back(convert<float>(p));
+            part.push_back({whole.back().x - float(i0), whole.back().y - float(j0)});
+        }
+        std::vector<float> all(kWhole * kWhole);
+        std::vector<float> some(kPart * kPart);
+        ASSERT_EQ(cover_cells(whole, {}, kWhole, kWhole, all.data()), Status::ok);
+        ASSERT_EQ(cover_cells(part, {}, kPart, kPart, some.data()), Status::ok);
+        for (int j = 0; j < kPart; ++j) {
+            for (int i = 0; i < kPart; ++i) {
+                ASSERT_NEAR(some[std::size_t(j * kPart + i)],
+                            all[std::size_t((j0 + j) * kWhole + i0 + i)], 2e-5F) << scene;
+            }
+        }
+        for (int j = 0; j < kWhole; ++j) {
+            ASSERT_EQ(all[std::size_t(j * kWhole + kWhole - 1)], 0.0F) << scene << ' ' << j;
+        }
+    }
+}
+
 TEST(Coverage, WritesNothingWhereThereAreNoColumns) {
     const Vec2f square[] = {{-1.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 2.0F}, {-1.0F, 2.0F}};
     float share = 7.0F;

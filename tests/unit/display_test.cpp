@@ -82,6 +82,33 @@ TEST(Display, MayBeOfAnOddWidth) {
     EXPECT_EQ(narrow.back(), 0xB0);
 }
 
+/// What is not said is said by the header: all of the tank, in these shades.
+TEST(Display, HasDefaults) {
+    const WorldDef def = small_def();
+    TestWorld<float> world(def);
+    put_static(*world, body_of(kSquare4cm, {0.2F, 0.1F}));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.13F, 0.1F}}));
+    world->step(0.01F);
+    std::vector<std::uint8_t> plain(10 * 20, 0), said(10 * 20, 0);
+    Display display;
+    EXPECT_EQ(draw(*world, display).last, -1) << "it has no pixels";
+    display.width = display.height = 20;
+    display.pixels = plain.data();
+    draw(*world, display);
+    display.pixels = said.data();
+    display.liquid = 11;
+    display.solid = 4;
+    display.hysteresis = 96;
+    display.shown_m = {{0.0F, 0.0F}, {16 * def.cell_m, 16 * def.cell_m}};
+    draw(*world, display);
+    EXPECT_EQ(plain, said);
+    EXPECT_EQ(plain[19 * 10], 0xBB) << "liquid in the lower left corner";
+    EXPECT_EQ(plain[13 * 10 + 6] >> 4, 4) << "a solid";
+    EXPECT_EQ(ChangedRows().first, 0);
+    EXPECT_EQ(ChangedRows().last, -1);
+    EXPECT_EQ(draw(*world, display).last, -1) << "nothing has changed";
+}
+
 /// A camera at whole pixels shows what the picture of the whole tank has there, and walls around.
 TEST(Display, ShowsAPartOfTheTank) {
     const WorldDef def = small_def();

@@ -119,7 +119,6 @@ TYPED_TEST(LadderOf, BodiesAreHeldEveryOtherStep) {
     EXPECT_FALSE(world->step(1.0F / 60.0F, 3).walls_held) << "too fast";
 }
 
-/// Whoever stays on a rung for ever gets slower and rougher water, nothing worse.
 /// Who was put elsewhere is drawn there in the next step, in that of a restored world, too.
 TYPED_TEST(LadderOf, SnapshotKnowsWhoWasPutElsewhere) {
     const WorldDef def = small_def();
@@ -138,6 +137,7 @@ TYPED_TEST(LadderOf, SnapshotKnowsWhoWasPutElsewhere) {
     EXPECT_EQ(restored->state_hash(), world->state_hash());
 }
 
+/// Whoever stays on a rung for ever gets slower and rougher water, nothing worse.
 TYPED_TEST(LadderOf, EveryRungStaysTame) {
     for (std::int32_t rung = 1; rung < kRungs; ++rung) {
         SCOPED_TRACE(rung);
@@ -164,6 +164,20 @@ TEST(Ladder, RungsBeyondItAreItsEnds) {
     expect_ok(world->fill({{0, 0}, {0.24F, 0.36F}}));
     EXPECT_EQ(world->step(kDt, -3).rung, 0);
     EXPECT_EQ(world->step(kDt, 99).rung, kRungs - 1);
+    for (const std::int32_t rung : {-3, 99}) {
+        const std::int32_t end = rung < 0 ? 0 : kRungs - 1;
+        StepReport report;
+        expect_ok(world->begin_step(kDt, &report, rung));
+        EXPECT_EQ(report.rung, end);
+        while (!world->advance(10000)) {
+        }
+        WorkBound beyond;
+        WorkBound of_end;
+        expect_ok(world->work_bound(kDt, &beyond, rung));
+        expect_ok(world->work_bound(kDt, &of_end, end));
+        EXPECT_EQ(beyond.step, of_end.step);
+        EXPECT_EQ(beyond.substeps, of_end.substeps);
+    }
     EXPECT_EQ(world->rung_within(kDt, 0), kRungs - 1);
     EXPECT_EQ(world->rung_within(kDt, std::int64_t{1} << 40), 0);
     const World<float> none;

@@ -177,6 +177,31 @@ TEST(StepInput, GravityAtItsLimitIsNotClamped) {
     EXPECT_TRUE(pool.world->step(0.001F).has(Clamped::gravity));
 }
 
+/// A velocity that is no number, by whatever fault of the machine: the pressure may bring it to all
+/// others in that step, which are put to rest, told of, and go on.
+template <class Real>
+void expect_mended() {
+    TestWorld<Real> world(small_def());
+    expect_ok(world->fill({{0, 0}, {0.12F, 0.14F}}));
+    const std::int32_t count = world->particle_positions().size;
+    world->step(kFrame);
+    const_cast<Vec2<Real>&>(world->particle_velocities()[7]).x =
+        std::numeric_limits<Real>::quiet_NaN();
+    const StepReport report = world->step(kFrame);
+    EXPECT_TRUE(report.has(Clamped::not_finite));
+    EXPECT_GT(report.particles_reset, 0);
+    EXPECT_EQ(report.particles, count);
+    EXPECT_TRUE(all_inside(*world));
+    const StepReport next = world->step(kFrame);
+    EXPECT_FALSE(next.has(Clamped::not_finite));
+    EXPECT_EQ(next.particles_reset, 0);
+}
+
+TEST(StepInput, VelocitiesThatAreNoneAreMended) {
+    expect_mended<float>();
+    expect_mended<double>();
+}
+
 TEST(StepInput, BeforeInit) {
     World<float> world;
     const StepReport report = world.step(kFrame);
