@@ -26,9 +26,6 @@ std::int32_t filled(Number density) {
 /// −kOne … kOne.
 template <class Number>
 std::int32_t limited_distance(Number distance) {
-    if (distance <= Number(-1)) {
-        return -kOne;
-    }
     return distance < Number(0) ? -filled(Number(-distance)) : filled(distance);
 }
 
