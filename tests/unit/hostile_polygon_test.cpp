@@ -194,27 +194,6 @@ TEST(HostilePolygons, AreRefusedWithTheirFault) {
     }
 }
 
-/// Where edges that are all but parallel cross, rounding says anything: the place is still on one.
-TEST(HostilePolygons, FaultsOfNeedlesAreOnAnEdge) {
-    for (int k = 0; k < 400; ++k) {
-        const float far = 1.0e6F + 7.0F * static_cast<float>(k);
-        const float rise = 0.0625F * static_cast<float>(1 + k % 40);
-        const Ring ring = {{0, 0}, {far, 0.5F * far + rise}, {far, -far},
-                           {0.25F * static_cast<float>(k % 9), -0.5F},
-                           {far, 0.5F * far}, {0, far}};
-        PolygonFault fault;
-        const Status status = check_polygon(ring, {}, &fault);
-        if (status == Status::polygon_crosses_itself) {
-            const Vec2f a = ring[static_cast<std::size_t>(fault.edge_a)];
-            const Vec2f b = ring[static_cast<std::size_t>(fault.edge_a + 1) % ring.size()];
-            EXPECT_GE(fault.place_m.x, std::fmin(a.x, b.x)) << k;
-            EXPECT_LE(fault.place_m.x, std::fmax(a.x, b.x)) << k;
-            EXPECT_GE(fault.place_m.y, std::fmin(a.y, b.y)) << k;
-            EXPECT_LE(fault.place_m.y, std::fmax(a.y, b.y)) << k;
-        }
-    }
-}
-
 TEST(HostilePolygons, UglyOnesBecomeBodies) {
     for (const HostileRow& row : accepted_rows()) {
         SCOPED_TRACE(row.name);
