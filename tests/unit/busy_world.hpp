@@ -66,6 +66,13 @@ bool busy_kind_is_borne(std::int32_t kind) {
             def.capacity.wall_edges == 0);
 }
 
+/// A `WorldDef::parallel_for` that does the last piece first.
+inline void backwards(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
+    for (std::int32_t k = count; k-- > 0;) {
+        task(context, k);
+    }
+}
+
 /// Corners on grid lines: bodies share edges, and nodes are as far from one as from the other.
 inline Ring busy_ring(Dice& dice) {
     constexpr float c = 0.02F;

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::int32_t kCalls = 80;
 
-void backwards(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
-    for (std::int32_t k = count; k-- > 0;) {
-        task(context, k);
-    }
-}
-
 /// Odd ones first, then the even ones from the last on.
 void mixed(void (*task)(void*, std::int32_t), void* context, std::int32_t count) {
     for (std::int32_t k = 1; k < count; k += 2) {

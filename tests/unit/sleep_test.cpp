@@ -324,23 +324,6 @@ TEST(Sleep, GravityMayTrembleAboutAnotherOne) {
     }
 }
 
-/// It goes a cell a substep, with no velocity of its own.
-TEST(Sleep, NotWhileAnybodyIsOnTheWayOutOfASolid) {
-    WorldDef def = tank_def(48, 48, 4, 1, 4);
-    def.gravity_mps2 = {};
-    def.sleep = {0.02F, 0.1F, 0.0F};
-    TestWorld<float> world(def);
-    expect_ok(world->add_particle({0.48F, 0.5F}, {}));
-    put_static(*world, body_of(rectangle(0.6F, 0.6F), {0.48F, 0.48F}));
-    std::int32_t steps = 0;
-    for (StepReport report = world->step(kDt); report.particles_stuck > 0 && steps < 40; ++steps) {
-        EXPECT_FALSE(report.asleep);
-        report = world->step(kDt);
-    }
-    EXPECT_GT(steps, 8) << "longer than it takes to fall asleep";
-    EXPECT_LT(steps, 40);
-}
-
 TEST(Sleep, NotWhileABodyMovesOrLiquidFalls) {
     Pool<float> pool;
     Motion motion;
@@ -399,25 +382,6 @@ TEST(Sleep, NonsenseIsReportedAsleepToo) {
     const StepReport report = pool->step(kDt);
     EXPECT_TRUE(report.has(Clamped::gravity));
     EXPECT_TRUE(report.asleep);
-}
-
-/// A pause tells nothing of who rests: a world that was just restored has not drawn its solids, and
-/// took what lay on them for what falls.
-TYPED_TEST(SleepOf, APauseIsTheSameAfterARestore) {
-    WorldDef def = small_def();
-    def.sleep.speed_mps = 0.02F;
-    TestWorld<TypeParam> world{def};
-    TestWorld<TypeParam> other{def};
-    put_static(*world, body_of(rectangle(0.2F, 0.1F), {0.16F, 0.05F}));
-    expect_ok(world->add_particle({0.151F, 0.101F}, {}));
-    for (int step = 0; step < 30; ++step) {
-        world->step(1.0F / 60.0F);
-        const std::vector<std::byte> bytes = saved(*world, def.capacity);
-        expect_ok(other->restore(bytes.data(), bytes.size()));
-        world->step(0.0F);
-        other->step(0.0F);
-        ASSERT_EQ(other->state_hash(), world->state_hash()) << "step " << step;
-    }
 }
 
 }  // namespace
