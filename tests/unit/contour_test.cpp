@@ -85,6 +85,27 @@ TEST(Raster, DrawingAPartAgainChangesNothing) {
     EXPECT_EQ(field.distance, before);
 }
 
+/// Of two bodies at one place the one of the lower name is named, whichever was drawn last.
+TEST(Raster, OfTwoAsNearTheLowerNameStands) {
+    std::vector<Vec2<double>> corners;
+    for (const Point p : star({16.3, 15.8}, 9.0, 5, 0.4)) {
+        corners.push_back({p.x, p.y});
+    }
+    const auto count = static_cast<std::int32_t>(corners.size());
+    std::vector<double> distance(kNodes * kNodes, 1.5);
+    std::vector<double> scratch(kNodes * kNodes);
+    std::vector<std::uint16_t> nearest(kNodes * kNodes, 0xFFFF);
+    const NodeBox box = nodes_near(corners.data(), count, 1.5, kNodes - 1, kNodes - 1);
+    for (const std::uint16_t name : {std::uint16_t{5}, std::uint16_t{3}, std::uint16_t{4}}) {
+        rasterize(RasterPolygon<double>{{corners.data(), count}, name, {}}, box, false, 1.5,
+                  scratch.data(),
+                  NodeField<double>{distance.data(), nearest.data(), 0, kNodes});
+    }
+    for (std::size_t node = 0; node < distance.size(); ++node) {
+        ASSERT_EQ(nearest[node], distance[node] < 1.5 ? 3 : 0xFFFF) << node;
+    }
+}
+
 /// Loops in lanes do a whole box, and beside it where there is room; a strip of one column is drawn
 /// node by node.
 TEST(Raster, AnyNumberOfLanesHasTheBitsOfNodeByNode) {

@@ -60,6 +60,41 @@ TEST(Diagnostics, LookingChangesNothing) {
     EXPECT_EQ(watched->state_hash(), alone->state_hash());
 }
 
+/// A body that was put elsewhere since the last step is where it is, as in a restored world.
+TEST(Diagnostics, KnowWhereBodiesAre) {
+    const WorldDef def = tank_def(20, 20, 2000, 1, 4);
+    TestWorld<float> world(def);
+    TestWorld<float> restored(def);
+    const BodyId id = put_moving(*world, body_of(rectangle(0.09F, 0.09F), {0.2F, 0.3F}));
+    expect_ok(world->fill({{0, 0}, {0.4F, 0.2F}}));
+    world->step(1.0F / 60.0F);
+    Motion motion = motion_of(*world, id);
+    motion.position_m.y = 0.1F;
+    expect_ok(world->set_motion(id, motion));
+    change_worlds(world, restored, def);
+    Diagnostics d;
+    Diagnostics expected;
+    expect_ok(world->diagnose(&d));
+    expect_ok(restored->diagnose(&expected));
+    EXPECT_EQ(d.volume_m2, expected.volume_m2);
+    EXPECT_EQ(d.largest_density, expected.largest_density);
+}
+
+/// Whatever unit a packed world has for its velocities, divergence is told in 1/s.
+TEST(Diagnostics, DivergenceIsToldInSeconds) {
+    for (const float top_speed_mps : {0.0F, 0.7F}) {
+        WorldDef def = tank_def(16, 16, 1024);
+        def.top_speed_mps = top_speed_mps;
+        TestWorld<SmallFixed> world(def);
+        expect_ok(world->fill({{0.0F, 0.0F}, {0.32F, 0.2F}}));
+        expect_ok(world->stir({{0.0F, 0.0F}, {0.16F, 0.32F}}, {-0.4F, 0.0F}, 1.0F));
+        expect_ok(world->stir({{0.16F, 0.0F}, {0.32F, 0.32F}}, {0.4F, 0.0F}, 1.0F));
+        Diagnostics d;
+        expect_ok(world->diagnose(&d));
+        EXPECT_NEAR(d.divergence_per_s, 0.4 / kCellM, 2.0) << "the velocity's change over a cell";
+    }
+}
+
 TEST(Diagnostics, RefusesWhatCannotBe) {
     World<float> none;
     Diagnostics d;

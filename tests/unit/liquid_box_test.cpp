@@ -192,6 +192,20 @@ TYPED_TEST(LiquidBox, IsStirredAsHardAsCanBe) {
     }
 }
 
+/// The next step is cut as who was pushed needs it.
+TYPED_TEST(LiquidBox, WhoIsStirredIsNotSlowed) {
+    WorldDef def = tank();
+    def.gravity_mps2 = {};
+    TestWorld<TypeParam> world(def);
+    expect_ok(world->fill({{0.02F, 0.1F}, {0.06F, 0.14F}}));
+    world->step(0.01F);
+    expect_ok(world->stir({{0.0F, 0.0F}, {kSide, kSide}}, {4.5F, 0.0F}, 1.0F));
+    const StepReport report = world->step(1.0F / 60.0F);
+    EXPECT_EQ(report.particles_slowed, 0);
+    EXPECT_GE(report.substeps, 3);
+    EXPECT_NEAR(found_in(*world, {{0.0F, 0.0F}, {kSide, kSide}}).centroid_m.x, 0.115F, 0.003F);
+}
+
 /// Steps until the world sleeps, at most so many.
 template <class Real>
 std::int32_t steps_to_sleep(World<Real>& world, float share, std::int32_t most) {

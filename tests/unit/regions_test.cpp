@@ -206,6 +206,29 @@ TYPED_TEST(RegionsOf, AwokenItGoesOnAsItWas) {
     }
 }
 
+/// Who falls asleep in steps of another length than those who sleep already keeps its pressure.
+TYPED_TEST(RegionsOf, PressureIsThatOfAnyStep) {
+    Pools<TypeParam> pools;
+    pools.add_spinner();
+    StepReport report;
+    for (int step = 0; step < 900 && report.particles_asleep < pools.right; ++step) {
+        report = pools->step(kDt);
+    }
+    ASSERT_EQ(report.particles_asleep, pools.right);
+    pools.pour_left();
+    const std::int32_t all = pools->particle_positions().size;
+    for (int step = 0; step < 1500 && report.particles_asleep < all; ++step) {
+        report = pools->step(0.4F * kDt);
+    }
+    ASSERT_EQ(report.particles_asleep, all);
+    const auto at_bottom = [&](std::int32_t column) {
+        return static_cast<double>(pools->pressure_scale()) *
+               static_cast<double>(pools->pressure().at(column, 1));
+    };
+    EXPECT_NEAR(at_bottom(50), 9.81 * 0.13, 0.1 * 9.81 * 0.13);
+    EXPECT_NEAR(at_bottom(10), 9.81 * 0.09, 0.1 * 9.81 * 0.09);
+}
+
 /// A body that passes wakes before it touches.
 TYPED_TEST(RegionsOf, BodiesThatComeNearWake) {
     Pools<TypeParam> pools;

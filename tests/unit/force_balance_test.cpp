@@ -1,0 +1,79 @@
+// What bodies and tank are told to have received adds up, also where solids stand before the tank's
+// walls, and with bodies that the grid does not show.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test_world.hpp"
+
+namespace weir {
+namespace {
+
+constexpr float kDt = 1.0F / 64.0F;
+constexpr double kG = 9.81;
+
+template <class Real>
+Vec2f tank_force_of(const World<Real>& world) {
+    BodyForce force;
+    expect_ok(world.tank_force(&force));
+    return force.impulse_m3ps;
+}
+
+template <class Real>
+Vec2f force_of(const World<Real>& world, BodyId id) {
+    BodyForce force;
+    expect_ok(world.force(id, &force));
+    return force.impulse_m3ps;
+}
+
+/// Gravity's impulse less the liquid's change of momentum less what was told, over its weight.
+template <class Real>
+double missing(World<Real>& world, BodyId id) {
+    Diagnostics before;
+    Diagnostics after;
+    expect_ok(world.diagnose(&before));
+    const auto dt = static_cast<double>(world.step(kDt).dt_s);
+    expect_ok(world.diagnose(&after));
+    const Vec2f tank = tank_force_of(world);
+    const Vec2f body = force_of(world, id);
+    const double weight = before.mass_m2 * kG * dt;
+    const double x = -(after.momentum_m3ps.x - before.momentum_m3ps.x) -
+                     static_cast<double>(tank.x + body.x);
+    const double y = -weight - (after.momentum_m3ps.y - before.momentum_m3ps.y) -
+                     static_cast<double>(tank.y + body.y);
+    return std::hypot(x, y) / weight;
+}
+
+/// A crumb of a third of a cell is lifted and takes liquid along, though no cell knows of it.
+TEST(ForceBalance, HoldsWithBodiesThatTheGridDoesNotShow) {
+    WorldDef def = tank_def(24, 24, 2304, 1, 4);
+    def.capacity.two_way = true;
+    TestWorld<double> world(def);
+    const Ring crumb = rectangle(0.007F, 0.007F);
+    BodyDef body = body_of(crumb, {0.243F, 0.1F});
+    body.density_ratio = 0.5F;
+    const BodyId id = put_free(*world, body);
+    expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
+    for (int step = 0; step < 20; ++step) {
+        EXPECT_LT(missing(*world, id), 1e-5) << step;
+    }
+}
+
+/// A slab of half a cell stands before the left wall: it receives what the wall would have.
+TEST(ForceBalance, CoveredWallsReceiveNothing) {
+    WorldDef def = tank_def(24, 24, 2304, 1, 4);
+    def.capacity.two_way = true;
+    TestWorld<float> world(def);
+    const Ring slab = rectangle(0.02F, 1.0F);
+    const BodyId id = put_static(*world, body_of(slab, {0.0F, 0.24F}));
+    expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
+    for (int step = 0; step < 200; ++step) {
+        world->step(kDt);
+    }
+    const double push = 0.5 * kG * 0.24 * 0.24 * static_cast<double>(kDt);
+    EXPECT_NEAR(static_cast<double>(force_of(*world, id).x), -push, 0.1 * push);
+    EXPECT_NEAR(static_cast<double>(tank_force_of(*world).x), push, 0.1 * push);
+}
+
+}  // namespace
+}  // namespace weir
