@@ -231,7 +231,6 @@ void clear_thin_walls(ThinWalls<Real>& thin, const GridShape& shape, std::int32_
     }
     thin.used = 0;
     thin.reach = Real(0);
-    thin.moving = false;
     for (std::int32_t slot = 0; slot < bodies; ++slot) {
         new (thin.body + slot) ThinBody<Real>();
     }
@@ -321,14 +320,12 @@ void relink_all(ThinWalls<Real>& thin, const GridShape& shape, const BodyTable<R
 template <class Real>
 void follow_bodies(ThinWalls<Real>& thin, const BodyTable<Real>& table) {
     thin.reach = Real(0);
-    thin.moving = false;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         const Body<Real>& body = table.body[slot];
         ThinBody<Real>& at = thin.body[slot];
         if (at.count == 0 || body.kind != BodyKind::moving) {
             continue;
         }
-        thin.moving = thin.moving || body.has_speed();
         const Vec2<Real> way = body.position - body.met_position;
         const Real angle = half_turn(body.angle - body.met_angle);
         const Real far = furthest_way(way, angle, body.radius);

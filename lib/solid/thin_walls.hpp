@@ -76,7 +76,6 @@ struct ThinWalls {
     std::int32_t capacity = 0;       ///< records; 0: this world has no room for thin walls
     std::int32_t used = 0;           ///< of them; 0: nothing is looked at, either
     Real reach = Real(0);            ///< furthest way of any of them since particles met them
-    bool moving = false;             ///< one of them has a velocity or a spin
 };
 
 /// The marks of the cell that a place lies in.
