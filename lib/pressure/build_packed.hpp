@@ -7,19 +7,21 @@
 
 namespace weir {
 
-/// A pressure to start from.
+/// A pressure to start from. Below twice the last one no product of 64 bits is needed.
 inline SmallFixed rescaled(SmallFixed last, SmallFixed rescale) {
     const auto share = static_cast<std::uint32_t>(rescale.raw);
     if (share == 1U << 16U) {
         return last;
     }
-    if (share > 1U << 16U) {
+    if (share >= 2U << 16U) {
         return bounded(last * rescale);
     }
     const std::uint32_t size = fixed::magnitude(last.raw);
-    const auto less = static_cast<std::int32_t>((size >> 16U) * share +
-                                                (((size & 0xFFFFU) * share + 0x8000U) >> 16U));
-    return bounded(SmallFixed::of_raw(last.raw < 0 ? -less : less));
+    const std::uint32_t rest = share & 0xFFFFU;
+    const std::uint32_t whole = share >> 16U != 0 ? size : 0;
+    const auto scaled = static_cast<std::int32_t>(
+        whole + (size >> 16U) * rest + (((size & 0xFFFFU) * rest + 0x8000U) >> 16U));
+    return bounded(SmallFixed::of_raw(last.raw < 0 ? -scaled : scaled));
 }
 
 /// The equation of a liquid cell that has a wall beside it.
