@@ -20,6 +20,11 @@ inline constexpr Real kBand = Real(1.5);
 template <class Real>
 inline constexpr Real kDeepestMirror = Real(-1.5);
 
+/// What goes into a wall less steeply than this to what it does along it goes along it, too: a
+/// bent wall's faces know it where the wall has another direction.
+template <class Real>
+inline constexpr Real kAlongBend = Real(0.5);
+
 /// A film on a wall has air where it is mirrored from. Where faces that particles reach have less
 /// than this of the weight there, they count alone: the others, at rest, braked it to a third.
 /// Were it so everywhere, what leans on a wall would be stirred.

@@ -205,25 +205,31 @@ bool is_slack_at(const GridShape& s, const PressureFields<Real>& fields, Vec2<Re
            absolute(fields.pressure[s.index(i, j)]) <= most_slack(fields);
 }
 
+/// What a mirrored velocity differs by along the normal from the liquid's, which has so much.
+template <class Real>
+inline Real turned(const Mirror<Real>& mirror, Real normal_part) {
+    if (mirror.slack && normal_part > Real(0)) {
+        return Real(0);  // it takes the face along
+    }
+    return normal_part * (Real(1) + mirror.ratio);
+}
+
 /// Velocity that a face in a solid takes: mirrored about the wall, in the wall's frame.
 template <class Real>
 Vec2<Real> mirrored(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const Vec2<Real> liquid = at_mirror(grid, mirror);
-    Real normal_part = dot(liquid - mirror.wall, mirror.normal);
+    const Real normal_part = dot(liquid - mirror.wall, mirror.normal);
     if (mirror.sticks) {
         return stuck(mirror, liquid, mirror.open ? own_towards(grid, mirror)
                                                        : -mirror.ratio * normal_part);
     }
-    if (mirror.slack && normal_part > Real(0)) {
-        normal_part = Real(0);  // it takes the face along
-    }
-    return liquid - (normal_part * (Real(1) + mirror.ratio)) * mirror.normal;
+    return liquid - turned(mirror, normal_part) * mirror.normal;
 }
 
 /// Velocity before the step that goes with it: along the wall the liquid's, so that the change is
 /// the liquid's, and by how much what was there was faster than goes along with it, so that the
-/// change brakes that. Towards the wall what was there, so that the change stops it. Mirrored, too,
-/// where the liquid sticks.
+/// change brakes that. Along the normal mirrored, too, and by how much what was there goes into the
+/// wall beyond that and `kAlongBend`, so that the change stops it. All mirrored where it sticks.
 template <class Real>
 Vec2<Real> before(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const Vec2<Real> liquid = at_mirror(grid, mirror) - mirror.wall;
@@ -236,7 +242,12 @@ Vec2<Real> before(const Velocity<Real>& grid, const Mirror<Real>& mirror) {
     const Real along = dot(relative, tangent);
     const Real liquid_along = dot(liquid, tangent);
     const Real most = grid.goes_along * absolute(liquid_along);
-    return own - (clamp(along, -most, most) - liquid_along) * tangent;
+    const Real taken = clamp(along, -most, most) - liquid_along;
+    const Real towards = dot(relative, mirror.normal);
+    const Real normal_part = dot(liquid, mirror.normal);
+    const Real beyond = towards - (normal_part - turned(mirror, normal_part));
+    const Real free = maximum<Real>(beyond, -(kAlongBend<Real> * absolute(along)));
+    return own - (taken * tangent + free * mirror.normal);
 }
 
 /// Whether a face takes what is mirrored: it is closed, or bound to the wall. Between two nodes.

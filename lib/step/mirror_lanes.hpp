@@ -334,7 +334,14 @@ inline void mirror_faces(const MirrorTask& task, const std::int32_t* face, const
     const Floats along = normal.x * here.y - normal.y * here.x;
     const Floats most = L::all(task.goes_along) * L::absolute(liquid_along);
     const Floats taken = L::clamp(along, -most, most) - liquid_along;
-    L::store(changes.was, OnU ? own + taken * normal.y : own - taken * normal.x);
+    const Floats there_towards = there.dot(normal);
+    const Floats turned =
+        L::minimum(there_towards, L::load(m.most)) * (L::all(1.0F) + L::load(m.ratio));
+    const Floats beyond = here.dot(normal) - (there_towards - turned);
+    const Floats bend = L::all(kAlongBend<float>) * L::absolute(along);
+    const Floats free = L::maximum(beyond, -bend);
+    L::store(changes.was, OnU ? own - (free * normal.x - taken * normal.y)
+                              : own - (taken * normal.x + free * normal.y));
 }
 
 /// How many faces are worth their while together.

@@ -96,17 +96,21 @@ struct MirrorTask {
     /// `weir::mirrored`, 256ths.
     std::int32_t mirrored(const Mirror& mirror, Whole liquid, std::int32_t face) const {
         const Whole relative = relative_to(mirror.wall, liquid);
-        std::int32_t towards = along(relative, mirror.normal);
+        const std::int32_t towards = along(relative, mirror.normal);
         if (mirror.sticks) {
             return stuck(mirror, relative,
                          mirror.open ? own_towards(mirror, face)
                                      : -rounded_shift(mirror.ratio * towards, 9));
         }
+        return of(liquid) - part(turned(mirror, towards), mirror);
+    }
+
+    /// `weir::turned`, 256ths.
+    static std::int32_t turned(const Mirror& mirror, std::int32_t towards) {
         if (mirror.slack && towards > 0) {
-            towards = 0;  // it takes the face along
+            return 0;  // it takes the face along
         }
-        const std::int32_t turned = saturated<17>(rounded_shift(towards * (512 + mirror.ratio), 9));
-        return of(liquid) - part(turned, mirror);
+        return saturated<17>(rounded_shift(towards * (512 + mirror.ratio), 9));
     }
 
     static Speed speed_of(std::int32_t image) {
@@ -128,11 +132,17 @@ struct MirrorTask {
         const Whole there = at_face(face);
         const Whole tangent{-mirror.normal.y, mirror.normal.x};
         const std::int32_t liquid_along = along(relative, tangent);
-        const std::int32_t own_along = along(relative_to(mirror.wall, there), tangent);
+        const Whole own = relative_to(mirror.wall, there);
+        const std::int32_t own_along = along(own, tangent);
         const std::int32_t size = absolute(liquid_along);
         const std::int32_t most = size + size / 4;
         const std::int32_t taken = clamp(own_along, -most, most) - liquid_along;
-        return of(there) - rounded_shift(taken * of(tangent), 14);
+        const std::int32_t towards = along(relative, mirror.normal);
+        const std::int32_t beyond =
+            along(own, mirror.normal) - (towards - turned(mirror, towards));
+        const std::int32_t free = maximum(beyond, -(absolute(own_along) / 2));
+        return of(there) -
+               rounded_shift(taken * of(tangent) + saturated<17>(free) * of(mirror.normal), 14);
     }
 };
 

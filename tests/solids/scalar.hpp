@@ -21,6 +21,11 @@ inline constexpr NamedScalar kScalars[] = {{"float", Scalar::single_precision},
                                            {"fixed", Scalar::fixed},
                                            {"small_fixed", Scalar::small_fixed}};
 
+/// Whether there may be room for walls thinner than a cell: without it those are not tight, and no
+/// line divides the tank.
+template <class Real>
+inline constexpr bool kThinWalls = !std::is_same<Real, weir::SmallFixed>::value;
+
 /// run(zero) with a zero of that arithmetic. Rows begin with its name, unless it is the usual one.
 template <class Run>
 void in_scalar(measure::Report& report, Scalar scalar, Run run) {

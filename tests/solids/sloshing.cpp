@@ -126,7 +126,7 @@ void slosh_at(Report& report, int depth) {
 }
 
 constexpr int kFormatDepth = 32;
-constexpr int kFormatStarts = 8;
+constexpr int kFormatStarts = 32;
 using Figures = std::array<double, kFormatStarts>;
 
 double mean(const Figures& figures) {

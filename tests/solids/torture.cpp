@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "math/vec2.hpp"
@@ -33,10 +32,6 @@ constexpr std::int32_t kLastPlacing = 30;
 constexpr std::int32_t kLongestStay = 17;
 /// A contour shows corners to half a cell.
 constexpr double kTolerance = 0.5;
-
-/// Without room for walls thinner than a cell those are not tight, and no line divides the tank.
-template <class Real>
-constexpr bool kThinWalls = !std::is_same<Real, weir::SmallFixed>::value;
 
 struct Shape {
     std::vector<Vec2f> ring;  ///< cells, own frame
