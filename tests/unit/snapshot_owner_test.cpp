@@ -13,19 +13,25 @@ WorldDef sleepy_def() {
     return def;
 }
 
+using Change = void (*)(WorldDef&);
+
 /// What a world says to the snapshot of another one, whose definition was changed.
-template <class Real>
-Status restored_of_changed(void (*change)(WorldDef&)) {
+Status restored_of_changed(Change change) {
     WorldDef def = sleepy_def();
-    TestWorld<Real> world(def);
+    TestWorld<float> world(def);
     change(def);
-    TestWorld<Real> other(def);
+    TestWorld<float> other(def);
     expect_ok(other->fill({{0.0F, 0.0F}, {0.06F, 0.06F}}));
     const std::vector<std::byte> bytes = saved(*other, def.capacity);
     return world->restore(bytes.data(), bytes.size());
 }
 
-using Change = void (*)(WorldDef&);
+template <std::size_t Count>
+void expect_each(const Change (&changes)[Count], Status status) {
+    for (std::size_t row = 0; row < Count; ++row) {
+        EXPECT_EQ(restored_of_changed(changes[row]), status) << row;
+    }
+}
 
 TEST(SnapshotOwner, EveryNumberOfADefinitionTells) {
     const Change changes[] = {
@@ -54,11 +60,7 @@ TEST(SnapshotOwner, EveryNumberOfADefinitionTells) {
         [](WorldDef& d) { d.sleep.gravity_mps2 = 0.2F; },
         [](WorldDef& d) { d.keep_sorted = true; },
     };
-    std::int32_t row = 0;
-    for (const Change change : changes) {
-        EXPECT_EQ(restored_of_changed<float>(change), Status::snapshot_of_other_definition) << row;
-        ++row;
-    }
+    expect_each(changes, Status::snapshot_of_other_definition);
 }
 
 TEST(SnapshotOwner, EveryNumberOfACapacityTells) {
@@ -77,11 +79,7 @@ TEST(SnapshotOwner, EveryNumberOfACapacityTells) {
         [](WorldDef& d) { d.capacity.sleeping_regions = true; },
         [](WorldDef& d) { d.capacity.window_cells = 66 * 26; },
     };
-    std::int32_t row = 0;
-    for (const Change change : changes) {
-        EXPECT_EQ(restored_of_changed<float>(change), Status::snapshot_of_other_capacity) << row;
-        ++row;
-    }
+    expect_each(changes, Status::snapshot_of_other_capacity);
 }
 
 /// Who counts and who shares out work; and a window that is no smaller than the tank.
@@ -99,11 +97,7 @@ TEST(SnapshotOwner, WhatIsNoStateDoesNotTell) {
         },
         [](WorldDef& d) { d.capacity.window_cells = 82 * 42; },
     };
-    std::int32_t row = 0;
-    for (const Change change : changes) {
-        EXPECT_EQ(restored_of_changed<float>(change), Status::ok) << row;
-        ++row;
-    }
+    expect_each(changes, Status::ok);
 }
 
 }  // namespace
