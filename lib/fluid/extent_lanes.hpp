@@ -1,8 +1,7 @@
-// Lowest and highest places of particles, two a group of four lanes.
+// Lowest and highest of particles' places, two a group of four lanes.
 #pragma once
 
-#include <cstdint>
-
+#include "fluid/particles.hpp"
 #include "math/four_lanes.hpp"
 #include "math/wide_lanes.hpp"
 
@@ -10,31 +9,60 @@ namespace weir {
 
 #if WEIR_HAS_LANES
 
-/// Of places in each group of lanes: x, y, x, y. `particles` is a multiple of 4 · kGroups, and not
-/// 0. Two of each kind: one waits for itself.
+/// Two of each kind: one waits for itself.
 template <class L>
-inline void find_extremes(const float* position, std::int32_t particles, float* low,
-                          float* high) {
-    constexpr std::int32_t kStep = 4 * L::kGroups;
-    auto low_a = L::load(position);
+inline Extent<float> extent_in_lanes(const Vec2<float>* places, std::int32_t count) {
+    constexpr std::int32_t kTwice = 4 * L::kGroups;  // places in two loads
+    const auto at = [&](std::int32_t k) { return L::load(&places->x + 2 * k); };
+    const auto alone = [&](std::int32_t k) {
+        return L::repeat(places[k].x, places[k].y, places[k].x, places[k].y);
+    };
+    auto low_a = alone(0);
     auto low_b = low_a;
     auto high_a = low_a;
     auto high_b = low_a;
-    for (std::int32_t k = 0; k < particles; k += kStep) {
-        const auto a = L::load(position + 2 * k);
-        const auto b = L::load(position + 2 * k + kStep);
+    std::int32_t k = 0;
+    for (; k + kTwice <= count; k += kTwice) {
+        const auto a = at(k);
+        const auto b = at(k + kTwice / 2);
         low_a = L::minimum(low_a, a);
         low_b = L::minimum(low_b, b);
         high_a = L::maximum(high_a, a);
         high_b = L::maximum(high_b, b);
     }
-    L::store(low, L::minimum(low_a, low_b));
-    L::store(high, L::maximum(high_a, high_b));
+    for (; k < count; ++k) {
+        low_a = L::minimum(low_a, alone(k));
+        high_a = L::maximum(high_a, alone(k));
+    }
+    low_a = L::minimum(low_a, low_b);
+    high_a = L::maximum(high_a, high_b);
+    auto low = L::template group<0>(low_a);
+    auto high = L::template group<0>(high_a);
+    const auto add = [&](auto lower, auto higher) {
+        low = lower < low ? lower : low;
+        high = high < higher ? higher : high;
+    };
+    L::each_group([&](auto group) {
+        add(L::template group<group>(low_a), L::template group<group>(high_a));
+    });
+    add(__builtin_shufflevector(low, low, 2, 3, 2, 3),
+        __builtin_shufflevector(high, high, 2, 3, 2, 3));
+    return {{low[0], low[1]}, {high[0], high[1]}};
 }
 
 #if WEIR_HAS_WIDE_LANES
-void find_extremes_wide(const float* position, std::int32_t particles, float* low, float* high);
+Extent<float> extent_in_wide_lanes(const Vec2<float>* places, std::int32_t count);
 #endif
+
+/// Of one place at least.
+inline Extent<float> extent_of_places(const Vec2<float>* places, std::int32_t count) {
+#if WEIR_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        return extent_in_wide_lanes(places, count);
+    }
+#endif
+    return extent_in_lanes<FourLanes>(places, count);
+}
 
 #endif
 

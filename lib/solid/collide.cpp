@@ -1,8 +1,10 @@
 #include "solid/collide.hpp"
 
+#include "fluid/extent_lanes.hpp"
 #include "solid/blow.hpp"
 #include "solid/look_packed.hpp"
 #include "solid/near_wall_lanes.hpp"
+#include "solid/open_around.hpp"
 #include "solid/set_back.hpp"
 #include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
@@ -238,6 +240,13 @@ bool any_near_thin(const GridShape& s, const ThinWalls<float>& thin, const Vec2<
     return (marks & kNear) != 0;
 }
 
+/// Whether a block cannot have met anything.
+[[gnu::noinline]] bool is_in_the_open(const BlockTask& task, std::int32_t count) {
+    Extent<float> ways = extent_of_places(task.before, count);
+    ways.add(extent_of_places(task.position, count));
+    return is_open_around(task.shape, task.cell_case, ways, count);
+}
+
 /// A block without thin walls, all of whose cells are stored. Most particles are clearly outside.
 void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
                       std::int32_t count) {
@@ -247,7 +256,7 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
     const ClearTask task{scene.walls.cell_case + s.index(0, 0),
                          scene.walls.distance + s.index(0, 0), s.stride, &position->x,
                          &flight.before->x, kClear<float>};
-    if (flight.far && is_open_around(block, count)) {
+    if (flight.far && is_in_the_open(block, count)) {
         return;
     }
     std::int32_t numbers[kBlock<float> + 8];

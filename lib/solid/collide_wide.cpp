@@ -11,10 +11,6 @@ std::int32_t find_near_wall_wide(const BlockTask& task, std::int32_t count, Near
                     : find_near_wall<EightLanes, false>(task, count, found);
 }
 
-BlockBox box_wide(const BlockTask& task, std::int32_t count) {
-    return box_of<EightLanes>(task, count);
-}
-
 std::uint32_t clear_of_eight_wide(const ClearTask& task, const NearWall& near, std::int32_t next) {
     return clear_of_group<EightLanes>(task, near, next);
 }

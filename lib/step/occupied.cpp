@@ -1,6 +1,6 @@
 #include "step/occupied.hpp"
 
-#include "step/extent_lanes.hpp"
+#include "fluid/extent_lanes.hpp"
 #include "step/places_packed.hpp"
 
 namespace weir {
@@ -8,17 +8,12 @@ namespace weir {
 namespace {
 
 template <class Real>
-Extent<Real> extent_from(Extent<Real> so_far, const Vec2<PositionOf<Real>>* position,
-                         std::int32_t first, std::int32_t count) {
-    for (std::int32_t k = first; k < count; ++k) {
-        so_far.add({position[k], position[k]});
-    }
-    return so_far;
-}
-
-template <class Real>
 Extent<Real> extent(const Particles<Real>& particles) {
-    return extent_from(Extent<Real>::of_first(particles), particles.position, 1, particles.count);
+    Extent<Real> found = Extent<Real>::of_first(particles);
+    for (std::int32_t k = 1; k < particles.count; ++k) {
+        found.add({particles.position[k], particles.position[k]});
+    }
+    return found;
 }
 
 /// Of packed places the raw numbers tell, both in a word: the highest of words has the highest y.
@@ -61,29 +56,8 @@ Extent<SmallFixed> extent_of_words(const Particles<SmallFixed>& particles, std::
 #if WEIR_HAS_LANES
 template <>
 Extent<float> extent(const Particles<float>& particles) {
-    const Vec2<float>* position = particles.position;
-    Extent<float> found = Extent<float>::of_first(particles);
-    float low[8];
-    float high[8];
-    std::int32_t done = 0;
-    const auto add = [&](std::int32_t places) {
-        for (std::int32_t k = 0; k < 2 * places; k += 2) {
-            found.add({{low[k], low[k + 1]}, {high[k], high[k + 1]}});
-        }
-    };
-#if WEIR_HAS_WIDE_LANES
-    if (particles.count >= 8 && has_wide_lanes()) {
-        done = particles.count & ~7;
-        find_extremes_wide(&position->x, done, low, high);
-        add(4);
-    }
-#endif
-    const std::int32_t fours = (particles.count - done) & ~3;
-    if (fours > 0) {
-        find_extremes<FourLanes>(&position[done].x, fours, low, high);
-        add(2);
-    }
-    return extent_from(found, position, done + fours, particles.count);
+    return particles.count > 0 ? extent_of_places(particles.position, particles.count)
+                               : Extent<float>{};
 }
 #else
 /// Places are not negative: they compare as whole numbers do. Few lie outside what those before

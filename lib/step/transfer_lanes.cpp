@@ -5,8 +5,8 @@
 
 #include <cstring>
 
+#include "fluid/extent_lanes.hpp"
 #include "math/four_lanes.hpp"
-#include "step/extent_lanes.hpp"
 #include "step/scatter.hpp"
 #include "step/thin_transfer.hpp"
 #include "step/transfer_wide.hpp"
@@ -113,34 +113,6 @@ struct Span {
     float low;
     float high;
 };
-
-Span span_of(const Vec2<float>* position, std::int32_t count) {
-    Span span{position[0].y, position[0].y};
-    const auto add = [&](float low, float high) {
-        span.low = minimum(span.low, low);
-        span.high = maximum(span.high, high);
-    };
-    float low[8];
-    float high[8];
-    std::int32_t k = 0;
-#if WEIR_HAS_WIDE_LANES
-    if (count >= 8 && has_wide_lanes()) {
-        k = count & ~7;
-        find_extremes_wide(&position->x, k, low, high);
-        add(minimum(low[1], low[3]), maximum(high[1], high[3]));
-        add(minimum(low[5], low[7]), maximum(high[5], high[7]));
-    }
-#endif
-    const std::int32_t fours = (count - k) & ~3;
-    if (fours > 0) {
-        find_extremes<FourLanes>(&position[k].x, fours, low, high);
-        add(minimum(low[1], low[3]), maximum(high[1], high[3]));
-    }
-    for (k += fours; k < count; ++k) {
-        add(position[k].y, position[k].y);
-    }
-    return span;
-}
 
 /// What particles give to some rows of the arrays.
 void scatter_between(const Vec2<float>* position, const Vec2<float>* velocity, std::int32_t count,
@@ -275,8 +247,9 @@ Cuts find_cuts(const Particles<float>& particles, const GridShape& s, Work work,
     work.share({0, blocks}, kTogether, 1, [&](const Part& some, std::int32_t piece) {
         for (std::int32_t b = some.first; b < some.end; ++b) {
             const std::int32_t first = b * kTogether;
-            spans[b] = span_of(particles.position + first,
-                               minimum(kTogether, particles.count - first));
+            const Extent<float> places = extent_of_places(
+                particles.position + first, minimum(kTogether, particles.count - first));
+            spans[b] = {places.low.y, places.high.y};
             wide[piece] += spans[b].high - spans[b].low;
         }
     });

@@ -1,7 +1,6 @@
 #include "step/transfer_wide.hpp"
 
 #include "math/eight_lanes.hpp"
-#include "step/extent_lanes.hpp"
 #include "step/quiet_lanes.hpp"
 
 #if WEIR_HAS_WIDE_LANES
@@ -27,10 +26,6 @@ void scatter_component_wide(const float* position, const float* velocity, std::i
     const auto some = on_u ? scatter_component<EightLanes, true>
                            : scatter_component<EightLanes, false>;
     some(position, velocity, count, pairs);
-}
-
-void find_extremes_wide(const float* position, std::int32_t particles, float* low, float* high) {
-    find_extremes<EightLanes>(position, particles, low, high);
 }
 
 std::int32_t find_sharing_wide(const SharedCells& cells, const float* position,
