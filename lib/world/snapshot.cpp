@@ -177,9 +177,6 @@ void redraw(Simulation<Real>& simulation, const Stale* picture) {
     simulation.layers.walls.active = table.used > 0;
     simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = stored_part(simulation);  // what is not kept may stand anywhere
-    if (simulation.regions != nullptr) {
-        simulation.regions->stale = true;
-    }
     clear(simulation.contacts);
     if (table.capacity > 0) {
         if (picture == nullptr) {
