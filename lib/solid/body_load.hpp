@@ -53,6 +53,10 @@ struct BodyLoad {
     Twist<Real> change;        ///< and what the pressure adds to it, and whatever stops it
     Twist<Real> stopped;       ///< that part of the change which is due to what stops it
 
+    void forget_blows() {
+        blows = Impulse<Real>{};
+        blow_mass = Face<Real>(0);
+    }
     bool is_free() const { return inverse_mass > Face<Real>(0); }
     bool is_free_or_led() const { return inverse_mass != Face<Real>(0); }
     bool is_hinged() const { return slides.x == Face<Real>(0) && slides.y == Face<Real>(0); }

@@ -154,8 +154,7 @@ void lead(BodyTable<Real>& table, std::int32_t slot, bool led) {
     }
     BodyLoad<Real>& load = table.load[slot];
     load.inverse_mass = -load.inverse_mass;
-    load.blows = Impulse<Real>{};  // those that hit it meanwhile
-    load.blow_mass = Face<Real>(0);
+    load.forget_blows();  // of who hit it meanwhile
 }
 
 template <class Real>

@@ -92,8 +92,7 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         const Twist<Real> blown = answer(load, load.blows);
         const Face<Real> share = load.blow_mass > load.mass ? load.mass / load.blow_mass
                                                             : Face<Real>(1);
-        load.blows = Impulse<Real>{};
-        load.blow_mass = Face<Real>(0);
+        load.forget_blows();
         load.ease = clamp(load.ease, Face<Real>(kLeastEase), Face<Real>(1));
         const Twist<Real> fall = falling(obstacles, load);
         const Face<Real> carried = (load.mass / load.ease) * (Face<Real>(1) - load.ease);
