@@ -66,6 +66,24 @@ struct Sleepers {
 
 WEIR_SUITE(Looks, EveryScalar);
 
+/// Who looks at all of the tank writes what sleeps, too.
+TYPED_TEST(Looks, ShowOfSleepersWhatTheyFellAsleepWith) {
+    Sleepers<TypeParam> sleepers;
+    sleepers.fall_asleep();
+    const auto shown = [&] {
+        std::vector<double> fields;
+        for (std::int32_t i = 1; i < 8; ++i) {
+            fields.push_back(static_cast<double>(sleepers.world->density().at(i, 1)));
+            fields.push_back(static_cast<double>(sleepers.world->pressure().at(i, 1)));
+        }
+        return fields;
+    };
+    const std::vector<double> before = shown();
+    Diagnostics sums;
+    expect_ok(sleepers.world->diagnose(&sums));
+    EXPECT_EQ(shown(), before);
+}
+
 TYPED_TEST(Looks, AfterSleepersWereDrained) {
     for (int way = 0; way < kLooks; ++way) {
         Sleepers<TypeParam> one;

@@ -311,5 +311,34 @@ TEST(Packed, WeakGravityPullsAsItShould) {
     EXPECT_EQ(world->state_hash(), after);
 }
 
+/// Gravity that trembles wakes nobody, but stirs the liquid: who has met is looked for.
+TEST(Packed, WhoMetPartsWhenGravityTrembles) {
+    WorldDef def = tank_def(8, 8, 4);
+    def.sleep.gravity_mps2 = 0.5F;
+    TestWorld<SmallFixed> world(def);
+    expect_ok(world->add_particle({0.05F, 0.01F}, {}));
+    expect_ok(world->add_particle({0.08F, 0.01F}, {}));
+    const auto live = [&](bool trembles) {
+        for (int step = 0; step < 200; ++step) {
+            if (trembles && step == 0) {
+                expect_ok(world->set_gravity({0.0F, -9.7F}));
+            }
+            world->step(1.0F / 60.0F);
+        }
+    };
+    live(false);
+    auto* const place = const_cast<Vec2<Place>*>(&world->particle_positions()[0]);
+    auto* const speed = const_cast<Vec2<Speed>*>(&world->particle_velocities()[0]);
+    place[1] = place[0];
+    speed[1] = speed[0];
+    const auto are_together = [&] {
+        return place[0].x.raw == place[1].x.raw && place[0].y.raw == place[1].y.raw;
+    };
+    live(false);
+    EXPECT_TRUE(are_together());
+    live(true);
+    EXPECT_FALSE(are_together());
+}
+
 }  // namespace
 }  // namespace weir
