@@ -322,5 +322,49 @@ TYPED_TEST(FreeContact, ShelvesAndCupsHold) {
     EXPECT_NEAR(motion_of(*world, id[3]).position_m.y, 0.16F, 5e-4F);
 }
 
+/// What comes down no faster than it falls in two substeps stays, however hard it is: else it would
+/// tremble for ever.
+TEST(FreeContact, WhoComesDownSlowlyStays) {
+    WorldDef def = dry_def();
+    def.walls.bottom.restitution = 1.0F;
+    TestWorld<float> world(def);
+    BodyDef ball = body_of(kSquare4cm, {0.4F, 0.0205F});
+    ball.surface.restitution = 1.0F;
+    const BodyId id = put_free(*world, ball);
+    for (int step = 0; step < 60; ++step) {
+        world->step(kDt);
+        EXPECT_LT(motion_of(*world, id).velocity_mps.y, 1.0e-3F) << step;
+    }
+    EXPECT_NEAR(motion_of(*world, id).position_m.y, 0.02F, 1.0e-4F);
+}
+
+/// A comb of eight teeth meets a slab in more points than there is room for. Two teeth are longer,
+/// and bear it.
+TEST(FreeContact, OfTooManyPointsTheNearestCount) {
+    WorldDef def = tank_def(40, 40, 4, 2, 64);
+    def.capacity.two_way = true;
+    constexpr float kWide = 0.015F;
+    for (int longer = 0; longer < 4; ++longer) {
+        TestWorld<float> world(def);
+        put_static(*world, body_of(rectangle(0.6F, 0.1F), {0.4F, 0.15F}));
+        Ring comb = {{0.5F * 15 * kWide, 0.06F}, {-0.5F * 15 * kWide, 0.06F}};
+        for (int tooth = 0; tooth < 8; ++tooth) {
+            const float left = (2.0F * static_cast<float>(tooth) - 7.5F) * kWide;
+            const float end = tooth == longer || tooth == 7 - longer ? 0.0F : 0.002F;
+            for (const Vec2f corner : {Vec2f{left, 0.03F}, Vec2f{left, end},
+                                       Vec2f{left + kWide, end}, Vec2f{left + kWide, 0.03F}}) {
+                comb.push_back(corner);
+            }
+        }
+        comb.erase(comb.begin() + 2);
+        comb.pop_back();
+        const BodyId id = put_free(*world, body_of(comb, {0.4F, 0.201F}));
+        for (int step = 0; step < 60; ++step) {
+            world->step(kDt);
+        }
+        EXPECT_NEAR(motion_of(*world, id).position_m.y, 0.2F, 5.0e-4F) << longer;
+    }
+}
+
 }  // namespace
 }  // namespace weir

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "test_world.hpp"
+#include "world/world_state.hpp"
 
 namespace weir {
 namespace {
@@ -15,7 +16,7 @@ constexpr float kCell = 0.005F;
 constexpr float kLevel = 20 * kCell;
 
 WorldDef pool_def(std::int32_t wall_edges) {
-    WorldDef def = tank_def(48, 40, 4096, 2, 16);
+    WorldDef def = tank_def(48, 40, 4096, 3, 16);
     def.capacity.two_way = true;
     def.capacity.wall_edges = wall_edges;
     def.cell_m = kCell;
@@ -106,6 +107,46 @@ TYPED_TEST(Immersion, StonesSinkAndCorksStay) {
 TYPED_TEST(Immersion, LeavesLargeBodiesAlone) {
     const Way way = release<TypeParam>({8.0F, 6.0F}, 0.5F, 0.3F, 0, 240);
     EXPECT_NEAR(way.last, -0.5F, 0.15F);
+}
+
+/// What lifts squares that stand on each other in a pool, besides the pressure, over their weight.
+template <class Real>
+std::vector<double> lifts_of(std::size_t squares, Vec2f cells, float density, float height) {
+    TestWorld<Real> world{pool_def(0)};
+    const Ring ring = rectangle(cells.x * kCell, cells.y * kCell);
+    for (std::size_t k = 0; k < squares; ++k) {
+        const float middle = height + cells.y * (0.5F + static_cast<float>(k));
+        BodyDef body = body_of(ring, {24.3F * kCell, middle * kCell});
+        body.density_ratio = density;
+        put_free(*world, body);
+    }
+    expect_ok(world->fill({{0, 0}, {48 * kCell, kLevel}}));
+    EXPECT_EQ(world->step(kDt / 4).substeps, 1);
+    const auto& simulation =
+        reinterpret_cast<const detail::WorldState<Real>*>(world.memory())->simulation;
+    std::vector<double> lifts;
+    for (std::size_t k = 0; k < squares; ++k) {
+        const BodyLoad<Real>& load = simulation.bodies.load[k];
+        const double fall = 9.81 / static_cast<double>(kCell) * static_cast<double>(kDt / 4);
+        lifts.push_back(static_cast<double>(load.blows.linear.y) /
+                        (static_cast<double>(load.mass) * fall));
+    }
+    return lifts;
+}
+
+/// Of light bodies corners matter less.
+TYPED_TEST(Immersion, CornersLiftHalfAWeightAtMost) {
+    EXPECT_NEAR(lifts_of<TypeParam>(1, {3.0F, 3.0F}, 0.02F, 8.0F)[0], 0.5, 0.01);
+}
+
+/// Under what lies on the floor there is a film that bears it as well.
+TYPED_TEST(Immersion, FilmsAreNotCountedAgain) {
+    EXPECT_EQ(lifts_of<TypeParam>(1, {8.0F, 2.0F}, 1.3F, 0.0F)[0], 0.0);
+}
+
+/// Which part of a cell is whose is a guess.
+TYPED_TEST(Immersion, CellsThatBodiesShareLiftNobody) {
+    EXPECT_EQ(lifts_of<TypeParam>(3, {2.4F, 2.4F}, 1.1F, 0.0F), std::vector<double>(3, 0.0));
 }
 
 /// Nearly as heavy as the liquid, they rise from the deep to where they float: they hovered, or sank.

@@ -63,6 +63,23 @@ TYPED_TEST(LedBody, LightBodyLeavesTheFloor) {
     EXPECT_GT(volume_left(*world), 0.97);
 }
 
+/// Held in a stream it is not thrown, once it is let go, by all that hit it meanwhile.
+TYPED_TEST(LedBody, ForgetsWhatHitItMeanwhile) {
+    WorldDef def = pool_def(24, 20);
+    def.gravity_mps2 = {};
+    TestWorld<TypeParam> world{def};
+    const BodyId id = put_free(*world, body_of(kSquare4cm, {0.24F, 0.2F}));
+    for (int k = 0; k < 20; ++k) {
+        expect_ok(world->add_particle({0.21F, 0.19F + 0.001F * static_cast<float>(k)},
+                                      {3.0F, 0.0F}));
+        expect_ok(world->move_body(id, {0.24F, 0.2F}, 0.0F, kDt));
+        world->step(kDt);
+    }
+    expect_ok(world->drain({{0.0F, 0.0F}, {0.48F, 0.4F}}));
+    world->step(kDt);
+    EXPECT_NEAR(motion_of(*world, id).velocity_mps.x, 0.0F, 1.0e-3F);
+}
+
 /// There by the end of the step, the shorter way round, and no further after it.
 TYPED_TEST(LedBody, GoesThereAndStandsStill) {
     TestWorld<TypeParam> world{pool_def(24, 20)};
