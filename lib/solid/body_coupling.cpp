@@ -1,4 +1,5 @@
 #include "solid/body_levers.hpp"
+#include "solid/films.hpp"
 
 namespace weir {
 
@@ -35,7 +36,7 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::
     });
     const std::int32_t cell = solve.shape.index(i, j);
     Meetings<Real>(solve.obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
-        if (meeting.film_cell == cell && meeting.is_wet(solve.cells)) {
+        if (meeting.film_cell == cell) {
             add_film(solve, meeting, levers);
         }
     });
@@ -298,6 +299,7 @@ void end_coupling(const CoupledSolve<Real>& solve) {
 
 template <class Real>
 void begin_coupling(const CoupledSolve<Real>& solve) {
+    lay_films(solve.obstacles, solve.cells);
     keep_levers(solve);
     answer_pressure(solve);
     stop(solve.obstacles, kRoundsBefore);

@@ -4,6 +4,7 @@
 
 #include "math/rotation.hpp"
 #include "solid/body_levers.hpp"
+#include "solid/films.hpp"
 #include "solid/immersion.hpp"
 
 namespace weir {
@@ -165,6 +166,7 @@ std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& 
                     BodyTable<Real>& table, Contacts<Real>& contacts) {
     const Face<Real> fastest = Face<Real>(kLongestWay) / obstacles.dt;
     PressureOnFree<Real> pressure(table);
+    lay_films(obstacles, cells);  // liquid that stores what pushes it is solved without bodies
     for_each_free(table, [&](const Body<Real>& body, BodyLoad<Real>& load) {
         const auto slot = static_cast<std::uint16_t>(&body - table.body);
         Impulse<Real> pressed =

@@ -9,16 +9,9 @@ namespace weir {
 namespace {
 
 /// Points are listed that are so near, besides what their speed brings near: the pressure may
-/// change it. Cells.
+/// change it. Where there may be a film, those that it may lie at. Cells.
 template <class Real>
 constexpr Face<Real> kNear = Face<Real>(1.0 / 4.0);
-
-/// From a wall to the cell before it, cells.
-template <class Real>
-constexpr Face<Real> kHair = Face<Real>(1.0 / 64.0);
-
-/// Case of a cell of which all corners are inside.
-constexpr std::uint8_t kAllInside = 15;
 
 /// No body goes further than half of this in a substep, cells.
 template <class Real>
@@ -55,6 +48,7 @@ public:
     explicit Finder(const Obstacles<Real>& obstacles)
         : obstacles_(obstacles), table_(obstacles.bodies), list_(obstacles.bodies) {
         *list_.used = 0;
+        *list_.first_film = kFilmsNotLaid;
     }
 
     /// The free body before the tank and all bodies; of two free ones the lower slot sees to it.
@@ -70,37 +64,31 @@ public:
         cost_ += table_.capacity;
     }
 
-    /// Under faces that lie on something. Between free bodies there is none: those that come and go
-    /// pumped liquid together there (ten crates of 0.9 in a pool lost a quarter of its volume).
-    void lay_films() const {
-        std::int32_t* link = list_.first_film;
-        *link = -1;
-        list_.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
-            const std::uint16_t other = meeting[0].other;
-            if (other != kNoBody && is_free_body(table_, other)) {
-                return;
-            }
-            const Wide<Real> way = meeting[count - 1].at - meeting[0].at;
-            const Number size = length(way);
-            if (meeting[0].gap < kNear<Real> && meeting[count - 1].gap < kNear<Real> &&
-                size > Number(0)) {
-                lay_film((Number(1) / size) * way, size, meeting, link);
-            }
-        });
-    }
-
     std::int64_t cost() const { return cost_; }
 
 private:
     using Number = Face<Real>;
 
-    Number margin(Number speed) const {
-        return minimum(kNear<Real> + obstacles_.dt * speed, kFurthest<Real>);
+    Number margin(Number near, Number speed) const {
+        return minimum(near + obstacles_.dt * speed, kFurthest<Real>);
+    }
+
+    /// Whether a vertex ends an edge that lies towards a wall: there may be a film under that.
+    bool ends_face(const Body<Real>& body, std::int32_t k, Wide<Real> inward) const {
+        const auto at = [&](std::int32_t n) { return convert<Number>(table_.ring(body)[n]); };
+        const auto faces = [&](Wide<Real> way) {
+            const Number across = cross(way, inward);
+            return across > Number(0) && across * across > Number(0.75) * dot(way, way);
+        };
+        const std::int32_t end = body.vertex_count;
+        return faces(at(k) - at(k > 0 ? k - 1 : end - 1)) ||
+               faces(at(k + 1 < end ? k + 1 : 0) - at(k));
     }
 
     void before_walls(std::int32_t slot) {
         const Body<Real>& body = table_.body[slot];
-        const Number most = margin(fastest(table_, slot));
+        const Number near = margin(kNear<Real>, fastest(table_, slot));
+        const Number most = margin(kWidestFilm<Real>, fastest(table_, slot));
         if (!near_walls(obstacles_.tank, body, static_cast<Real>(most))) {
             return;
         }
@@ -110,7 +98,7 @@ private:
             for (std::int32_t k = 0; k < body.vertex_count; ++k) {
                 const Wide<Real> x = convert<Number>(table_.ring(body)[k]);
                 const Number gap = dot(inward, x) + at;
-                if (gap <= most) {
+                if (gap <= near || (gap <= most && ends_face(body, k, inward))) {
                     enter(slot, kNoBody, x, inward, gap);
                 }
             }
@@ -135,7 +123,8 @@ private:
         if (!circles_meet(body, its, kFurthest<Real>)) {
             return;  // however fast they are
         }
-        const Number most = margin(fastest(table_, slot) + fastest(table_, other));
+        const Number near = table_.load[other].is_free() ? kNear<Real> : kWidestFilm<Real>;
+        const Number most = margin(near, fastest(table_, slot) + fastest(table_, other));
         if (!circles_meet(body, its, most)) {
             return;
         }
@@ -192,39 +181,6 @@ private:
         keep(meeting);
     }
 
-    /// Cell of a place, if that is in the tank and not all solid; otherwise negative.
-    std::int32_t open_cell_at(Wide<Real> x) const {
-        const GridShape& s = obstacles_.tank;
-        if (x.x < Number(0) || x.x >= static_cast<Number>(s.nx) || x.y < Number(0) ||
-            x.y >= static_cast<Number>(s.ny)) {
-            return -1;
-        }
-        const std::int32_t cell = s.index(floor_to_int(x.x), floor_to_int(x.y));
-        return obstacles_.walls.cell_case[cell] == kAllInside ? -1 : cell;
-    }
-
-    /// To both ends of a face its half of the film, or all to the one that is open.
-    void lay_film(Wide<Real> way, Number size, Meeting<Real>* meeting,
-                  std::int32_t*& link) const {
-        constexpr Number kBeside = Number(0.3);
-        const Wide<Real> out[2] = {Number(-1) * way, way};
-        std::int32_t cell[2];
-        for (std::int32_t k = 0; k < 2; ++k) {
-            cell[k] = open_cell_at(meeting[k].at + kBeside * (out[k] + meeting[k].normal));
-        }
-        for (std::int32_t k = 0; k < 2; ++k) {
-            if (cell[k] >= 0) {
-                meeting[k].film = cell[1 - k] >= 0 ? Number(0.5) * size : size;
-                meeting[k].film_cell = cell[k];
-                meeting[k].middle = meeting[k].at - (Number(0.5) * meeting[k].film) * out[k];
-                meeting[k].under =
-                    open_cell_at(meeting[k].middle + kHair<Real> * meeting[k].normal);
-                *link = static_cast<std::int32_t>(meeting + k - list_.entry);
-                link = &meeting[k].next_film;
-            }
-        }
-    }
-
     void keep(const Meeting<Real>& meeting) {
         if (*list_.used < list_.room) {
             list_.entry[(*list_.used)++] = meeting;
@@ -260,29 +216,7 @@ std::int32_t find_meetings(const Obstacles<Real>& obstacles) {
             finder.look_from(slot);
         }
     }
-    finder.lay_films();
     return static_cast<std::int32_t>(minimum(finder.cost(), std::int64_t{kMostWork}));
-}
-
-template <class Real>
-Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
-                           std::uint16_t slot) {
-    using Number = Face<Real>;
-    Impulse<Real> sum;
-    Meetings<Real>(obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
-        if (meeting.slot != slot || !meeting.is_wet(cells)) {
-            return;
-        }
-        const std::int32_t stride = obstacles.tank.stride;
-        const std::int32_t inner = meeting.film_cell - obstacles.tank.index(0, 0);
-        const Wide<Real> centre{static_cast<Number>(inner % stride) + Number(0.5),
-                                static_cast<Number>(inner / stride) + Number(0.5)};
-        const Number pressure =
-            static_cast<Number>(cells.pressure[meeting.film_cell]) +
-            dot(convert<Number>(cells.gravity_dt), meeting.middle - centre);
-        sum.add(meeting.pushes(obstacles.bodies.load[slot], pressure));
-    });
-    return sum;
 }
 
 template <class Real>
@@ -303,8 +237,6 @@ std::int32_t most_looks(const BodyTable<Real>& table) {
 
 #define WEIR_INSTANTIATE(Real)                                    \
     template std::int32_t find_meetings(const Obstacles<Real>&); \
-    template Impulse<Real> film_impulse(const Obstacles<Real>&, const PressedCells<Real>&,      \
-                                         std::uint16_t);                                        \
     template std::int32_t most_looks(const BodyTable<Real>&);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

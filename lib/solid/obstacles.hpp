@@ -23,6 +23,13 @@ struct HeldWay {
     Face<Real> told;      ///< speed of the other one if it does as told
 };
 
+/// In place of the first film's number.
+inline constexpr std::int32_t kFilmsNotLaid = -2;
+
+/// Films lie in gaps up to this, cells: by then there is room for liquid to come in.
+template <class Real>
+inline constexpr Face<Real> kWidestFilm = Face<Real>(2);
+
 /// A point of a free body before something.
 template <class Real>
 struct Meeting {
@@ -35,21 +42,14 @@ struct Meeting {
     std::uint16_t slot;
     std::uint16_t other;      ///< kNoBody: the tank
     std::int32_t next_film = -1;  ///< number of the next one with a film, negative: none
-    /// Where a face lies on what is not free there is a film of liquid, which has the pressure of
-    /// the cell before its end: how much of the face that is, from this point to the middle.
-    Face<Real> film = Face<Real>(0);
-    std::int32_t film_cell = 0;
-    std::int32_t under = 0;   ///< the cell of its middle, where it is open; otherwise negative
+    Face<Real> film = Face<Real>(0);  ///< how much of the face has that film's pressure
+    std::int32_t film_cell = 0;       ///< which is this one's
     Vec2<Face<Real>> middle{};
     HeldWay<Real> ahead{};       ///< along the normal
     HeldWay<Real> aside{};       ///< along the surface, the normal's right
     bool other_is_free = false;
 
     Vec2<Face<Real>> side() const { return {normal.y, -normal.x}; }
-    bool is_wet(const PressedCells<Real>& cells) const {
-        return film > Face<Real>(0) && cells.level[film_cell] > Real(0) &&
-               (under < 0 || !(cells.level[under] > Real(0)));
-    }
     /// How the film's pressure pushes the free body.
     Impulse<Real> pushes(const BodyLoad<Real>& load, Face<Real> times) const {
         Impulse<Real> reach;
@@ -78,7 +78,7 @@ template <class Real>
 struct Meetings {
     Meeting<Real>* entry;
     std::int32_t* used;
-    std::int32_t* first_film;  ///< number of the first one with a film, negative: none
+    std::int32_t* first_film;  ///< number of the first one with a film, negative: none, or not laid
     Push<Real>* before;  ///< of the last substep; there is room for one more
     std::byte* levers;   ///< stand behind them (solid/body_levers.hpp)
     std::int32_t room;
@@ -189,11 +189,6 @@ inline constexpr std::int32_t kRoundsBetween = 1;
 inline constexpr std::int32_t kRoundsAfter = 12;
 /// And so often when bodies are moved apart.
 inline constexpr std::int32_t kRoundsOfParting = 4;
-
-/// What the films' pressure does to a free body, per impulse that it already has of the cells.
-template <class Real>
-Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
-                           std::uint16_t slot);
 
 /// Goes through the points so often: adds to `load.change` what lets no point come nearer to an
 /// obstacle than it may, and takes back what was too much; the same to `load.stopped`.

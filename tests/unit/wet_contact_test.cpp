@@ -83,32 +83,6 @@ TYPED_TEST(WetContact, CrowdLeavesTheLiquidItsVolume) {
     EXPECT_NEAR(particles / kStarts, 0.0, 0.01);
 }
 
-/// Flat on the floor, where no cell under it holds liquid, a light body rises all the same, and a
-/// heavy one does not; nor does either take liquid. Where its corners lie in the cells decides how
-/// long it rocks first.
-TYPED_TEST(WetContact, LightBodyRisesFromTheFloor) {
-    for (const float x : some_of({0.24F, 0.2337F, 0.245F})) {
-        for (const float density : {0.4F, 2.0F}) {
-            TestWorld<TypeParam> world{wet_def(24, 20, 1)};
-            const Ring box = rectangle(0.1F, 0.06F);
-            BodyDef body = body_of(box, {x, 0.03F});
-            body.density_ratio = density;
-            const BodyId id = put_free(*world, body);
-            expect_ok(world->fill({{0, 0}, {0.48F, 0.24F}}));
-            for (int k = 0; k < 900; ++k) {
-                world->step(kDt);
-            }
-            const float y = motion_of(*world, id).position_m.y;
-            if (density < 1) {
-                EXPECT_GT(y, 0.2F) << "at " << x;
-            } else {
-                EXPECT_NEAR(y, 0.03F, 1e-3F) << "at " << x;
-            }
-            EXPECT_GT(volume_left(*world), 0.98);
-        }
-    }
-}
-
 /// A heap of more points than there is room for stays within the tank and its work bound, and a
 /// snapshot of it goes on with the same bits.
 TYPED_TEST(WetContact, HeapIsBoundedAndGoesOnFromASnapshot) {
