@@ -298,10 +298,9 @@ std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
     const GridShape now = window_around(tank, stays ? both : rim);
     PressureFields<Real>& fields = simulation.pressure;
     carry(before, now, entries, fields.pressure + simulation.grid.origin);
-    auto* density = fields.density + simulation.grid.origin;
+    carry(before, now, entries, fields.density + simulation.grid.origin);
     auto* level = fields.level + simulation.grid.origin;
     for (std::int32_t c = 0; c < entries; ++c) {
-        density[c] = Real(0);
         level[c] = kEmptyLevel<Real>;
     }
     number_cells(now, simulation);

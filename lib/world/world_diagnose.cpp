@@ -1,5 +1,5 @@
 // Diagnostics: sums over particles, and one scatter for what only the grid can tell. The grid's
-// arrays are free between steps, so looking changes nothing.
+// arrays are free between steps but for what views show, so looking changes nothing.
 #include "step/grid_update.hpp"
 #include "step/regions.hpp"
 #include "step/window.hpp"
@@ -42,11 +42,10 @@ void sum_particles(const Simulation<Real>& simulation, double cell_m, double per
 }
 
 template <class Real>
-void sum_cells(const Simulation<Real>& simulation, double cell_m, Diagnostics& out) {
-    const StaggeredGrid<Real>& grid = simulation.grid;
+void sum_volume(const Simulation<Real>& simulation, double cell_m, Diagnostics& out) {
     const PressureFields<Real>& fields = simulation.pressure;
     const Walls<Real>& walls = simulation.layers.walls;
-    const GridShape& s = grid.shape;
+    const GridShape& s = simulation.grid.shape;
     double filled = 0.0;
     for (std::int32_t j = 0; j < s.ny; ++j) {
         for (std::int32_t i = 0; i < s.nx; ++i) {
@@ -55,15 +54,47 @@ void sum_cells(const Simulation<Real>& simulation, double cell_m, Diagnostics& o
             const double room = walls.active ? static_cast<double>(walls.full_density[c]) : 1.0;
             filled += room * minimum(density, 1.0);
             out.largest_density = maximum(out.largest_density, density);
-            if (fields.level[c] > Real(0)) {
-                const Real outflow = (grid.u[c + 1] - grid.u[c]) +
-                                     (grid.v[c + s.stride] - grid.v[c]);
-                out.divergence_per_s = maximum(out.divergence_per_s,
-                                               static_cast<double>(absolute(outflow)));
-            }
         }
     }
     out.volume_m2 = filled * cell_m * cell_m;
+}
+
+template <class Real>
+double largest_outflow(const Simulation<Real>& simulation) {
+    const StaggeredGrid<Real>& grid = simulation.grid;
+    const GridShape& s = grid.shape;
+    double largest = 0.0;
+    for (std::int32_t j = 0; j < s.ny; ++j) {
+        for (std::int32_t i = 0; i < s.nx; ++i) {
+            const std::int32_t c = s.index(i, j);
+            if (simulation.pressure.level[c] > Real(0)) {
+                const Real outflow = (grid.u[c + 1] - grid.u[c]) +
+                                     (grid.v[c + s.stride] - grid.v[c]);
+                largest = maximum(largest, static_cast<double>(absolute(outflow)));
+            }
+        }
+    }
+    return largest;
+}
+
+/// Sums over the part of the grid that is worked on. `density()` goes on to show those of the last
+/// substep: these ones stand in the pressure's scratch, which in packed worlds is a half of the
+/// momentum, and that is then found anew.
+template <class Real>
+void sum_cells(Simulation<Real>& simulation, double cell_m, double per_s, Diagnostics& out) {
+    static_assert(sizeof(DensityOf<Real>) <= sizeof(VelocityOf<Real>), "there is room");
+    PressureFields<Real>& fields = simulation.pressure;
+    scatter_all(simulation);
+    DensityOf<Real>* const shown = fields.density;
+    fields.density = reinterpret_cast<DensityOf<Real>*>(fields.divergence);
+    find_levels(simulation);
+    sum_volume(simulation, cell_m, out);
+    fields.density = shown;
+    if constexpr (Stored<Real>::shares_momentum) {
+        scatter_all(simulation);
+    }
+    grid_update(domain_of(simulation), Vec2<Real>{});
+    out.divergence_per_s = per_s * largest_outflow(simulation);
 }
 
 }  // namespace
@@ -88,15 +119,10 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
             return Status::ok;
         }
     }
-    scatter_all(simulation);
-    find_levels(simulation);
-    grid_update(domain_of(simulation), Vec2<Real>{});
-    sum_cells(simulation, cell_m, *diagnostics);
-    diagnostics->divergence_per_s *= per_s;
+    sum_cells(simulation, cell_m, per_s, *diagnostics);
     simulation.grid.shape = simulation.layers.shape;
     if (simulation.regions != nullptr) {  // what sleeps was written, too: no substep may see it
         simulation.occupied = simulation.layers.shape;
-        simulation.regions->stale = true;
     }
     return Status::ok;
 }

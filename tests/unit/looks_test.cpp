@@ -84,6 +84,30 @@ TYPED_TEST(Looks, ShowOfSleepersWhatTheyFellAsleepWith) {
     EXPECT_EQ(shown(), before);
 }
 
+/// What falls asleep after diagnostics keeps the densities that it keeps without them.
+TYPED_TEST(Looks, AtSumsLeaveWhatSleepersAreShownWith) {
+    Sleepers<TypeParam> one;
+    Sleepers<TypeParam> other;
+    StepReport report;
+    for (int step = 0; step < 600 && report.particles_asleep == 0; ++step) {
+        for (Sleepers<TypeParam>* each : {&one, &other}) {
+            expect_ok(each->world->stir(kAll, {0, 0}, 0.2F));
+        }
+        look(*other.world, other.def, 1);
+        report = one.world->step(kDt);
+        other.world->step(kDt);
+    }
+    ASSERT_GT(report.particles_asleep, 0);
+    const auto density = one.world->density();
+    const auto seen = other.world->density();
+    for (std::int32_t j = 0; j < density.rows; ++j) {
+        for (std::int32_t i = 0; i < density.columns; ++i) {
+            ASSERT_EQ(static_cast<double>(seen.at(i, j)), static_cast<double>(density.at(i, j)))
+                << i << ", " << j;
+        }
+    }
+}
+
 TYPED_TEST(Looks, AfterSleepersWereDrained) {
     for (int way = 0; way < kLooks; ++way) {
         Sleepers<TypeParam> one;

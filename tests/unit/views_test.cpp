@@ -90,6 +90,60 @@ TYPED_TEST(Views, ShowWhatWasRestored) {
     }
 }
 
+/// Diagnostics look at places as they are, densities stay the last substep's: of liquid that falls
+/// beside a body, and of a world asleep.
+TYPED_TEST(Views, AreTheSameAfterDiagnostics) {
+    for (const std::int32_t kind : kinds_of_worlds<TypeParam>()) {
+        SCOPED_TRACE(kind);
+        WorldDef def = roomy_def(kind);
+        def.sleep.speed_mps = 10.0F;
+        def.sleep.after_s = 0.1F;
+        TestWorld<TypeParam> world(def);
+        if (def.capacity.bodies > 0) {
+            put_static(*world, body_of(kSquare4cm, {0.25F, 0.08F}, 0.3F));
+        }
+        fill_pool(*world);
+        StepReport report;
+        while (!report.asleep) {
+            report = world->step(0.03F);
+            const std::vector<double> before = densities(*world);
+            Diagnostics sums;
+            expect_ok(world->diagnose(&sums));
+            ASSERT_EQ(densities(*world), before) << (report.asleep ? "asleep" : "awake");
+        }
+    }
+}
+
+WEIR_SUITE(ViewsOfWindows, RoomyScalars);
+
+/// Of what is stored before and afterwards, if the window goes along with the liquid.
+TYPED_TEST(ViewsOfWindows, AreTheSameAfterDiagnostics) {
+    TestWorld<TypeParam> world(windowed(wide_def(0), 66 * 34));
+    expect_ok(world->fill({{3.0F, 2.0F}, {3.2F, 2.2F}}));
+    int moves = 0;
+    for (int step = 0; step < 40; ++step) {
+        world->step(0.015F);
+        const auto before = world->density();
+        const std::vector<double> shown = densities(*world);
+        Diagnostics sums;
+        expect_ok(world->diagnose(&sums));
+        const auto after = world->density();
+        moves += after.first_row != before.first_row ? 1 : 0;
+        std::size_t k = 0;
+        for (std::int32_t j = 0; j < before.rows; ++j) {
+            for (std::int32_t i = 0; i < before.columns; ++i, ++k) {
+                const std::int32_t row = j + before.first_row - after.first_row;
+                const std::int32_t column = i + before.first_column - after.first_column;
+                const bool stored =
+                    row >= 0 && row < after.rows && column >= 0 && column < after.columns;
+                ASSERT_EQ(stored ? static_cast<double>(after.at(column, row)) : 0.0, shown[k])
+                    << step << ": " << i << ", " << j;
+            }
+        }
+    }
+    EXPECT_GT(moves, 0);
+}
+
 /// In a window, too, where those beyond it are seen only as far as they stand in it.
 TEST(ViewsOfAWindow, ShowWhatWasRestored) {
     for (const bool fits : {true, false}) {

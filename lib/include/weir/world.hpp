@@ -217,9 +217,9 @@ public:
     FieldView<DistanceOf<Real>> signed_distance() const;
 
     /// Mass, momentum, energies, volume and what is left of the divergence. Costs about as much
-    /// as a scatter; changes no state, but the views of the grid are stale afterwards. What only
-    /// the grid can tell, from the volume on, is 0 where `Capacity::window_cells` do not hold all
-    /// particles.
+    /// as a scatter, twice that in packed worlds; changes no state, and no view but
+    /// `signed_distance()` of bodies that were put elsewhere. What only the grid can tell, from the
+    /// volume on, is 0 where `Capacity::window_cells` do not hold all particles.
     Status diagnose(Diagnostics* diagnostics);
 
     /// Copies all that decides the future into the caller's memory, which may stand anywhere.
