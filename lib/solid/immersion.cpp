@@ -45,7 +45,7 @@ Shown<Real> shown_of(const Obstacles<Real>& obstacles, std::uint16_t slot) {
             std::int32_t own = 0;
             for (std::int32_t k = 0; k < 4; ++k) {
                 distance[k] = walls.distance[node[k]];
-                const bool in = distance[k] < Real(0);
+                const bool in = distance[k] <= Real(0);
                 inside += in ? 1 : 0;
                 own += in && nearest_at(walls, node[k]) == slot ? 1 : 0;
             }

@@ -144,9 +144,12 @@ TYPED_TEST(Immersion, FilmsAreNotCountedAgain) {
     EXPECT_EQ(lifts_of<TypeParam>(1, {8.0F, 2.0F}, 1.3F, 0.0F)[0], 0.0);
 }
 
-/// Which part of a cell is whose is a guess.
+/// Which part of a cell is whose is a guess, also where what they share is a line of the grid.
 TYPED_TEST(Immersion, CellsThatBodiesShareLiftNobody) {
-    EXPECT_EQ(lifts_of<TypeParam>(3, {2.4F, 2.4F}, 1.1F, 0.0F), std::vector<double>(3, 0.0));
+    for (const float size : {1.5F, 2.0F, 2.4F, 3.0F}) {
+        EXPECT_EQ(lifts_of<TypeParam>(3, {size, size}, 1.1F, 0.0F), std::vector<double>(3, 0.0))
+            << size << " cells";
+    }
 }
 
 /// Nearly as heavy as the liquid, they rise from the deep to where they float: they hovered, or sank.
