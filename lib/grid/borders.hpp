@@ -18,6 +18,16 @@ struct Borders {
     SurfaceLaw<Real> left;    ///< against y
 };
 
+/// Whether a wall drags viscous liquid along.
+template <class Real>
+bool any_wall_drags(const Borders<Real>& borders) {
+    const auto drags = [](const SurfaceLaw<Real>& wall) {
+        return wall.no_slip && wall.conveyor != Real(0);
+    };
+    return drags(borders.bottom) || drags(borders.right) || drags(borders.top) ||
+           drags(borders.left);
+}
+
 /// After the scatter: ghost rows are folded back onto the rows that they mirror or repeat.
 /// `Seams`: there may be some.
 template <bool Seams, class Real>

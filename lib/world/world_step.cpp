@@ -69,6 +69,9 @@ void begin(detail::WorldState<Real>& state, float dt_s, std::int32_t rung, StepR
     if (simulation.bodies.load != nullptr) {
         forget_impulses(simulation.bodies);
     }
+    if (Stored<Real>::coarse && any_wall_drags(simulation.settings.borders)) {
+        look_for_met(simulation);
+    }
     if (dt > Seconds<Real>{}) {
         SubstepPlan<Real> plan = plan_substeps(simulation, dt);
         if (plan.sound_speed < simulation.settings.sound_speed) {

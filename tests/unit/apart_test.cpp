@@ -55,6 +55,19 @@ TYPED_TEST(ApartOf, ParticlesInTheCornersOfAThinWheel) {
     EXPECT_GT(volume_left(*world), 0.94);
 }
 
+/// A belt under viscous packed liquid stirs it as bodies do. As long as that started no look for
+/// those that had met they were 9 after two minutes, 21 after six.
+TEST(ApartPacked, ParticlesOverABelt) {
+    WorldDef def = tank_def(16, 16, 600);
+    def.cell_m = 0.01F;
+    def.viscosity_m2ps = 5.0e-3F;
+    def.walls.bottom = {0.0F, 0.0F, true, 0.1F};
+    TestWorld<SmallFixed> world(def);
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.16F, 0.08F}}));
+    run(*world, 120 * 60);
+    EXPECT_LE(met(*world), 2);
+}
+
 /// Crates and balls, thrown in and taken out again: what is between two of them is pressed by one
 /// and the other: 16 and 25 had met.
 TYPED_TEST(ApartInCrowdOf, ParticlesBetweenFreeBodies) {
