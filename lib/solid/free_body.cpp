@@ -121,7 +121,7 @@ std::int32_t rounds(const BodyTable<Real>& table, std::int32_t half_sweeps, std:
     const Meetings<Real> meetings(table);
     const std::int32_t points = most ? meetings.room : *meetings.used;
     return points * (kRoundsBefore + cycles * (kRoundsBefore + half_sweeps * kRoundsBetween) +
-                     kRoundsAfter + kRoundsOfParting);
+                     kRoundsAfter + kRoundsOfParting + kLooksUnder);
 }
 
 /// Twist within what a substep can bear; NaN becomes rest.
