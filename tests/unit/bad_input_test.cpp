@@ -1,6 +1,5 @@
 // Every way to be refused, in tables: after a refusal nothing has changed, and the world goes on as
 // one that never got the bad call. `init` has its own file.
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -47,16 +46,6 @@ Status move_changed(Fixture& f, const std::function<void(Motion&)>& change) {
 #define CHANGED_MOTION(field, value) \
     [](Fixture& f) { return move_changed(f, [](Motion& motion) { motion.field = value; }); }
 
-Ring polygon_of(std::int32_t count, float radius_m) {
-    Ring ring;
-    for (std::int32_t k = 0; k < count; ++k) {
-        const double angle = 6.283185307 * k / count;
-        ring.push_back({radius_m * static_cast<float>(std::cos(angle)),
-                        radius_m * static_cast<float>(std::sin(angle))});
-    }
-    return ring;
-}
-
 const std::vector<Row>& polygon_rows() {
     static const std::vector<Row> rows = {
         {"polygon null", [](Fixture& f) { return add_changed(f, [](BodyDef& def) {
@@ -67,7 +56,7 @@ const std::vector<Row>& polygon_rows() {
          Status::polygon_too_few_vertices},
         {"polygon of two", CHANGED_BODY(polygon.size, 2), Status::polygon_too_few_vertices},
         {"polygon one past the limit",
-         [](Fixture& f) { return add(f, polygon_of(kMaxBodyVertices + 1, 0.05F)); },
+         [](Fixture& f) { return add(f, regular_polygon(kMaxBodyVertices + 1, 0.05F)); },
          Status::polygon_too_many_vertices},
         {"vertex NaN", [](Fixture& f) { return add(f, {{0, 0}, {kNan, 0}, {0, 0.1F}}); },
          Status::polygon_not_finite},
@@ -136,7 +125,7 @@ const std::vector<Row>& polygon_rows() {
          },
          Status::polygon_not_finite},
         {"more vertices than are left",
-         [](Fixture& f) { return add(f, polygon_of(6, 0.05F)); }, Status::no_free_vertex},
+         [](Fixture& f) { return add(f, regular_polygon(6, 0.05F)); }, Status::no_free_vertex},
         {"more bodies than there is room for",
          [](Fixture& f) {
              BodyId id;

@@ -1,30 +1,19 @@
 // Liquid that sways in a vessel with walls off the grid's lines gains nothing by it.
-#include <cmath>
-
 #include "test_world.hpp"
 
 namespace weir {
 namespace {
 
-constexpr float kPi = 3.14159265F;
-
-/// A ring of so many sides about the origin, turned a little off the grid's lines, m.
-Ring ring_of(int sides, float radius) {
-    Ring ring;
-    for (int k = 0; k < sides; ++k) {
-        const float angle = 0.1F + 2.0F * kPi * static_cast<float>(k) / static_cast<float>(sides);
-        ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    return ring;
-}
+/// A little off the grid's lines.
+constexpr float kTurned = 0.1F;
 
 /// A hollow polygon of 13 cells' radius, its walls two cells thick, stands still with liquid in it.
 template <class Real>
 class Bowl {
 public:
     explicit Bowl(int sides) : world_(bowl_def()) {
-        const Ring outside = ring_of(sides, 15.0F * kCell);
-        const Ring inside = ring_of(sides, 13.0F * kCell);
+        const Ring outside = regular_polygon(sides, 15.0F * kCell, kTurned);
+        const Ring inside = regular_polygon(sides, 13.0F * kCell, kTurned);
         BodyDef def = body_of(outside, {16.0F * kCell, 16.0F * kCell});
         const View<Vec2f> holes[] = {{inside.data(), sides}};
         def.holes = {holes, 1};

@@ -44,11 +44,7 @@ TEST(Moments, OfARectangleWithAHoleAboutAnyOrigin) {
 
 /// Liquid slows the spin of what is small, even if it is round; air does not.
 TEST(FreeBody, SpinsOnInAirOnly) {
-    Ring wheel;
-    for (int k = 0; k < 12; ++k) {
-        const float turned = 0.5235988F * static_cast<float>(k);
-        wheel.push_back({0.02F * std::cos(turned), 0.02F * std::sin(turned)});
-    }
+    const Ring wheel = regular_polygon(12, 0.02F);
     for (const bool wet : {false, true}) {
         TestWorld<float> world{two_way_def()};
         BodyDef body = body_of(wheel, {0.32F, 0.3F});

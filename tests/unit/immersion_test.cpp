@@ -58,15 +58,6 @@ Way release(Vec2f cells, float density, float offset, std::int32_t wall_edges, i
                               wall_edges, steps);
 }
 
-Ring ball(float cells, int corners) {
-    Ring ring;
-    for (int k = 0; k < corners; ++k) {
-        const float angle = 6.2831853F * static_cast<float>(k) / static_cast<float>(corners);
-        ring.push_back({cells * kCell * std::cos(angle), cells * kCell * std::sin(angle)});
-    }
-    return ring;
-}
-
 WEIR_SUITE(Immersion, RoomyScalars);
 
 /// However it lies to the grid's lines: they sank, or hung in the water, below two cells.
@@ -156,7 +147,8 @@ TYPED_TEST(Immersion, CellsThatBodiesShareLiftNobody) {
 TYPED_TEST(Immersion, BallsNearlyAsDenseAsTheLiquidRise) {
     for (const float radius : some_of({1.0F, 1.5F})) {
         for (const float density : some_of({0.9F, 0.95F})) {
-            const Way way = release_ring<TypeParam>(ball(radius, 12), density, 0.3F, 0, 600);
+            const Ring ball = regular_polygon(12, radius * kCell);
+            const Way way = release_ring<TypeParam>(ball, density, 0.3F, 0, 600);
             EXPECT_NEAR(way.last, -0.9F * radius, 0.4F) << radius << " cells, " << density;
         }
     }
@@ -172,7 +164,7 @@ TYPED_TEST(Immersion, NothingTurnsBalls) {
             def.capacity.cells_x = def.capacity.cells_y = 16;
             def.capacity.vertices = 24;
             TestWorld<TypeParam> world{def};
-            const Ring outline = ball(2.0F, corners);
+            const Ring outline = regular_polygon(corners, 2.0F * kCell);
             BodyDef body = body_of(outline, {8 * kCell, 8 * kCell});
             body.density_ratio = density;
             const BodyId id = put_free(*world, body);

@@ -1,7 +1,6 @@
 // Liquid that has a long way to the floor, or is carried round by a wall, keeps its volume.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 #include "test_world.hpp"
@@ -73,11 +72,7 @@ TYPED_TEST(Drum, LeavesTheLiquidItsVolume) {
     TestWorld<TypeParam> world{def};
     const float edge = 10.5F * kCell;
     const Ring block = {{-edge, -edge}, {edge, -edge}, {edge, edge}, {-edge, edge}};
-    Ring round;
-    for (int k = 0; k < kSides; ++k) {
-        const float angle = 6.2831853F * static_cast<float>(k) / kSides;
-        round.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
+    const Ring round = regular_polygon(kSides, radius);
     const View<Vec2f> holes[] = {{round.data(), kSides}};
     BodyDef drum = body_of(block, {11 * kCell, 11 * kCell});
     drum.holes = {holes, 1};

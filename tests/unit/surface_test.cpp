@@ -156,15 +156,6 @@ TEST(Surface, ViscousLiquidSticksToBodies) {
     EXPECT_GT(speed_above_a_belt<Fixed>(true, true, &drag), 0.05F);
 }
 
-Ring circle(float radius_m, int corners) {
-    Ring ring;
-    for (int k = 0; k < corners; ++k) {
-        const float angle = 6.2831853F * static_cast<float>(k) / static_cast<float>(corners);
-        ring.push_back({radius_m * std::cos(angle), radius_m * std::sin(angle)});
-    }
-    return ring;
-}
-
 /// Torque of the liquid in a ring of 16 cells on a disc of 8 that turns in it, over −4πνB (Couette
 /// 1890), B = ω R₁² R₂² / (R₂² − R₁²).
 TEST(Surface, ATurningDiscIsBraked) {
@@ -177,7 +168,8 @@ TEST(Surface, ATurningDiscIsBraked) {
     def.capacity.two_way = true;
     def.viscosity_m2ps = kViscosity;
     TestWorld<float> world{def};
-    const Ring hole = circle(kOuter, 96), frame = rectangle(1.6F, 1.6F), disc = circle(kInner, 64);
+    const Ring hole = regular_polygon(96, kOuter), frame = rectangle(1.6F, 1.6F);
+    const Ring disc = regular_polygon(64, kInner);
     const View<Vec2f> holes[] = {{hole.data(), static_cast<std::int32_t>(hole.size())}};
     BodyDef outer = body_of(frame, {0.404F, 0.398F}), inner = body_of(disc, {0.404F, 0.398F});
     outer.holes = {holes, 1};

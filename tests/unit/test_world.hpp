@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <vector>
@@ -82,6 +83,17 @@ inline Ring rectangle(float width, float height) {
             {0.5F * width, -0.5F * height},
             {0.5F * width, 0.5F * height},
             {-0.5F * width, 0.5F * height}};
+}
+
+/// About the origin, with all corners so far from it.
+inline Ring regular_polygon(int corners, float radius, float first_rad = 0.0F) {
+    Ring ring;
+    for (int k = 0; k < corners; ++k) {
+        const float angle =
+            first_rad + 6.2831853F * static_cast<float>(k) / static_cast<float>(corners);
+        ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    return ring;
 }
 
 /// 16 × 16 cells of 2 cm, 200 particles, 3 bodies with 12 vertices.

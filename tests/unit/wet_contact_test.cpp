@@ -1,4 +1,4 @@
-// Free bodies that meet each other in liquid: they leave it its volume, and rise from the floor.
+// Free bodies that meet each other in liquid: they leave it its volume.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -89,11 +89,7 @@ TYPED_TEST(WetContact, HeapIsBoundedAndGoesOnFromASnapshot) {
     const WorldDef def = wet_def(40, 40, 8);
     TestWorld<TypeParam> world{def};
     expect_ok(world->fill({{0, 0}, {0.2F, 0.3F}}));
-    Ring wheel;
-    for (int k = 0; k < 7; ++k) {
-        const float angle = 6.2831853F * static_cast<float>(k) / 7;
-        wheel.push_back({0.08F * std::cos(angle), 0.08F * std::sin(angle)});
-    }
+    const Ring wheel = regular_polygon(7, 0.08F);
     BodyId id[8];
     for (int k = 0; k < 8; ++k) {
         BodyDef body = body_of(wheel, {0.1F + 0.17F * static_cast<float>(k % 4),
