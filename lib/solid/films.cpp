@@ -1,5 +1,7 @@
 #include "solid/films.hpp"
 
+#include "solid/contour_hit.hpp"
+
 namespace weir {
 
 namespace {
@@ -7,9 +9,6 @@ namespace {
 /// From a wall to the cell before it, cells.
 template <class Real>
 constexpr Face<Real> kHair = Face<Real>(1.0 / 64.0);
-
-/// Case of a cell of which all corners are inside.
-constexpr std::uint8_t kAllInside = 15;
 
 template <class Real>
 class Films {
@@ -50,7 +49,7 @@ private:
             return -1;
         }
         const std::int32_t cell = s.index(floor_to_int(x.x), floor_to_int(x.y));
-        return obstacles_.walls.cell_case[cell] == kAllInside ? -1 : cell;
+        return obstacles_.walls.cell_case[cell] == kCellInside ? -1 : cell;
     }
     /// The same if it has a pressure.
     std::int32_t wet_cell_at(Wide<Real> x) const {
