@@ -4,7 +4,7 @@
 #include "brute_distance.hpp"
 #include "measure/random.hpp"
 #include "solid/body_reach.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -45,8 +45,7 @@ TEST(BodyReach, PiecesEndOnTheOutline) {
         const BodyId id = put_free(*world, body_of(kHook, at, angle));
         world->step(0.0F);
         const std::vector<Point> ring = placed(kHook, motion_of(*world, id));
-        const auto& simulation =
-            reinterpret_cast<detail::WorldState<float>*>(world.memory())->simulation;
+        const auto& simulation = state_of(world).simulation;
         const GridShape& s = simulation.layers.shape;
         const Walls<float>& walls = simulation.layers.walls;
         const auto look = [&](const ClosedFace<float>& face) {

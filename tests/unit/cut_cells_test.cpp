@@ -10,8 +10,7 @@
 #include "fewer_lanes.hpp"
 #include "solid/cut_cells.hpp"
 #include "solid/cut_cells_groups.hpp"
-#include "test_world.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -20,7 +19,7 @@ constexpr float kCell = 0.02F;
 constexpr float kFrame = 1.0F / 60.0F;
 
 const Simulation<float>& inside(TestWorld<float>& world) {
-    return reinterpret_cast<const detail::WorldState<float>*>(world.memory())->simulation;
+    return state_of(world).simulation;
 }
 
 /// Mean of a cell's four faces, as seen from its centre.

@@ -5,9 +5,8 @@
 
 #include "geometry/moments.hpp"
 #include "math/vec2.hpp"
-#include "test_world.hpp"
 #include "weir/weir.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -238,8 +237,7 @@ Gap gap(Pressure pressure, bool at_rest) {
         const double weight = before.mass_m2 * 9.81 * static_cast<double>(report.dt_s);
         const Vec2<double> rest = (1 / weight) * (sum + gained + Vec2<double>{0, weight});
         square += dot(rest, rest);
-        const auto& bodies = reinterpret_cast<const detail::WorldState<Real>*>(world.memory())
-                                 ->simulation.bodies;
+        const auto& bodies = state_of(world).simulation.bodies;
         const double m = static_cast<double>(def.cell_m);
         const Vec2<double> given =
             (m * m * m / weight) * convert<double>(weir::settled(bodies));

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "test_world.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -113,8 +112,7 @@ std::vector<double> lifts_of(std::size_t squares, Vec2f cells, float density, fl
     }
     expect_ok(world->fill({{0, 0}, {48 * kCell, kLevel}}));
     EXPECT_EQ(world->step(kDt / 4).substeps, 1);
-    const auto& simulation =
-        reinterpret_cast<const detail::WorldState<Real>*>(world.memory())->simulation;
+    const auto& simulation = state_of(world).simulation;
     std::vector<double> lifts;
     for (std::size_t k = 0; k < squares; ++k) {
         const BodyLoad<Real>& load = simulation.bodies.load[k];

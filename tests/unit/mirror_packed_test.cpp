@@ -4,8 +4,7 @@
 
 #include "step/boundary_condition.hpp"
 #include "step/viscosity.hpp"
-#include "test_world.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -58,7 +57,7 @@ public:
     }
 
     Simulation<Real>& simulation() {
-        return reinterpret_cast<detail::WorldState<Real>*>(world_.memory())->simulation;
+        return state_of(world_).simulation;
     }
     StaggeredGrid<Real>& grid() { return simulation().grid; }
     const GridShape& shape() { return grid().shape; }

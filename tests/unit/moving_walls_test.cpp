@@ -8,7 +8,7 @@
 #include "solid/contour_hit.hpp"
 #include "solid/moving_walls.hpp"
 #include "solid/slide.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -23,8 +23,7 @@ public:
         put_moving(*world_, body_of(ring, {}));
     }
     Scene<float> scene() {
-        Simulation<float>& simulation =
-            reinterpret_cast<detail::WorldState<float>*>(world_.memory())->simulation;
+        Simulation<float>& simulation = state_of(world_).simulation;
         return {simulation.layers.shape, simulation.layers.walls, simulation.particles,
                 simulation.contacts,     result_,                 0.01F,
                 false,                   &simulation.bodies};

@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "pressure/start.hpp"
-#include "test_world.hpp"
 #include "weir/weir.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -172,8 +171,7 @@ TEST(PressureStart, FollowsGravityToTwiceItAtMost) {
         def.gravity_mps2 = {0.0F, -1.0F};
         TestWorld<float> world(def);
         const auto change = [&] {
-            return reinterpret_cast<detail::WorldState<float>*>(world.memory())
-                ->simulation.pressure.change;
+            return state_of(world).simulation.pressure.change;
         };
         const bool elastic = pressure == Pressure::equation_of_state;
         expect_ok(world->set_gravity({0.0F, -1.5F}));

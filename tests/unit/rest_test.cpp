@@ -3,8 +3,7 @@
 
 #include <limits>
 
-#include "test_world.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -90,8 +89,7 @@ TYPED_TEST(RestOf, WithoutVolumeGainNothingIsPressed) {
     def.sleep = {0.05F, 0.5F, 0.0F};
     TestWorld<TypeParam> world(def);
     expect_ok(world->fill({{0.0F, 0.0F}, {0.32F, 0.05F}}));
-    auto& coarse =
-        reinterpret_cast<detail::WorldState<TypeParam>*>(world.memory())->simulation.pressure.coarse;
+    auto& coarse = state_of(world).simulation.pressure.coarse;
     std::int32_t steps = 0;
     do {  // whatever a pressure left there
         for (std::int32_t q = 0; q < coarse.shape.size(); ++q) {

@@ -1,9 +1,8 @@
 // Spans: in wide tanks rows are worked on only where their liquid is. No bit is different by that.
 #include "port/port.hpp"
 #include "step/row_spans.hpp"
-#include "test_world.hpp"
 #include "window_life.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -20,7 +19,7 @@ WorldDef wide_def(bool solids, bool threads) {
 }
 
 StaggeredGrid<float>& grid_of(TestWorld<float>& world) {
-    return reinterpret_cast<detail::WorldState<float>*>(world.memory())->simulation.grid;
+    return state_of(world).simulation.grid;
 }
 
 /// One that always works on whole rows.

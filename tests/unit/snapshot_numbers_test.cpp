@@ -3,18 +3,12 @@
 
 #include "solid/obstacles.hpp"
 #include "step/regions.hpp"
-#include "test_world.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-
-template <class Real>
-detail::WorldState<Real>& state_of(TestWorld<Real>& world) {
-    return *reinterpret_cast<detail::WorldState<Real>*>(world.memory());
-}
 
 template <class Real>
 Status restored(TestWorld<Real>& world, const WorldDef& def) {

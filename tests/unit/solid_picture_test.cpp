@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "busy_world.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -27,7 +27,7 @@ Bytes saved(const World<Real>& world, const WorldDef& def) {
 
 template <class Real>
 const Layers<Real>& layers_of(TestWorld<Real>& world) {
-    return reinterpret_cast<const detail::WorldState<Real>*>(world.memory())->simulation.layers;
+    return state_of(world).simulation.layers;
 }
 
 /// Bit by bit, as far as it is stored.

@@ -4,7 +4,7 @@
 #include "brute_distance.hpp"
 #include "measure/random.hpp"
 #include "solid/thin_sweep.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -28,7 +28,7 @@ struct Tank {
         put_moving(*world, body);
     }
     Simulation<float>& simulation() {
-        return reinterpret_cast<detail::WorldState<float>*>(world.memory())->simulation;
+        return state_of(world).simulation;
     }
     bool keep(Vec2<float> before, Vec2<float> after, bool follow, ThinStop<float>& stop) {
         Layers<float>& layers = simulation().layers;

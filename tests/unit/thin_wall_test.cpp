@@ -7,9 +7,8 @@
 #include "math/vec2.hpp"
 #include "measure/random.hpp"
 #include "solid/thin_sweep.hpp"
-#include "test_world.hpp"
 #include "weir/weir.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -42,8 +41,7 @@ BodyId add(World<float>& world, const BodyDef& def, bool moving = false) {
 
 /// The records behind a world's face.
 const ThinWalls<float>& walls_of(TestWorld<float>& world) {
-    return reinterpret_cast<const detail::WorldState<float>*>(world.memory())
-        ->simulation.layers.thin;
+    return state_of(world).simulation.layers.thin;
 }
 
 std::int32_t thin_edges(TestWorld<float>& world, std::int32_t slot) {
@@ -104,8 +102,7 @@ TEST(ThinWalls, FacesBetweenTheSidesAreClosedWithoutGaps) {
         def.motion.position_m = {16.5F * kCell, 15.5F * kCell};
         def.motion.angle_rad = angle;
         add(*world, def);
-        const auto& simulation =
-            reinterpret_cast<const detail::WorldState<float>*>(world.memory())->simulation;
+        const auto& simulation = state_of(world).simulation;
         const GridShape& s = simulation.grid.shape;
         // Flood from one corner through faces that are open at all.
         std::vector<int> reached(static_cast<std::size_t>(s.size()), 0);
@@ -213,7 +210,7 @@ TEST(ThinWalls, WhoSlidesAlongTwoWallsKeepsItsDistanceToBoth) {
     const Ring outline[] = {upright, leaning};  // cells
     add(*world, line_of(upright));
     add(*world, line_of(leaning));
-    const auto& state = *reinterpret_cast<const detail::WorldState<float>*>(world.memory());
+    const auto& state = state_of(world);
     measure::Random random(7);
     int met_both = 0;
     for (int trial = 0; trial < 100000; ++trial) {
@@ -243,7 +240,7 @@ TEST(ThinWalls, WhoStopsAtAWallKeepsItsDistance) {
     const Vec2f from = line[0];  // cells
     const Vec2f to = line[1];
     add(*world, line_of(line));
-    const auto& state = *reinterpret_cast<const detail::WorldState<float>*>(world.memory());
+    const auto& state = state_of(world);
     for (int trial = 0; trial < 100; ++trial) {
         const float height = 1.0e-5F * static_cast<float>(trial - 50);
         const Vec2<float> at{from.x + (16.0F - from.y) / (to.y - from.y) * (to.x - from.x) + height,

@@ -3,7 +3,7 @@
 #include "solid/contour_hit.hpp"
 #include "step/fly_beyond.hpp"
 #include "window_life.hpp"
-#include "world/world_state.hpp"
+#include "world_inside.hpp"
 
 namespace weir {
 namespace {
@@ -50,8 +50,7 @@ TYPED_TEST(WindowBodies, OpenWaysNeedNoPicture) {
         nomads.disturb_bodies(*world, *twin);
         world->step(0.01F);
         twin->step(0.01F);
-        const auto& simulation =
-            reinterpret_cast<detail::WorldState<Real>*>(world.memory())->simulation;
+        const auto& simulation = state_of(world).simulation;
         PictureBeyond<Real> picture(simulation.layers.shape, simulation.layers.walls,
                                     simulation.bodies);
         const NodeBox drawn = all_drawn(simulation.bodies);
