@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/compiler.hpp"
 #include "weir/storage.hpp"
 
 namespace weir {
@@ -28,13 +29,13 @@ public:
     void add(float number) {
         std::uint32_t bits = 0;
         const float canonical = number == 0.0F ? 0.0F : number;
-        __builtin_memcpy(&bits, &canonical, sizeof bits);
+        WEIR_COPY_BYTES(&bits, &canonical, sizeof bits);
         add(bits);
     }
     void add(double number) {
         std::uint64_t bits = 0;
         const double canonical = number == 0.0 ? 0.0 : number;
-        __builtin_memcpy(&bits, &canonical, sizeof bits);
+        WEIR_COPY_BYTES(&bits, &canonical, sizeof bits);
         add(static_cast<std::uint32_t>(bits));
         add(static_cast<std::uint32_t>(bits >> 32U));
     }

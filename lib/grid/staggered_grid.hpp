@@ -156,7 +156,7 @@ inline constexpr Real kNoVelocity = Real(kMarksUnreached<Real> ? 1.0 / 65536.0 :
 
 template <class Real>
 inline bool is_no_velocity(Real velocity) {
-    return __builtin_memcmp(&velocity, &kNoVelocity<Real>, sizeof velocity) == 0;
+    return WEIR_COMPARE_BYTES(&velocity, &kNoVelocity<Real>, sizeof velocity) == 0;
 }
 
 /// What stands for the velocity before the step of a face that particles reach: never what stands

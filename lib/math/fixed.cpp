@@ -7,7 +7,7 @@ namespace weir {
 template <int Fraction, class Storage>
 FixedPoint<Fraction, Storage>::FixedPoint(float value) {
     std::uint32_t bits = 0;
-    __builtin_memcpy(&bits, &value, sizeof bits);
+    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
     const std::int32_t exponent = static_cast<std::int32_t>((bits >> 23U) & 0xFFU);
     const std::uint32_t mantissa = (bits & 0x7FFFFFU) | 0x800000U;
     // value = mantissa · 2^(exponent − 150), subnormals apart, which round to 0 anyway.
@@ -47,8 +47,8 @@ struct Digit {
     std::uint32_t remainder;
 };
 
-[[gnu::always_inline]] inline Digit next_digit(std::uint32_t high, std::uint32_t next,
-                                               std::uint32_t divisor) {
+WEIR_ALWAYS_INLINE Digit next_digit(std::uint32_t high, std::uint32_t next,
+                                    std::uint32_t divisor) {
     const std::uint32_t upper = divisor >> 16U;
     const std::uint32_t lower = divisor & 0xFFFFU;
     std::uint32_t q = high / upper;
@@ -112,15 +112,15 @@ std::int32_t multiply(std::int32_t a, std::int32_t b, int shift) {
     const std::uint32_t x = magnitude(a);
     const std::uint32_t y = magnitude(b);
     const std::uint32_t high = (x >> 16U) * (y >> 16U);
-    if (__builtin_expect(high > 0x7FFFU, 0)) {
+    if (WEIR_SELDOM(high > 0x7FFFU)) {
         return signed_of(0xFFFFFFFFU, (a ^ b) < 0);
     }
     const std::uint32_t low = (x & 0xFFFFU) * (y & 0xFFFFU);
     const std::uint32_t middle = (x >> 16U) * (y & 0xFFFFU) + (x & 0xFFFFU) * (y >> 16U);
     std::uint32_t size = 0;
     const bool over =
-        __builtin_add_overflow(middle, (low >> 16U) + ((low >> 15U) & 1U), &size) ||
-        __builtin_add_overflow(size, high << 16U, &size);
+        add_overflows(middle, (low >> 16U) + ((low >> 15U) & 1U), &size) ||
+        add_overflows(size, high << 16U, &size);
     return signed_of(over ? 0xFFFFFFFFU : size, (a ^ b) < 0);
 }
 #endif
@@ -136,7 +136,7 @@ std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor) {
         const std::uint32_t rest = all - whole * divisor;
         return rest >= divisor - rest ? whole + 1U : whole;
     }
-    const auto zeros = static_cast<unsigned>(__builtin_clz(divisor));
+    const auto zeros = static_cast<unsigned>(WEIR_LEADING_ZEROS(divisor));
     const std::uint32_t scaled = divisor << zeros;
     const std::uint64_t top = numerator << zeros;
     const Digit first = next_digit(static_cast<std::uint32_t>(top >> 32U),
@@ -159,7 +159,7 @@ std::int32_t quotient(std::int32_t a, std::int32_t b, int shift) {
 
 std::int32_t stored_inverse(std::int32_t raw) {
     // 2^(shift + 16) / raw is above 2²⁴, and at most 2²⁵.
-    const int shift = 25 + 15 - __builtin_clz(static_cast<std::uint32_t>(raw));
+    const int shift = 25 + 15 - WEIR_LEADING_ZEROS(static_cast<std::uint32_t>(raw));
     const std::uint32_t digits = divide(std::uint64_t{1} << static_cast<unsigned>(shift + 16),
                                         static_cast<std::uint32_t>(raw));
     return static_cast<std::int32_t>(digits << 5U) + (shift - 8);
@@ -189,7 +189,7 @@ Root root_below(std::uint32_t value) {
 // By Newton's steps from the tangent at the largest number, which lies above: so does each of
 // them, rounded down, until the last one is it or one more.
 Root root_below(std::uint32_t value) {
-    const auto zeros = static_cast<unsigned>(__builtin_clz(value | 1U)) & ~1U;
+    const auto zeros = static_cast<unsigned>(WEIR_LEADING_ZEROS(value | 1U)) & ~1U;
     const std::uint32_t scaled = value << zeros;
     std::uint32_t root = (scaled >> 17U) + (1U << 15U);
     for (std::int32_t step = 0; step < 4; ++step) {
@@ -208,7 +208,7 @@ std::uint32_t square_root(std::uint64_t value) {
         return found.rest > found.root ? found.root + 1U : found.root;
     }
     const auto zeros =
-        static_cast<unsigned>(__builtin_clz(static_cast<std::uint32_t>(value >> 32U))) & ~1U;
+        static_cast<unsigned>(WEIR_LEADING_ZEROS(static_cast<std::uint32_t>(value >> 32U))) & ~1U;
     const std::uint64_t scaled = value << zeros;
     const Root upper = root_below(static_cast<std::uint32_t>(scaled >> 32U));
     const std::uint32_t next = (upper.rest << 15U) | (static_cast<std::uint32_t>(scaled) >> 17U);

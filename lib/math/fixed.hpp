@@ -3,6 +3,7 @@
 // and no result depends on the processor.
 #pragma once
 
+#include "base/compiler.hpp"
 #include "weir/fixed.hpp"
 
 namespace weir {
@@ -17,20 +18,20 @@ namespace fixed {
 
 #if defined(__ARM_FEATURE_DSP)
 /// In one instruction.
-[[gnu::always_inline]] inline std::int32_t add(std::int32_t a, std::int32_t b) {
+WEIR_ALWAYS_INLINE std::int32_t add(std::int32_t a, std::int32_t b) {
     return __builtin_arm_qadd(a, b);
 }
-[[gnu::always_inline]] inline std::int32_t subtract(std::int32_t a, std::int32_t b) {
+WEIR_ALWAYS_INLINE std::int32_t subtract(std::int32_t a, std::int32_t b) {
     return __builtin_arm_qsub(a, b);
 }
 #else
 inline std::int32_t add(std::int32_t a, std::int32_t b) {
     std::int32_t sum = 0;
-    return __builtin_add_overflow(a, b, &sum) ? (a < 0 ? kLeastRaw : kMostRaw) : sum;
+    return add_overflows(a, b, &sum) ? (a < 0 ? kLeastRaw : kMostRaw) : sum;
 }
 inline std::int32_t subtract(std::int32_t a, std::int32_t b) {
     std::int32_t difference = 0;
-    return __builtin_sub_overflow(a, b, &difference) ? (a < 0 ? kLeastRaw : kMostRaw)
+    return subtract_overflows(a, b, &difference) ? (a < 0 ? kLeastRaw : kMostRaw)
                                                      : difference;
 }
 #endif
@@ -122,8 +123,8 @@ inline FixedPoint<F, S>& operator-=(FixedPoint<F, S>& a, FixedPoint<F, S> b) {
 
 #define WEIR_COMPARE(op)                                                  \
     template <int F, class S>                                             \
-    [[gnu::always_inline]] constexpr bool operator op(FixedPoint<F, S> a, \
-                                                      FixedPoint<F, S> b) { \
+    WEIR_ALWAYS_INLINE constexpr bool operator op(FixedPoint<F, S> a, \
+                                                  FixedPoint<F, S> b) { \
         return a.raw op b.raw;                                            \
     }
 WEIR_COMPARE(==)
@@ -183,13 +184,13 @@ struct WideFixed {
 template <class S>
 inline WideFixed<S> operator+(WideFixed<S> a, WideFixed<S> b) {
     std::int64_t sum = 0;
-    const bool over = __builtin_add_overflow(a.raw, b.raw, &sum);
+    const bool over = add_overflows(a.raw, b.raw, &sum);
     return WideFixed<S>::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : sum);
 }
 template <class S>
 inline WideFixed<S> operator-(WideFixed<S> a, WideFixed<S> b) {
     std::int64_t difference = 0;
-    const bool over = __builtin_sub_overflow(a.raw, b.raw, &difference);
+    const bool over = subtract_overflows(a.raw, b.raw, &difference);
     return WideFixed<S>::of_raw(over ? (a.raw < 0 ? INT64_MIN : INT64_MAX) : difference);
 }
 template <class S>

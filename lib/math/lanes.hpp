@@ -6,7 +6,7 @@
 #include "math/scalar.hpp"
 
 #if (defined(__SSE2__) || defined(__aarch64__) || defined(__wasm_simd128__)) && \
-    !defined(WEIR_PLAIN_LOOPS) && (defined(__clang__) || __GNUC__ >= 12)
+    !defined(WEIR_PLAIN_LOOPS) && WEIR_GNU_COMPILER && (defined(__clang__) || __GNUC__ >= 12)
 #define WEIR_HAS_LANES 1
 #else
 #define WEIR_HAS_LANES 0

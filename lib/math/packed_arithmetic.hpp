@@ -48,7 +48,7 @@ inline std::int32_t saturated(std::int32_t value) {
     const std::uint32_t shifted = static_cast<std::uint32_t>(value) << (32 - Bits);
     const std::int32_t cut = Bits == 16 ? static_cast<std::int16_t>(value)
                                         : static_cast<std::int32_t>(shifted) >> (32 - Bits);
-    if (__builtin_expect(cut != value, 0)) {  // most are one
+    if (WEIR_SELDOM(cut != value)) {  // most are one
         return (value >> 31) ^ ((1 << (Bits - 1)) - 1);
     }
     return value;
@@ -100,11 +100,11 @@ inline std::int32_t low_byte(std::uint32_t word) {
 /// Two numbers of 16 bits side by side, as a word: of a place, x below.
 inline std::uint32_t word_at(const void* place) {
     std::uint32_t word = 0;
-    __builtin_memcpy(&word, __builtin_assume_aligned(place, 4), sizeof word);
+    WEIR_COPY_BYTES(&word, aligned_to_four(place), sizeof word);
     return word;
 }
 inline void put_word(void* place, std::uint32_t word) {
-    __builtin_memcpy(__builtin_assume_aligned(place, 4), &word, sizeof word);
+    WEIR_COPY_BYTES(aligned_to_four(place), &word, sizeof word);
 }
 
 /// Of the golden ratio: a product with it shows in all places.

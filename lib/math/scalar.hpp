@@ -4,23 +4,26 @@
 
 #include <cstdint>
 
+#include "base/compiler.hpp"
 #include "math/fixed.hpp"
 #include "math/packed.hpp"
 
 // With these options bits are not everyone's, and nothing else would say so. Parts of fast-math
 // have names of their own.
 #if defined(__FAST_MATH__) || __FINITE_MATH_ONLY__ || defined(__ASSOCIATIVE_MATH__) || \
-    defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
-#error "weir needs strict floating point: remove -ffast-math, -Ofast or their like for it"
+    defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__) || defined(_M_FP_FAST)
+#error "weir needs strict floating point: remove -ffast-math, -Ofast, /fp:fast or their like for it"
 #endif
 // No macro tells whether g++ fuses a*b+c, which it does unasked: who turns that off says so.
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
 #elif defined(__FP_FAST_FMAF) && !defined(WEIR_FP_CONTRACT_OFF)
 #error "weir rounds a*b+c twice: compile with -ffp-contract=off -DWEIR_FP_CONTRACT_OFF"
 #endif
-#if __FLT_EVAL_METHOD__ == 2
-#error "weir needs floats that are rounded as floats: -msse2 -mfpmath=sse on 32-bit x86"
+#if __FLT_EVAL_METHOD__ == 2 || (defined(_M_IX86_FP) && _M_IX86_FP < 2)
+#error "weir needs floats that are rounded as floats, on x86: -msse2 -mfpmath=sse, /arch:SSE2"
 #endif
 
 /// Boards leave World<double> out: none computes in it.
@@ -89,11 +92,11 @@ constexpr T absolute(T value) {
     return value < T(0) ? -value : value;
 }
 // Signs of velocities are as good as random: no branch may hang on them.
-constexpr float absolute(float value) {
-    return __builtin_fabsf(value);
+inline float absolute(float value) {
+    return magnitude_of(value);
 }
-constexpr double absolute(double value) {
-    return __builtin_fabs(value);
+inline double absolute(double value) {
+    return magnitude_of(value);
 }
 
 /// What goes with an arithmetic: floats serve for everything, fixed point has a kind of number
@@ -191,12 +194,12 @@ constexpr SmallFixed ratio_of(std::int32_t part, std::int32_t whole) {
 /// freestanding std::memcpy is a call.
 inline bool is_finite(float value) {
     std::uint32_t bits = 0;
-    __builtin_memcpy(&bits, &value, sizeof bits);
+    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
     return (bits & 0x7F800000U) != 0x7F800000U;
 }
 inline bool is_finite(double value) {
     std::uint64_t bits = 0;
-    __builtin_memcpy(&bits, &value, sizeof bits);
+    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
     return (bits & 0x7FF0000000000000ULL) != 0x7FF0000000000000ULL;
 }
 
@@ -217,23 +220,23 @@ inline Real bound_key(Real value) {
 }
 inline std::uint32_t magnitude_key(float value) {
     std::uint32_t bits = 0;
-    __builtin_memcpy(&bits, &value, sizeof bits);
+    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
     return bits << 1U;
 }
 inline float magnitude_of_key(std::uint32_t key) {
     const std::uint32_t bits = key >> 1U;
     float value = 0.0F;
-    __builtin_memcpy(&value, &bits, sizeof value);
+    WEIR_COPY_BYTES(&value, &bits, sizeof value);
     return value;
 }
 inline std::int32_t bound_key(float value) {
     std::int32_t bits = 0;
-    __builtin_memcpy(&bits, &value, sizeof bits);
+    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
     return bits;
 }
 inline float of_bound_key(std::int32_t key) {
     float value = 0.0F;
-    __builtin_memcpy(&value, &key, sizeof value);
+    WEIR_COPY_BYTES(&value, &key, sizeof value);
     return value;
 }
 
@@ -266,14 +269,6 @@ inline bool is_between(std::int32_t key, std::int32_t low, std::int32_t high) {
            static_cast<std::uint32_t>(high) - static_cast<std::uint32_t>(low);
 }
 
-/// A pointer, or a number that counts, which the compiler knows nothing about: it can neither be
-/// taken apart nor replaced by others that count along with it.
-template <class Number>
-inline Number whole(Number number) {
-    __asm__("" : "+r"(number));
-    return number;
-}
-
 /// Largest integer not above the value; |value| < 2^31.
 template <class Real>
 inline std::int32_t floor_to_int(Real value) {
@@ -293,7 +288,11 @@ float square_root_in_integers(float value);
 double square_root_in_integers(double value);
 
 inline float square_root(float value) {
-#if defined(__SSE2__) || defined(__aarch64__) || defined(__wasm__) || \
+#if WEIR_INTRINSIC_ROOTS
+    return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value)));
+#elif !WEIR_GNU_COMPILER
+    return square_root_in_integers(value);
+#elif defined(__SSE2__) || defined(__aarch64__) || defined(__wasm__) || \
     (defined(__ARM_FP) && (__ARM_FP & 4))
     return __builtin_sqrtf(value);
 #else
@@ -301,7 +300,11 @@ inline float square_root(float value) {
 #endif
 }
 inline double square_root(double value) {
-#if defined(__SSE2__) || defined(__aarch64__) || defined(__wasm__) || \
+#if WEIR_INTRINSIC_ROOTS
+    return _mm_cvtsd_f64(_mm_sqrt_sd(_mm_set_sd(0.0), _mm_set_sd(value)));
+#elif !WEIR_GNU_COMPILER
+    return square_root_in_integers(value);
+#elif defined(__SSE2__) || defined(__aarch64__) || defined(__wasm__) || \
     (defined(__ARM_FP) && (__ARM_FP & 8))
     return __builtin_sqrt(value);
 #else

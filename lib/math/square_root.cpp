@@ -59,7 +59,7 @@ Real root_of(Real value, int fraction_bits, int bias) {
         return value;
     }
     Bits bits = 0;
-    __builtin_memcpy(&bits, &value, sizeof bits);
+    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
     const Parts<Bits> parts = split(bits, fraction_bits, bias);
     // The fraction has one or two bits before the point: bring the point behind bit 62.
     const std::uint64_t aligned = static_cast<std::uint64_t>(parts.fraction)
@@ -69,7 +69,7 @@ Real root_of(Real value, int fraction_bits, int bias) {
     // Adding lets a root that rounded up to 2 carry into the exponent.
     const Bits result = ((exponent - 1) << fraction_bits) + static_cast<Bits>(root);
     Real out{};
-    __builtin_memcpy(&out, &result, sizeof out);
+    WEIR_COPY_BYTES(&out, &result, sizeof out);
     return out;
 }
 

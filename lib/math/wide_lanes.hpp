@@ -5,9 +5,11 @@
 
 #include <cstdint>
 
+#include "base/compiler.hpp"
+
 /// WEIR_WIDE: how many lanes the build has such files for.
 #if defined(WEIR_WIDE) && defined(__x86_64__) && !defined(WEIR_PLAIN_LOOPS) && \
-    (defined(__clang__) || __GNUC__ >= 12)
+    WEIR_GNU_COMPILER && (defined(__clang__) || __GNUC__ >= 12)
 #define WEIR_HAS_WIDE_LANES 1
 #else
 #define WEIR_HAS_WIDE_LANES 0
@@ -30,11 +32,12 @@ std::int32_t ask_for_lanes();
 
 /// How many this processor has: 4, 8 or 16.
 inline std::int32_t lanes_of_processor() {
-    if constexpr (kMostLanes > 4) {
-        const std::int32_t known = __atomic_load_n(&lanes_known, __ATOMIC_RELAXED);
-        return known != 0 ? known : ask_for_lanes();
-    }
+#if WEIR_HAS_WIDE_LANES
+    const std::int32_t known = __atomic_load_n(&lanes_known, __ATOMIC_RELAXED);
+    return known != 0 ? known : ask_for_lanes();
+#else
     return 4;
+#endif
 }
 inline bool has_wide_lanes() {
     return lanes_of_processor() >= 8;

@@ -135,11 +135,11 @@ inline void each_face_that_counts(const Patch& patch, const Level* level, std::i
             on_v = sides.has_lower ? here | under : 0;
         }
         for (; on_u != 0; on_u &= on_u - 1) {
-            const std::int32_t x = __builtin_ctz(on_u);
+            const std::int32_t x = WEIR_TRAILING_ZEROS(on_u);
             add_u(c + x, x);
         }
         for (; on_v != 0; on_v &= on_v - 1) {
-            add_v(c + __builtin_ctz(on_v), y);
+            add_v(c + WEIR_TRAILING_ZEROS(on_v), y);
         }
         under = here;
     }

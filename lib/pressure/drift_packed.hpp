@@ -121,8 +121,8 @@ private:
 
     /// on_u(face, rise), on_v(face, rise) for the open faces of a patch, by row, of every so many.
     template <std::int32_t Every = 1, class OnU, class OnV>
-    [[gnu::always_inline]] void for_each_face(const Patch& patch, const OnU& on_u,
-                                              const OnV& on_v) const {
+    WEIR_ALWAYS_INLINE void for_each_face(const Patch& patch, const OnU& on_u,
+                                          const OnV& on_v) const {
         const GridShape& s = grid.shape;
         const std::int32_t first_x = patch.i > 0 || (!Solids && borders.wrap_x) ? 0 : 1;
         for (std::int32_t y = Every - 1; y < patch.height; y += Every) {

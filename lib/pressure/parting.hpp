@@ -14,9 +14,9 @@ inline constexpr Real kRoomForAir = Real(0.75);
 
 /// Whether there is air in one of the eight cells around a cell, as far as they are in the tank.
 template <class Real>
-[[gnu::always_inline]] inline bool has_air_around(const PressureFields<Real>& fields,
-                                                  const ShareOf<Real>* full_density,
-                                                  const GridShape& s, std::int32_t c) {
+WEIR_ALWAYS_INLINE bool has_air_around(const PressureFields<Real>& fields,
+                                       const ShareOf<Real>* full_density,
+                                       const GridShape& s, std::int32_t c) {
     const std::int32_t from_first = c - s.index(0, 0);
     const std::int32_t j = from_first / s.stride;
     const std::int32_t i = from_first - j * s.stride;
@@ -41,9 +41,9 @@ inline bool may_part(const PressureFields<Real>& fields) {
 
 /// Whether liquid in a cell may part from a wall that the cell touches, as its mark says.
 template <class Real>
-[[gnu::always_inline]] inline bool parts_from_wall(const PressureFields<Real>& fields,
-                                                   const ShareOf<Real>* full_density,
-                                                   const GridShape& s, std::int32_t c) {
+WEIR_ALWAYS_INLINE bool parts_from_wall(const PressureFields<Real>& fields,
+                                        const ShareOf<Real>* full_density,
+                                        const GridShape& s, std::int32_t c) {
     return fields.inverse_diagonal[c] < VelocityOf<Real>(0) && may_part(fields) &&
            has_air_around(fields, full_density, s, c);
 }

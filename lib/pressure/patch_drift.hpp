@@ -77,8 +77,8 @@ struct Drift {
     /// on_u(face, row of the patch), on_v(face, row) for those faces of a column that are open,
     /// from below; first each(cell) of each of its cells.
     template <class OnU, class OnV, class Each>
-    [[gnu::always_inline]] void for_each_face(std::int32_t x, const OnU& on_u, const OnV& on_v,
-                                              const Each& each) const {
+    WEIR_ALWAYS_INLINE void for_each_face(std::int32_t x, const OnU& on_u, const OnV& on_v,
+                                          const Each& each) const {
         const bool moves_x = x > 0 || first_moves_x();
         const auto open = [](const ShareOf<Real>* share, std::int32_t face) {
             return !Solids || is_positive(Real(share[face]));

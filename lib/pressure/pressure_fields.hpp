@@ -79,7 +79,7 @@ struct PressureFields {
     std::uint8_t room_turns = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest
-    [[no_unique_address]] InletsOf<Real> inlets;  ///< where liquid was added that waits for room
+    WEIR_NO_UNIQUE_ADDRESS InletsOf<Real> inlets;  ///< where liquid was added that waits for room
     Seconds<Real> last_dt{};           ///< dt that `pressure` was solved for
     /// What of `pressure` to start from, at most kMostRescale: as gravity has changed since it was
     /// solved for; less if sound has become slower.

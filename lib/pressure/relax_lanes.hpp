@@ -87,11 +87,11 @@ struct RelaxedFields {
 
 /// Every other cell from c on, as many as there are lanes, of those that are asked for.
 template <class L, Weighing Where>
-[[gnu::always_inline]] inline typename L::Floats relax_group(const RelaxTask& task,
-                                                             const RelaxedFields& fields,
-                                                             std::int32_t c,
-                                                             typename L::Floats before,
-                                                             typename L::Ints asked) {
+WEIR_ALWAYS_INLINE typename L::Floats relax_group(const RelaxTask& task,
+                                                  const RelaxedFields& fields,
+                                                  std::int32_t c,
+                                                  typename L::Floats before,
+                                                  typename L::Ints asked) {
     const std::ptrdiff_t stride = fields.stride;
     float* const p = fields.pressure;
     const auto zero = L::all(0.0F);

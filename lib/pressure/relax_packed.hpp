@@ -62,7 +62,7 @@ inline std::int32_t neighbours_in_open(const Real* at, std::int32_t stride) {
 inline std::int32_t less_diagonal(std::int32_t from, std::int32_t diagonal,
                                   std::int32_t pressure) {
     const std::int32_t high = (pressure >> 14) * diagonal;
-    if (__builtin_expect(static_cast<std::uint32_t>((high >> 22) + 1) > 1U, 0)) {
+    if (WEIR_SELDOM(static_cast<std::uint32_t>((high >> 22) + 1) > 1U)) {
         return less_much(from, diagonal, pressure);
     }
     return from - (high * 128 + (((pressure & 0x3FFF) * diagonal) >> 7));
@@ -91,9 +91,9 @@ inline std::int32_t relaxed(std::int32_t here, std::int32_t residual, std::int32
 /// A cell with no weight in between: `Sides` of its faces are open, and liquid is behind each.
 /// In two's complement: with pressures at their limits sums may wrap around, and are limited.
 template <int Sides, class Real>
-[[gnu::always_inline]] inline void relax_plain(Real* here, std::uint32_t around,
-                                               std::int32_t divergence, std::int32_t factor,
-                                               std::int32_t half) {
+WEIR_ALWAYS_INLINE void relax_plain(Real* here, std::uint32_t around,
+                                    std::int32_t divergence, std::int32_t factor,
+                                    std::int32_t half) {
     const std::uint32_t flow = static_cast<std::uint32_t>(divergence) * 512U;
     const std::uint32_t pulled = Sides * static_cast<std::uint32_t>(here->raw);
     here->raw = relaxed(here->raw, static_cast<std::int32_t>(around - flow - pulled),
@@ -116,11 +116,11 @@ inline constexpr Inverses kInverses;
 
 /// ω / n in 256ths without a division: of a diagonal rounded up to a 32nd of 2048, or an eighth.
 inline std::int32_t coarse_factor(std::int32_t step, std::int32_t diagonal) {
-    if (__builtin_expect(diagonal > 2048, 0)) {
+    if (WEIR_SELDOM(diagonal > 2048)) {
         return (step * kInverses.of[minimum(((diagonal >> 3) + 31) >> 5, 64)]) >> 19;
     }
     const std::int32_t factor = (step * kInverses.of[(diagonal + 31) >> 5]) >> 16;
-    return __builtin_expect(factor > 511, 0) ? 511 : factor;
+    return WEIR_SELDOM(factor > 511) ? 511 : factor;
 }
 
 /// What a row's cells are relaxed with. (One place for all of it: five arguments are a call's price
@@ -159,8 +159,8 @@ template <bool Solids, class Real>
 
 /// Relaxes cells c, c + 2 … of a row.
 template <bool Solids, class Real>
-[[gnu::always_inline]] inline void relax_packed_row(const PackedRelaxTask<Real>& task,
-                                                    std::int32_t c) {
+WEIR_ALWAYS_INLINE void relax_packed_row(const PackedRelaxTask<Real>& task,
+                                         std::int32_t c) {
     const PressureFields<Real>& fields = task.fields;
     Real* here = fields.pressure + c;
     const VelocityOf<Real>* diagonal = fields.inverse_diagonal + c;

@@ -139,7 +139,7 @@ bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Re
 inline std::uint32_t shifting_of(const DimpleTask& task, std::int32_t c, std::uint32_t asked) {
     std::uint32_t found = 0;
     for (; task.walls.moving != nullptr && asked != 0; asked &= asked - 1U) {
-        const std::int32_t k = __builtin_ctz(asked);
+        const std::int32_t k = WEIR_TRAILING_ZEROS(asked);
         if (task.walls.moving->shifts(task.walls, c + k, c + k + task.stride)) {
             found |= 1U << static_cast<std::uint32_t>(k);
         }

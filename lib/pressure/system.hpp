@@ -33,9 +33,9 @@ inline Real surface_share(Real weight, Real open, Real level, std::int32_t neigh
 
 /// Sum of what a liquid cell's faces add to its diagonal.
 template <bool Solids, bool Mixed, class Real>
-[[gnu::always_inline]] inline Real diagonal_of(const FaceWeights<Solids, Mixed, Real>& weights,
-                                               std::int32_t i, std::int32_t j,
-                                               const PressureFields<Real>& fields) {
+WEIR_ALWAYS_INLINE Real diagonal_of(const FaceWeights<Solids, Mixed, Real>& weights,
+                                    std::int32_t i, std::int32_t j,
+                                    const PressureFields<Real>& fields) {
     const std::int32_t c = weights.grid.shape.index(i, j);
     const std::int32_t up = c + weights.grid.shape.stride;
     const std::int32_t down = c - weights.grid.shape.stride;
@@ -52,7 +52,7 @@ template <bool Solids, bool Mixed, class Real>
 /// What flows out of it, less what is asked for and what pressure on the surface answers. `wide`:
 /// all its faces are.
 template <bool Solids, bool Mixed, class Real>
-[[gnu::always_inline]] inline Real divergence_of(
+WEIR_ALWAYS_INLINE Real divergence_of(
     const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t i, std::int32_t j, bool wide,
     const Leap<Real>& leap, const PressureFields<Real>& fields) {
     const Walls<Real>& walls = weights.walls;
@@ -188,7 +188,7 @@ inline void add_wall_flow(const RowTask& task, std::int32_t c, std::uint32_t ask
     const GridShape& s = task.grid.shape;
     const Walls<float>& walls = *task.walls;
     for (; asked != 0; asked &= asked - 1U) {
-        const std::int32_t k = __builtin_ctz(asked);
+        const std::int32_t k = WEIR_TRAILING_ZEROS(asked);
         if ((wide >> static_cast<std::uint32_t>(k) & 1U) == 0 || touches_wall(walls, c + k)) {
             divergence[k] +=
                 walls.moving->flow(s, walls, c + k - s.index(0, task.j), task.j);

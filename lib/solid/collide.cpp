@@ -130,9 +130,9 @@ template <class Real>
 
 /// A particle near the contour of a solid, to which it stands so. False: it has no way out.
 template <class Real>
-[[gnu::always_inline]] inline bool meet_at(Scene<Real>& scene, std::int32_t k,
-                                           const Standing<Real>& at, Vec2<Real> before,
-                                           Went went) {
+WEIR_ALWAYS_INLINE bool meet_at(Scene<Real>& scene, std::int32_t k,
+                                const Standing<Real>& at, Vec2<Real> before,
+                                Went went) {
     if (scene.walls.binary) {
         scene.result.reflected += at.inside ? 1 : 0;
         return !at.inside || set_back(scene, k, at, before, false);
@@ -267,7 +267,7 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
         const std::uint32_t all = (1U << minimum(8, near.count - next)) - 1U;
         for (std::uint32_t left = all & ~clear_of_eight(task, near, next); left != 0;
              left &= left - 1U) {
-            const std::int32_t n = near.n[next + __builtin_ctz(left)];
+            const std::int32_t n = near.n[next + WEIR_TRAILING_ZEROS(left)];
             const Vec2<float> before(flight.before[n]);
             const Standing<float> at = standing_near(s, scene.walls, position[n]);
             scene.result.tested -= at.which == kCellOutside ? 1 : 0;

@@ -225,9 +225,9 @@ bool is_inside_in(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> x
 /// Of a point that is not clearly outside, in a cell of a case that is known. One that is solid all
 /// over holds no open point, also where all its nodes lie on the outline.
 template <class Real>
-[[gnu::always_inline]] inline void stand_near(const GridShape& shape, const Walls<Real>& walls,
-                                              const CellView<Real>& cell, Vec2<Real> x,
-                                              Standing<Real>& at) {
+WEIR_ALWAYS_INLINE void stand_near(const GridShape& shape, const Walls<Real>& walls,
+                                   const CellView<Real>& cell, Vec2<Real> x,
+                                   Standing<Real>& at) {
     at.hit = hit_in(cell, at.which);
     at.inside = at.hit.distance < Real(0) || (at.which == kCellInside && !walls.binary);
     if (at.inside && at.which != kCellInside && !walls.binary) {

@@ -24,13 +24,13 @@ struct CasesAt {
 using PlaceOfParticle = Vec2<PositionOf<SmallFixed>>;
 
 /// Whether a particle went further than half a cell, or as far up or right: both axes at once.
-[[gnu::always_inline]] inline bool goes_further(std::uint32_t from, std::uint32_t to) {
+WEIR_ALWAYS_INLINE bool goes_further(std::uint32_t from, std::uint32_t to) {
     return ((to - from + 0x00800080U) & 0xFF00FF00U) != 0;
 }
 
 /// Whether it went further than `than` along an axis, 256ths.
-[[gnu::always_inline]] inline bool goes_beyond(std::uint32_t from, std::uint32_t to,
-                                               std::uint32_t than) {
+WEIR_ALWAYS_INLINE bool goes_beyond(std::uint32_t from, std::uint32_t to,
+                                    std::uint32_t than) {
     const std::uint32_t along_x = (to & 0xFFFFU) - (from & 0xFFFFU);
     const std::uint32_t along_y = (to >> 16U) - (from >> 16U);
     return along_x + than > 2 * than || along_y + than > 2 * than;

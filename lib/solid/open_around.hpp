@@ -11,7 +11,7 @@ inline bool are_zero(const std::uint8_t* bytes, std::int32_t count) {
     std::int32_t k = 0;
     for (; k + 8 <= count; k += 8) {
         std::uint64_t eight;
-        __builtin_memcpy(&eight, bytes + k, sizeof eight);
+        WEIR_COPY_BYTES(&eight, bytes + k, sizeof eight);
         any |= eight;
     }
     for (; k < count; ++k) {

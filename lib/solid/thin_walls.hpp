@@ -100,7 +100,7 @@ inline std::int32_t next_marked(const ThinWalls<Real>* thin, const GridShape& s,
         const std::uint8_t* at = marks + first;
         auto all = columns;
         for (std::int32_t j = 0; j <= rows; ++j, at += s.stride) {
-            __builtin_memcpy(&columns, at, sizeof columns);
+            WEIR_COPY_BYTES(&columns, at, sizeof columns);
             all = static_cast<decltype(all)>(all | columns);
         }
         return all;

@@ -160,7 +160,7 @@ inline void for_each_near(const GridShape& shape, const Walls<Real>& walls, cons
             }
 #else
             for (; left != 0; left &= left - 1U) {
-                visit(32 * k + __builtin_ctz(left), j);
+                visit(32 * k + WEIR_TRAILING_ZEROS(left), j);
             }
 #endif
         }

@@ -170,7 +170,7 @@ struct BothMirrors {
         const std::uint32_t all = (1U << count) - 1U;
         std::uint32_t found = mirrors.wet & all;
         for (std::uint32_t dry = found ^ all; dry != 0; dry &= dry - 1U) {
-            const std::int32_t k = __builtin_ctz(dry);
+            const std::int32_t k = WEIR_TRAILING_ZEROS(dry);
             if (look_again(of.axis, faces, mirrors, k)) {
                 found |= 1U << static_cast<std::uint32_t>(k);
             }
@@ -185,7 +185,7 @@ struct BothMirrors {
             mirror_faces<FourLanes, OnU>(task, faces.face, mirrors, changes);
         }
         for (; found != 0; found &= found - 1U) {
-            const std::int32_t k = __builtin_ctz(found);
+            const std::int32_t k = WEIR_TRAILING_ZEROS(found);
             of.hold(faces.column[k], faces.row[k], changes.now[k], changes.was[k]);
         }
     }
@@ -214,7 +214,7 @@ struct BothMirrors {
                  std::uint32_t which, std::int32_t j) {
         MirrorFaces& faces = OnU ? waiting_u : waiting_v;
         for (; which != 0; which &= which - 1U) {
-            const std::int32_t k = __builtin_ctz(which);
+            const std::int32_t k = WEIR_TRAILING_ZEROS(which);
             faces.add(first + k, from + k, j);
             if (faces.count == task.at_once) {
                 in_lanes<OnU>(task, faces);
@@ -270,7 +270,8 @@ struct BothMirrors {
         const std::uint32_t* near = first_near(s, walls, j);
         for (std::int32_t k = 0; 32 * k < s.nx; ++k) {
             for (std::uint32_t left = near[k]; left != 0;) {
-                const std::uint32_t eight = static_cast<std::uint32_t>(__builtin_ctz(left)) & ~7U;
+                const auto lowest = static_cast<std::uint32_t>(WEIR_TRAILING_ZEROS(left));
+                const std::uint32_t eight = lowest & ~7U;
                 add_eight(task, 32 * k + static_cast<std::int32_t>(eight), left >> eight & 0xFFU,
                           j);
                 left &= ~(0xFFU << eight);

@@ -99,7 +99,7 @@ inline void for_each_depth(const GridShape& s, const LevelOf<Real>* level, const
 template <class Visit>
 inline void for_each_bit(std::uint32_t bits, std::int32_t place, const Visit& visit) {
     for (; bits != 0; bits &= bits - 1U) {
-        visit(place + __builtin_ctz(bits), bits & (0U - bits));
+        visit(place + WEIR_TRAILING_ZEROS(bits), bits & (0U - bits));
     }
 }
 

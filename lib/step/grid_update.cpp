@@ -21,7 +21,7 @@ using AliasedRaw [[gnu::may_alias]] = std::int32_t;
 template <class Real>
 inline Real momentum_at(const Real* momentum, std::int32_t face) {
     Real value;
-    __builtin_memcpy(&value, momentum + face, sizeof value);
+    WEIR_COPY_BYTES(&value, momentum + face, sizeof value);
     return value;
 }
 

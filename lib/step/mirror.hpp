@@ -297,9 +297,9 @@ bool from_other_side(const FaceAxis<Real>& axis, const Edge<Real>& edge, Vec2<Re
 
 /// Whether a face is to take its velocity from elsewhere: a look at most of them.
 template <class Real>
-[[gnu::always_inline]] inline bool wants_image(const FaceAxis<Real>& axis,
-                                               const PressureFields<Real>& fields,
-                                               std::int32_t face) {
+WEIR_ALWAYS_INLINE bool wants_image(const FaceAxis<Real>& axis,
+                                    const PressureFields<Real>& fields,
+                                    std::int32_t face) {
     const Real open = axis.open()[face];
     if (is_positive(open) && axis.walls.sticking == nullptr) {
         return false;

@@ -70,7 +70,7 @@ Extent<float> extent(const Particles<float>& particles) {
         std::uint32_t span = 0;
         void add(float place) {
             const auto key = static_cast<std::uint32_t>(bound_key(place));
-            if (__builtin_expect(key - low > span, 0)) {  // a branch costs less than choices
+            if (WEIR_SELDOM(key - low > span)) {  // a branch costs less than choices
                 span = key < low ? span + (low - key) : key - low;
                 low = minimum(low, key);
             }

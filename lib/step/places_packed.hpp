@@ -25,7 +25,7 @@ static_assert(Real(Place::of_raw(1)).raw == 256, "places are 256ths");
 static_assert(Real(Speed::of_raw(1)).raw == 512, "velocities are 128ths");
 static_assert(Stored<Real>::particle_mass == 2, "256 units of mass a particle");
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "x stands first");
+static_assert(kLittleEndian, "x stands first");
 
 /// From the faces of a kind to the corners of the cells that they are in the middle of.
 template <bool OnU>

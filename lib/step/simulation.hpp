@@ -52,19 +52,19 @@ struct Simulation {
     Particles<Real> particles;
     StaggeredGrid<Real> grid;  ///< between substeps of the whole tank
     SmallShape occupied;       ///< what the last substep worked on
-    [[no_unique_address]] Window<Real> window;
+    WEIR_NO_UNIQUE_ADDRESS Window<Real> window;
     PressureFields<Real> pressure;
     BodyTable<Real> bodies;
     Layers<Real> layers;
     Seconds<Real> walls_behind_s{};  ///< moving bodies were held for so long in the last step
     Seconds<Real> walls_moved_s{};   ///< and moved on for so long in this substep
-    [[no_unique_address]] OfFreeBodies<Real, const FreeBodyStages<Real>> free_bodies =
+    WEIR_NO_UNIQUE_ADDRESS OfFreeBodies<Real, const FreeBodyStages<Real>> free_bodies =
         nullptr;  ///< null: there was none yet
-    [[no_unique_address]] OfFreeBodies<Real, Real> body_diagonal = nullptr;  ///< a cell field
+    WEIR_NO_UNIQUE_ADDRESS OfFreeBodies<Real, Real> body_diagonal = nullptr;  ///< a cell field
     Contacts<Real> contacts;
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
-    [[no_unique_address]] Fall<Real> fall;  ///< empty where velocities are no units
-    [[no_unique_address]] Look<Real> look;  ///< for particles that have met, in packed worlds
+    WEIR_NO_UNIQUE_ADDRESS Fall<Real> fall;  ///< empty where velocities are no units
+    WEIR_NO_UNIQUE_ADDRESS Look<Real> look;  ///< for particles that have met, in packed worlds
     Extent<Real> extent;       ///< of all particles
     Real max_speed = Real(0);  ///< largest speed of a particle along an axis, cells/s
     TickFunction ticks = nullptr;

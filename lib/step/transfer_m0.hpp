@@ -275,8 +275,8 @@ struct Stop {
 /// Along y, from `place` on: velocities, and there they go, up to one that does not simply go.
 /// Where they come from takes the place of the ways along x.
 /// Inline: what it is told is addressed by the stack pointer, as no register is left.
-[[gnu::always_inline]] inline Stop gather_along_v(const GatherTask& task, const WayBounds& bounds,
-                                                  const char*& place, std::int32_t& fastest) {
+WEIR_ALWAYS_INLINE Stop gather_along_v(const GatherTask& task, const WayBounds& bounds,
+                                       const char*& place, std::int32_t& fastest) {
     register std::uint32_t way __asm__("lr");
     std::uint32_t at, low, ll, ul, ur, t, z, g;
     __asm__(".syntax unified\n"

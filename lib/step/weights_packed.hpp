@@ -31,7 +31,7 @@ inline std::uint32_t upper_pair(const WeightPairs& w) {
 inline std::int32_t weighed(const Speed* low, const Speed* high, const WeightPairs& w) {
     const auto velocities = [](const Speed* at) {
         std::int32_t two = 0;
-        __builtin_memcpy(&two, at, sizeof two);
+        WEIR_COPY_BYTES(&two, at, sizeof two);
         return two;
     };
     const std::int32_t below =
@@ -104,15 +104,15 @@ inline bool add_masses(Speed* low, Speed* high, const Weighing& w) {
     // Two in a word: they are not negative, and the sums have room.
     std::uint32_t lower = 0;
     std::uint32_t upper = 0;
-    __builtin_memcpy(&lower, low, sizeof lower);
-    __builtin_memcpy(&upper, high, sizeof upper);
+    WEIR_COPY_BYTES(&lower, low, sizeof lower);
+    WEIR_COPY_BYTES(&upper, high, sizeof upper);
     if (((lower | upper) & (0x10000U - kFull) * 0x10001U) != 0) {
         return false;
     }
     lower += lower_pair(w);
     upper += upper_pair(w);
-    __builtin_memcpy(static_cast<void*>(low), &lower, sizeof lower);
-    __builtin_memcpy(static_cast<void*>(high), &upper, sizeof upper);
+    WEIR_COPY_BYTES(static_cast<void*>(low), &lower, sizeof lower);
+    WEIR_COPY_BYTES(static_cast<void*>(high), &upper, sizeof upper);
 #else
     // Looked at and read again: to keep four wants more registers than there are.
     const auto add = [](Speed& mass, std::int32_t more) {

@@ -10,7 +10,7 @@
 
 namespace weir {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+static_assert(kLittleEndian,
               "snapshots are copied as they lie in memory, lowest byte first");
 
 /// FNV-1a's two operations on whole words: each is one to one, so that a single changed word always

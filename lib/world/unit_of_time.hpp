@@ -18,7 +18,7 @@ static_assert(kMaxTopSpeedSmallFixed == 8.0F * kMaxSpeedSmallFixed);
 inline float power_of_two(std::int32_t n) {
     const std::uint32_t bits = static_cast<std::uint32_t>(127 + n) << 23U;
     float value = 0.0F;
-    __builtin_memcpy(&value, &bits, sizeof value);
+    WEIR_COPY_BYTES(&value, &bits, sizeof value);
     return value;
 }
 
@@ -30,7 +30,7 @@ std::int32_t unit_exponent_of(const WorldDef& def) {
     }
     const float room = kMaxSpeedSmallFixed * def.cell_m / def.top_speed_mps;
     std::uint32_t bits = 0;
-    __builtin_memcpy(&bits, &room, sizeof bits);
+    WEIR_COPY_BYTES(&bits, &room, sizeof bits);
     return clamp(static_cast<std::int32_t>(bits >> 23U) - 127, kShortestUnit, kLongestUnit);
 }
 

@@ -6,6 +6,10 @@
 #include <thread>
 #include <vector>
 
+#if defined(__SSE2__) || defined(_M_X64)
+#include <emmintrin.h>
+#endif
+
 #include "port/port.hpp"
 
 namespace port {
@@ -16,8 +20,8 @@ constexpr int kSpins = 4000;
 
 void pause(int spins) {
   if (spins % 256 == 255) std::this_thread::yield();
-#if defined(__SSE2__)
-  __builtin_ia32_pause();
+#if defined(__SSE2__) || defined(_M_X64)
+  _mm_pause();
 #endif
 }
 

@@ -97,14 +97,21 @@ enum class Kept : std::uint8_t {
 /// one that is near. Not in packed worlds.
 inline constexpr std::int32_t kMostInlets = 8;
 
+/// Microsoft's compilers give members that are empty a place, too.
+#if defined(_MSC_VER)
+inline constexpr std::size_t kEmptyMemberBytes = 32;
+#else
+inline constexpr std::size_t kEmptyMemberBytes = 0;
+#endif
 /// Room for records whose types are private; checked by static_assert where they are defined.
 template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
-    sizeof(Real) == 4
+    kEmptyMemberBytes +
+    (sizeof(Real) == 4
         ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 944 : 912) + (std::is_same_v<Real, Fixed> ? 16 : 0)
                               : 1312) +
               (std::is_same_v<Real, SmallFixed> ? 0 : 80)
-        : 1680;
+        : 1680);
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;

@@ -81,7 +81,7 @@ struct Features {
 
 /// A stage that also meets bodies has a second table where there is no room for any.
 template <class Real>
-[[gnu::always_inline]] inline Features<Real> features_of(const WorldDef& def) {
+WEIR_ALWAYS_INLINE Features<Real> features_of(const WorldDef& def) {
     const Capacity& room = def.capacity;
     const bool open = room.bodies == 0;
     Features<Real> features;

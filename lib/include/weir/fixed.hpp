@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "weir/inline.hpp"
+
 namespace weir {
 
 /// How a world stores numbers of a kind: `Roomy`, all of them in 32 bits, or `Packed`, as few bits
@@ -41,20 +43,20 @@ struct FixedPoint {
     static constexpr int fraction = Fraction;
 
     constexpr FixedPoint() = default;
-    [[gnu::always_inline]] static constexpr FixedPoint of_raw(std::int32_t bits) {
+    WEIR_ALWAYS_INLINE static constexpr FixedPoint of_raw(std::int32_t bits) {
         FixedPoint value;
         value.raw = bits;
         return value;
     }
 
     template <class Whole, std::enable_if_t<std::is_integral<Whole>::value, int> = 0>
-    [[gnu::always_inline]] constexpr explicit FixedPoint(Whole value)
+    WEIR_ALWAYS_INLINE constexpr explicit FixedPoint(Whole value)
         : raw(std::is_unsigned<Whole>::value && static_cast<std::uint64_t>(value) >> 63U != 0U
                   ? kMostRaw
                   : of_whole(static_cast<WholeNumber<Whole>>(value))) {}
 
     /// Meant for constants: costs double arithmetic where the compiler cannot fold it.
-    [[gnu::always_inline]] constexpr explicit FixedPoint(double value) {
+    WEIR_ALWAYS_INLINE constexpr explicit FixedPoint(double value) {
         const double scaled = value * static_cast<double>(1U << static_cast<unsigned>(Fraction));
         if (scaled >= 2147483647.0) {
             raw = kMostRaw;
@@ -81,7 +83,7 @@ struct FixedPoint {
         return static_cast<float>(raw) / static_cast<float>(1U << static_cast<unsigned>(Fraction));
     }
     /// Towards zero, as a float does.
-    [[gnu::always_inline]] constexpr explicit operator std::int32_t() const {
+    WEIR_ALWAYS_INLINE constexpr explicit operator std::int32_t() const {
         return raw >= 0 ? raw >> Fraction
                         : -static_cast<std::int32_t>((0U - static_cast<std::uint32_t>(raw)) >>
                                                      static_cast<unsigned>(Fraction));
@@ -89,7 +91,7 @@ struct FixedPoint {
 
 private:
     template <int Other>
-    [[gnu::always_inline]] static constexpr std::int32_t of_other(std::int32_t value) {
+    WEIR_ALWAYS_INLINE static constexpr std::int32_t of_other(std::int32_t value) {
         if constexpr (Other < Fraction) {
             return fixed::saturate(value * (std::int64_t{1} << (Fraction - Other)));
         } else {
@@ -103,7 +105,7 @@ private:
                                                   std::is_unsigned<Whole>::value)),
                            std::int64_t, std::int32_t>;
     template <class Whole>
-    [[gnu::always_inline]] static constexpr std::int32_t of_whole(Whole value) {
+    WEIR_ALWAYS_INLINE static constexpr std::int32_t of_whole(Whole value) {
         constexpr Whole kLimit = Whole{1} << (31 - Fraction);
         if (value >= kLimit) {
             return kMostRaw;

@@ -13,7 +13,7 @@ struct Packed {
     Bits raw = 0;
 
     constexpr Packed() = default;
-    [[gnu::always_inline]] static constexpr Packed of_raw(Bits bits) {
+    WEIR_ALWAYS_INLINE static constexpr Packed of_raw(Bits bits) {
         Packed value;
         value.raw = bits;
         return value;
@@ -24,7 +24,7 @@ struct Packed {
     template <class Number, std::enable_if_t<std::is_arithmetic<Number>::value, int> = 0>
     constexpr explicit Packed(Number value) : Packed(SmallFixed(value)) {}
 
-    [[gnu::always_inline]] constexpr operator SmallFixed() const {  // NOLINT
+    WEIR_ALWAYS_INLINE constexpr operator SmallFixed() const {  // NOLINT
         return SmallFixed::of_raw(static_cast<std::int32_t>(raw) * (1 << kShift));
     }
     constexpr explicit operator float() const {

@@ -37,13 +37,13 @@ public:
     /// Takes the caller's memory, which must outlive the world, and lays an empty tank in it.
     /// @param bytes at least `world_bytes<Real>(def.capacity)`, at a multiple of `world_alignment`.
     /// A definition that is a constant links only what it asks for (weir/features.hpp).
-    [[gnu::always_inline]] Status init(const WorldDef& def, void* memory, std::size_t bytes) {
+    WEIR_ALWAYS_INLINE Status init(const WorldDef& def, void* memory, std::size_t bytes) {
         return init_with(detail::features_of<Real>(def), def, memory, bytes);
     }
 
     /// The same for an array of bytes, or what has data() and size(): a std::array of them.
     template <class Room, std::enable_if_t<sizeof(detail::ElementOf<Room>) == 1, int> = 0>
-    [[gnu::always_inline]] Status init(const WorldDef& def, Room& memory) {
+    WEIR_ALWAYS_INLINE Status init(const WorldDef& def, Room& memory) {
         return init(def, detail::first_of(memory), detail::size_of(memory));
     }
 
