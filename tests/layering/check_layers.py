@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Proves by the #include lines that dependencies of lib/ and port/ point down only, and that files
-and functions stay readable:
+"""Proves by the #include lines that dependencies of lib/ and port/ point down only, that other
+compilers than g++ and clang++ meet none of their extensions, and that files and functions stay
+readable:
 
     check_layers.py [ROOT]
 
@@ -26,8 +27,15 @@ BELOW = {
     "world": ["step"],
 }
 # Headers that a freestanding compiler brings, or that need no code behind them.
-STANDARD = {"cstddef", "cstdint", "cstring", "new", "type_traits", "limits"}
+STANDARD = {"cstddef", "cstdint", "cstring", "new", "type_traits", "limits", "emmintrin.h"}
 PORTS_WITH_LIBC = ("port/host/",)
+# What MSVC does not know, and the conditions under which it does not see it: loops in lanes, a
+# kind of processor that it does not compile for, or base/compiler.hpp's own.
+EXTENSION = re.compile(r"\b(__builtin_\w+|__attribute__|__asm__|asm|__restrict\w*|__typeof\w*|typeof|"
+                       r"__int128|__atomic_\w+|__sync_\w+)\b")
+NOT_FOR_ALL = re.compile(r"\b(WEIR_GNU_COMPILER|WEIR_HAS_\w*|WEIR_LOOPS_OF_M0|__ARM_\w+|__thumb2__|"
+                         r"__SSE2__)\b")
+FOR_ALL = ("lib/", "port/host/", "port/include/")
 LONGEST_LINE = 100
 LONGEST_FILE = 400
 LONGEST_FUNCTION = 80
@@ -134,6 +142,28 @@ def function_lengths(lines):
                     yield start, number - start + 1
 
 
+def check_extensions(path, lines):
+    """Each open #if: whether its present part is for some compilers or processors only."""
+    open_parts = []
+    for number, line in enumerate(lines, 1):
+        directive = re.match(r"\s*#\s*(if|ifdef|ifndef|elif|else|endif)\b(.*)", line)
+        if directive:
+            word, condition = directive.groups()
+            for following in lines[number:] if line.endswith("\\") else []:
+                condition += following
+                if not following.endswith("\\"):
+                    break
+            if word in ("elif", "else", "endif") and open_parts:
+                open_parts.pop()
+            if word != "endif":
+                positive = re.sub(r"!\s*(defined\s*\(\s*)?\w+", "", condition)
+                narrow = word != "ifndef" and NOT_FOR_ALL.search(positive) is not None
+                open_parts.append(narrow)
+        found = EXTENSION.search(re.sub(r'"(\\.|[^"\\])*"|//.*', "", line))
+        if found and not directive and not any(open_parts):
+            yield f"{path}:{number}: {found.group(0)}: MSVC does not know it (base/compiler.hpp)"
+
+
 def check_size(path, lines):
     if len(lines) > LONGEST_FILE:
         yield f"{path}: {len(lines)} lines, at most {LONGEST_FILE}"
@@ -152,6 +182,8 @@ def offences(root):
             with open(os.path.join(root, path), encoding="utf-8") as file:
                 lines = file.read().splitlines()
             yield from check_size(path, lines)
+            if path.startswith(FOR_ALL):
+                yield from check_extensions(path, lines)
             yield from check_library(path, lines, seen) if top == "lib" else check_port(path, lines)
     yield from cycles(seen)
     if not seen:

@@ -53,6 +53,19 @@ class OffenceTest(unittest.TestCase):
     def test_port_includes_private(self):
         self.expect({"port/template/p.cpp": '#include "math/a.hpp"\n'}, "public headers only")
 
+    def test_extensions(self):
+        for text in ("x = __builtin_ctz(y);", '__asm__("" : "+r"(x));', "int* __restrict p;",
+                     "using L = float __attribute__((vector_size(16)));",
+                     "#if WEIR_GNU_COMPILER\n#else\n__int128 x;\n#endif",
+                     "#if !WEIR_GNU_COMPILER\n__int128 x;\n#endif",
+                     "#if WEIR_HAS_LANES\n#endif\n__int128 x;"):
+            self.expect({"lib/math/m.hpp": text + "\n"}, "MSVC does not know it")
+            self.expect({"port/host/p.cpp": text + "\n"}, "MSVC does not know it")
+        for condition in ("WEIR_HAS_LANES", "defined(__ARM_ARCH_6M__)", "WEIR_GNU_COMPILER"):
+            self.assertEqual(self.found({
+                "lib/math/m.hpp": f"#if {condition}\nx = __builtin_ctz(y);\n#endif\n",
+                "port/cortex_m/p.cpp": "asm volatile();\n"}), [])
+
     def test_lengths(self):
         body = "void f() {\n" + "    g();\n" * 79 + "}\n"
         self.expect({"lib/math/m.cpp": "namespace weir {\n" + body + "}\n"}, "81 lines")
