@@ -1,14 +1,18 @@
 #include "solid/films.hpp"
 
+#include "solid/body_force.hpp"
 #include "solid/contour_hit.hpp"
 
 namespace weir {
 
 namespace {
 
-/// From a wall to the cell before it, cells.
-template <class Real>
-constexpr Face<Real> kHair = Face<Real>(1.0 / 64.0);
+/// Liquid is looked for so far beside and above a body's lowest points, and beyond, cells.
+constexpr double kBeside = 0.3;
+
+/// In place of a cell.
+constexpr std::int32_t kSolidBeside = -1;
+constexpr std::int32_t kAirBeside = -2;
 
 template <class Real>
 class Films {
@@ -24,18 +28,18 @@ public:
             return;
         }
         *link = -1;
-        list_.for_each_face([&](Meeting<Real>* meeting, std::int32_t count) {
-            const std::uint16_t other = meeting[0].other;
-            if (other != kNoBody && is_free_body(obstacles_.bodies, other)) {
-                return;
+        for (Meeting<Real>* first = list_.begin(); first != list_.end();) {
+            Meeting<Real>* last = first;
+            while (last + 1 != list_.end() && list_.of_one_face(*first, last[1])) {
+                ++last;
             }
-            const Wide<Real> way = meeting[count - 1].at - meeting[0].at;
-            const Number size = length(way);
-            if (meeting[0].gap < kWidestFilm<Real> && meeting[count - 1].gap < kWidestFilm<Real> &&
-                size > Number(0)) {
-                lay((Number(1) / size) * way, size, meeting, link);
+            const bool free =
+                first->other != kNoBody && is_free_body(obstacles_.bodies, first->other);
+            if (!free && minimum(first->gap, last->gap) < kWidestFilm<Real>) {
+                lay(first, last, link);
             }
-        });
+            first = last + 1;
+        }
     }
 
 private:
@@ -51,10 +55,9 @@ private:
         const std::int32_t cell = s.index(floor_to_int(x.x), floor_to_int(x.y));
         return obstacles_.walls.cell_case[cell] == kCellInside ? -1 : cell;
     }
-    /// The same if it has a pressure.
-    std::int32_t wet_cell_at(Wide<Real> x) const {
-        const std::int32_t cell = open_cell_at(x);
-        return cell >= 0 && cells_.level[cell] > Real(0) && !is_closed(cell) ? cell : -1;
+    /// Whether a cell has a pressure.
+    bool is_wet(std::int32_t cell) const {
+        return cells_.level[cell] > Real(0) && !is_closed(cell);
     }
     bool is_closed(std::int32_t cell) const {
         const Walls<Real>& walls = obstacles_.walls;
@@ -63,82 +66,127 @@ private:
                shut(walls.open_v[cell]) && shut(walls.open_v[cell + obstacles_.tank.stride]);
     }
 
-    /// How much of a face the liquid in the cell at a place presses on, if the face has so much of
-    /// the cell: what the contour shows, or all where it shows no solid.
-    Number shown_at(Wide<Real> x, const Meeting<Real>& end, std::int32_t cell, Number most) const {
-        const std::int32_t i = floor_to_int(x.x);
-        const std::int32_t j = floor_to_int(x.y);
-        const auto inner = convert<Real>(x);
-        const Stencil<Real> at{cell, inner.x - static_cast<Real>(i),
-                               inner.y - static_cast<Real>(j)};
-        if (interpolate(obstacles_.walls.distance, obstacles_.tank.stride, at) > Real(0)) {
-            return most;
+    NodeBox box_of(const Meeting<Real>& point) const {
+        return cells_of(obstacles_.tank, obstacles_.bodies.body[point.slot].drawn);
+    }
+
+    /// Where points of a body are before one plane.
+    struct Strip {
+        Wide<Real> middle;  ///< as far from the plane as the nearest point
+        Wide<Real> along;
+        Number half;        ///< of its length
+    };
+    Strip strip_of(const Meeting<Real>* first, const Meeting<Real>* last) const {
+        const Meeting<Real>* nearest = first;
+        const Wide<Real> along = first->side();
+        Number low = Number(0);
+        Number high = Number(0);
+        for (const Meeting<Real>* one = first; one <= last; ++one) {
+            const Number place = dot(along, one->at - first->at);
+            low = minimum(low, place);
+            high = maximum(high, place);
+            nearest = one->gap < nearest->gap ? one : nearest;
         }
-        Wide<Real> pressed{};
-        for_each_closed_face(obstacles_.tank, obstacles_.walls, i, j,
-                             [&](const ClosedFace<Real>& face) {
-                                 if (face.slot == end.slot) {
-                                     pressed = pressed + convert<Number>(face.outward);
-                                 }
-                             });
-        return clamp(dot(pressed, end.normal), Number(0), most);
+        const Number to = Number(0.5) * (low + high) - dot(along, nearest->at - first->at);
+        return {nearest->at + to * along, along, Number(0.5) * (high - low)};
     }
 
-    /// How far it is from a place to the end of its cell.
-    static Number way_out(Number x, Number way) {
-        const auto low = static_cast<Number>(floor_to_int(x));
-        return way > Number(0) ? (low + Number(1) - x) / way
-                               : (way < Number(0) ? (low - x) / way : Number(kLooksUnder));
-    }
-
-    /// How much of a face cells press on from one of its ends, and the last of them. Looks halfway
-    /// between the face and what it lies on.
-    Number shown_from(const Meeting<Real>& end, Wide<Real> inwards, Number steeper, Number most,
-                      std::int32_t& last) const {
-        Number shown = Number(0);
-        Number way = Number(0);
-        for (std::int32_t look = 0; look < kLooksUnder && way < most; ++look) {
-            const Number ahead = way + kHair<Real>;
-            const Number gap = end.gap + ahead * steeper;
-            const Wide<Real> x = end.at + ahead * inwards - (Number(0.5) * gap) * end.normal;
-            const std::int32_t cell = wet_cell_at(x);
-            if (cell < 0) {
+    /// The first cell with a pressure beyond an end of a strip; else whether there is air or solid.
+    std::int32_t cell_beside(const Strip& strip, const Meeting<Real>& point, Number way) const {
+        const NodeBox box = box_of(point);
+        std::int32_t found = kSolidBeside;
+        Number out = strip.half + Number(kBeside);
+        for (std::int32_t look = 0; look < kLooksUnder; ++look) {
+            const Wide<Real> x =
+                strip.middle + (way * out) * strip.along + Number(kBeside) * point.normal;
+            const std::int32_t cell = open_cell_at(x);
+            if (cell < 0 || !is_in(box, floor_to_int(x.x), floor_to_int(x.y))) {
                 break;
             }
-            last = cell;
-            const Number next =
-                minimum(most, ahead + minimum(way_out(x.x, inwards.x), way_out(x.y, inwards.y)));
-            shown += shown_at(x, end, cell, next - way);
-            way = next;
+            if (is_wet(cell)) {
+                return cell;
+            }
+            found = kAirBeside;
+            out += Number(1);
         }
-        return shown;
+        return found;
+    }
+    /// Only what is in a body's rectangle is solved with it.
+    static bool is_in(const NodeBox& box, std::int32_t i, std::int32_t j) {
+        return i >= box.i0 && i <= box.i1 && j >= box.j0 && j <= box.j1;
     }
 
-    /// To both ends of a face its half of the film, or all to the one that is open.
-    void lay(Wide<Real> way, Number size, Meeting<Real>* meeting, std::int32_t*& link) const {
-        constexpr Number kBeside = Number(0.3);
-        const Wide<Real> out[2] = {Number(-1) * way, way};
-        std::int32_t cell[2];
-        for (std::int32_t k = 0; k < 2; ++k) {
-            cell[k] = open_cell_at(meeting[k].at + kBeside * (out[k] + meeting[k].normal));
+    /// What is to press on one half of an underside, and its first moment along the strip.
+    struct Missing {
+        Number size = Number(0);
+        Number turn = Number(0);
+
+        void take(Missing& other) {
+            size += other.size;
+            turn += other.turn;
+            other = Missing{};
         }
+    };
+
+    /// What closes the body with what cells press on. What cells without liquid do above the
+    /// lowest points counts as pressed: that is air.
+    void close(const Strip& strip, const Meeting<Real>& point, Missing (&missing)[2]) const {
+        const GridShape& s = obstacles_.tank;
+        const NodeBox box = box_of(point);
+        for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+            for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+                const Wide<Real> centre{static_cast<Number>(i) + Number(0.5),
+                                        static_cast<Number>(j) + Number(0.5)};
+                const Wide<Real> arm = centre - strip.middle;
+                const Number place = dot(arm, strip.along);
+                const std::int32_t cell = s.index(i, j);
+                if (absolute(place) > strip.half + Number(1) ||
+                    untouched(obstacles_.walls, cell, cell + s.stride)) {
+                    continue;
+                }
+                Number up = Number(0);
+                for_each_closed_face(s, obstacles_.walls, i, j, [&](const ClosedFace<Real>& face) {
+                    if (face.slot == point.slot) {
+                        up += dot(convert<Number>(face.outward), point.normal);
+                    }
+                });
+                const bool low = dot(arm, point.normal) < Number(0.5 + kBeside);
+                if (!(up > Number(0) && low) || is_wet(cell)) {
+                    Missing& half = missing[place > Number(0) ? 1 : 0];
+                    half.size -= up;
+                    half.turn -= up * place;
+                }
+            }
+        }
+    }
+
+    /// To both ends its half, or all to the one that is open. A single point has room for one.
+    void lay(Meeting<Real>* first, Meeting<Real>* last, std::int32_t*& link) const {
+        const Strip strip = strip_of(first, last);
+        const std::int32_t cell[2] = {cell_beside(strip, *first, Number(-1)),
+                                      cell_beside(strip, *first, Number(1))};
+        if (cell[0] < 0 && cell[1] < 0) {
+            return;
+        }
+        Missing missing[2];
+        close(strip, *first, missing);
+        const std::int32_t wet = cell[0] >= 0 ? 0 : 1;
+        if (first == last || cell[1 - wet] == kSolidBeside) {
+            missing[wet].take(missing[1 - wet]);
+        }
+        const Number most = strip.half + Number(1);
         for (std::int32_t k = 0; k < 2; ++k) {
-            Meeting<Real>& end = meeting[k];
-            if (cell[k] < 0 || !(cells_.level[cell[k]] > Real(0))) {
+            if (cell[k] < 0 || !(missing[k].size > Number(0))) {
                 continue;
             }
-            const Number most = cell[1 - k] >= 0 ? Number(0.5) * size : size;
-            end.film_cell = cell[k];
-            const Wide<Real> inwards = Number(-1) * out[k];
-            const Number steeper = (meeting[1 - k].gap - end.gap) / size;
-            const Number shown = shown_from(end, inwards, steeper, most, end.film_cell);
-            end.film = most - shown;
-            end.middle = end.at + (Number(0.5) * (most + shown)) * inwards;
-            if (end.film > Number(0)) {
-                *link = static_cast<std::int32_t>(&end - list_.entry);
-                link = &end.next_film;
-                *link = -1;
-            }
+            Meeting<Real>& point = k == 0 ? *first : *last;
+            point.film_cell = cell[k];
+            point.film = missing[k].size;
+            const Number place = clamp(missing[k].turn / missing[k].size, -most, most);
+            point.middle = strip.middle + place * strip.along;
+            *link = static_cast<std::int32_t>(&point - list_.entry);
+            link = &point.next_film;
+            *link = -1;
         }
     }
 

@@ -1,16 +1,17 @@
-// Films of liquid under faces of free bodies that lie on something that is not free: a cell shows
-// nothing of so narrow a gap, or counts as air.
+// Films of liquid under free bodies that lie on something that is not free: a cell shows nothing of
+// so narrow a gap, or counts as air.
 //
-// From each end of such a face inwards, as far as cells beneath hold liquid, their pressure lifts
-// the body as any. What is left to the middle has the pressure of the last of these cells, or of
-// the one before the end, and draws from it what the body's motion makes room for.
+// A body is closed: what cells press on from above and from below is the same, in whichever
+// direction. What is missing below, where it lies, has the pressure of the next cells of liquid on
+// both sides, and draws from them what the body's motion makes room for. So a body that the
+// contour does not show has no film, and none is lifted by cells and film alike.
 #pragma once
 
 #include "solid/obstacles.hpp"
 
 namespace weir {
 
-/// A face is followed so many cells far at most.
+/// So many cells liquid is looked for beside a body at most.
 inline constexpr std::int32_t kLooksUnder = 16;
 
 /// To the points that were found, once a substep. Wants to know where liquid is.

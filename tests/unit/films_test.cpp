@@ -1,7 +1,8 @@
-// Free bodies that lie flat on something, where no cell under them holds liquid: light ones rise all
+// Free bodies that lie on something, where no cell under them holds liquid: light ones rise all
 // the same, wherever their corners are in the cells, and heavy ones do not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "test_world.hpp"
@@ -33,11 +34,16 @@ public:
         expect_ok(world_->fill({{0, 0}, {24 * kCell, 12 * kCell}}));
         for (int step = 0; step < 300; ++step) {
             world_->step(kDt);
+            const float up = motion_of(*world_, id).position_m.y - at.y;
+            highest_ = std::max(highest_, static_cast<double>(up / kCell));
         }
         EXPECT_GT(volume_left(*world_), 0.98);
         const auto up = static_cast<double>(motion_of(*world_, id).position_m.y - at.y);
         return up / static_cast<double>(kCell);
     }
+
+    /// And at most.
+    double highest() const { return highest_; }
 
 private:
     static WorldDef tank() {
@@ -46,6 +52,7 @@ private:
         return def;
     }
     TestWorld<Real> world_;
+    double highest_ = 0.0;
 };
 
 TYPED_TEST(Films, LiftCratesFromTheFloor) {
@@ -64,22 +71,45 @@ TYPED_TEST(Films, LiftCratesFromTheFloor) {
 }
 
 /// However small, flat or round they are. As long as liquid under a face's middle ended its film,
-/// crate and plate stayed where they were.
+/// crate and plate stayed where they were; as long as films lay under single edges, the others did.
 TYPED_TEST(Films, LiftWhateverLiesOnTheFloor) {
     struct Shape {
         const char* name;
         Ring ring;
         float height;  ///< of its middle
+        float x;
+        float light;
     };
-    constexpr float kHalf = 0.3926991F;  // of a side of the wheel, on which it stands
-    const Shape shapes[] = {
-        {"crate", rectangle(0.03F, 0.03F), 0.015F},
-        {"plate", rectangle(0.16F, 0.012F), 0.006F},
-        {"wheel", regular_polygon(8, 0.06F, kHalf), 0.06F * std::cos(kHalf)}};
+    constexpr float kPi = 3.1415927F;
+    const auto standing = [](const char* name, int corners, float radius, float x, float light) {
+        const float half = kPi / static_cast<float>(corners);  // of a side, on which it stands
+        return Shape{name, regular_polygon(corners, radius, half - 0.5F * kPi),
+                     radius * std::cos(half), x, light};
+    };
+    const Shape shapes[] = {{"crate", rectangle(0.03F, 0.03F), 0.015F, 0.24F, 0.5F},
+                            {"plate", rectangle(0.16F, 0.012F), 0.006F, 0.24F, 0.5F},
+                            {"cell", rectangle(0.02F, 0.02F), 0.01F, 0.2337F, 0.5F},
+                            standing("small wheel", 7, 0.025F, 0.24F, 0.5F),
+                            standing("nut", 6, 0.04F, 0.2433F, 0.8F),
+                            standing("wheel", 8, 0.06F, 0.24F, 0.5F),
+                            standing("ball", 24, 0.06F, 0.2433F, 0.8F)};
     for (const Shape& shape : shapes) {
-        const Vec2f at{0.24F, shape.height};
-        EXPECT_GT(Tank<TypeParam>().rise(shape.ring, at, 0.5F), 5.0) << shape.name;
+        const Vec2f at{shape.x, shape.height};
+        EXPECT_GT(Tank<TypeParam>().rise(shape.ring, at, shape.light), 5.0) << shape.name;
         EXPECT_NEAR(Tank<TypeParam>().rise(shape.ring, at, 2.0F), 0.0, 0.01) << shape.name;
+    }
+}
+
+/// Nor may cells and film lift the same: heavy stones leapt by 5 cells.
+TYPED_TEST(Films, LiftNothingHeavyFromALedge) {
+    for (const float width : {0.01F, 0.03F, 0.07F}) {
+        for (const float height : {0.012F, 0.02F}) {
+            Tank<TypeParam> tank;
+            tank.put_ledge(0.1F);
+            const Ring stone = rectangle(width, height);
+            tank.rise(stone, {0.24F, 0.1F + 0.5F * height}, 2.0F);
+            EXPECT_LT(tank.highest(), 0.05) << width << " by " << height;
+        }
     }
 }
 
