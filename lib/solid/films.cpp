@@ -174,6 +174,12 @@ private:
         if (first == last || cell[1 - wet] == kSolidBeside) {
             missing[wet].take(missing[1 - wet]);
         }
+        // What one half shows too much of, the other lacks less.
+        for (std::int32_t k = 0; k < 2; ++k) {
+            if (missing[k].size < Number(0)) {
+                missing[1 - k].take(missing[k]);
+            }
+        }
         const Number most = strip.half + Number(1);
         for (std::int32_t k = 0; k < 2; ++k) {
             if (cell[k] < 0 || !(missing[k].size > Number(0))) {

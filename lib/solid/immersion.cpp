@@ -11,9 +11,6 @@ namespace {
 /// and nothing else: the pressure beside it turns it, and it takes no liquid along.
 constexpr double kMissed = 1.0 / 8.0;
 
-/// What a film lifts anyway, cells² for each of its length.
-constexpr double kUnderFilm = 1.0 / 4.0;
-
 /// So much of its weight that lifts at most: of light bodies corners matter less.
 constexpr double kMostLift = 0.5;
 
@@ -128,19 +125,6 @@ Around<Real> around_of(const Obstacles<Real>& obstacles, const PressedCells<Real
     return around;
 }
 
-/// How long the films under a body are: they go to its corners, and lift them.
-template <class Real>
-Face<Real> film_under(const Obstacles<Real>& obstacles, std::uint16_t slot) {
-    const Face<Real> half = Face<Real>(-0.5) * length(obstacles.fall);
-    Face<Real> sum = Face<Real>(0);
-    Meetings<Real>(obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
-        if (meeting.slot == slot && dot(meeting.normal, obstacles.fall) < half) {
-            sum += meeting.film;
-        }
-    });
-    return sum;
-}
-
 /// Lifts a body by so much liquid. It answers that before the next pressure, as it does blows.
 template <class Real>
 void lift(const BodyTable<Real>& table, Face<Real> liquid, Wide<Real> fall,
@@ -162,8 +146,7 @@ void immerse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, 
     const Number missing = load.area - shown.area;
     // Which part of a cell is whose where bodies share it is a guess: that much may be there.
     const Number most = Number(kMissed) * load.area;
-    const Number guessed =
-        minimum(shown.shared + Number(kUnderFilm) * film_under(obstacles, slot), most);
+    const Number guessed = minimum(shown.shared, most);
     if (!(missing > guessed)) {
         return;
     }
