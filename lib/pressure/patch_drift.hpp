@@ -44,7 +44,7 @@ inline void rises(const Real* excess, std::int32_t q, std::int32_t step, Real* o
 /// Whether there is excess in a patch, as `average` noted it, which drops do without.
 template <class Real>
 inline bool has_excess(const PressureFields<Real>& fields, std::int32_t q) {
-    return fields.on_surface || fields.coarse.residual[q] != Real(0);
+    return are_drops(fields) || fields.coarse.residual[q] != Real(0);
 }
 
 /// Whether a patch and those around it have none, nor a mean. `Drift::still` knows more.

@@ -65,7 +65,9 @@ struct PressureFields {
     DensityOf<Real>* density = nullptr;            ///< 1 = full at rest
     LevelOf<Real>* level = nullptr;    ///< of the surface over `least_head`, cells; > 0 liquid
     CoarseGrid<Real> coarse;
-    bool on_surface = false;           ///< but with surface tension air cells hold the surface's
+    /// But with surface tension air cells hold the surface's: 1 in drops, 2 in pools, as of the
+    /// substep; 0 without.
+    std::uint8_t on_surface = 0;
     /// Whether paths are straight where the pressure sees to it (leap.hpp): with liquid of one
     /// density. Liquids that overturned gained 0.9 % in energy by it.
     bool leaps = true;
@@ -92,6 +94,15 @@ struct PressureFields {
     const detail::SecondLiquid<Real>* second_liquid = nullptr;  ///< null: there is one
 };
 
+/// Tension against gravity, cells² (of the capillary length), from where on liquid is drops, which
+/// tension holds together. Below it weight is the stronger one within a patch already: a pool.
+inline constexpr std::int32_t kDropLength2 = 16;
+
+template <class Real>
+inline bool are_drops(const PressureFields<Real>& fields) {
+    return fields.on_surface == 1;
+}
+
 /// Where the surface is nearer to a cell's centre, it counts as so near, cells: below a twentieth
 /// the equation would be stiffer than the surface is known. What a compressible liquid stores
 /// would tear it apart with a lever of more than four.
@@ -101,16 +112,16 @@ inline Real least_fraction(const PressureFields<Real>& fields) {
 }
 
 /// A cell is liquid where the surface stands so high over its centre at least, cells: levels count
-/// from there on; from the centre with surface tension, with an equation of state and in packed
-/// worlds. The pressure on a nearer surface would have a lever that is stiffer than the surface is
-/// known, and where the lever is limited instead, leaning surfaces stir the liquid: pressure is
-/// then not hydrostatic.
+/// from there on; from the centre in drops, with an equation of state and in packed worlds. The
+/// pressure on a nearer surface would have a lever that is stiffer than the surface is known, and
+/// where the lever is limited instead, leaning surfaces stir the liquid: pressure is then not
+/// hydrostatic.
 template <class Real>
 inline Real least_head(const PressureFields<Real>& fields) {
     if constexpr (Stored<Real>::coarse) {
         return kPackedHead<Real>;
     }
-    const bool from_centre = fields.on_surface || fields.sound_speed > Real(0);
+    const bool from_centre = are_drops(fields) || fields.sound_speed > Real(0);
     return Real(from_centre ? 0.0F : 0.05F);
 }
 

@@ -84,7 +84,7 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
                 means[columns.first + k] = kSolidPatch<Real>;
             }
         };
-        column += f.on_surface
+        column += are_drops(f)
                       ? 0
                       : means_of_row(f, limits, s.stride, s.index(first.i, first.j), first.height,
                                      whole_patches(s, row), means + columns.first,
@@ -92,7 +92,7 @@ void average_row(const GridShape& s, const Walls<Real>& walls, std::int32_t row,
     }
     for (; column < columns.end; ++column) {
         means[column] =
-            f.on_surface ? Real(0) : average<Solids>(s, walls, patch_at(column), f, overfull);
+            are_drops(f) ? Real(0) : average<Solids>(s, walls, patch_at(column), f, overfull);
     }
 }
 
@@ -120,7 +120,7 @@ void correct(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall, std::
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
     }
-    // Drops under surface tension are small and keep together without.
+    // Tension keeps drops together without.
     std::int32_t found[kMostPieces] = {};
     const std::int32_t cost = kCoarseEdge * s.nx;
     work.share(work.take(big.ny, cost), cost, 1, [&](const Part& rows, std::int32_t piece) {

@@ -58,15 +58,18 @@ void solve_pressure(Simulation<Real>& simulation, const Domain<Real>& domain,
     extrapolate(domain, settings.surface_tension > Real(0), work);
 }
 
-/// Whoever looks at levels has to know whether there is surface tension (`least_head`), and what
-/// follows whether liquid is led to rest.
+/// Whoever looks at levels has to know whether there are drops (`least_head`), and what follows
+/// whether liquid is led to rest.
 template <class Real>
 void find_surface(Simulation<Real>& simulation, const Domain<Real>& domain,
                   const SubstepPlan<Real>& plan, Work work) {
     PressureFields<Real>& fields = simulation.pressure;
     fields.settling = plan.settling;
-    fields.on_surface = fields.on_surface ||
-                        (!Stored<Real>::coarse && plan.surface_tension > Real(0));
+    if (!Stored<Real>::coarse && plan.surface_tension > Real(0)) {
+        const Vec2<Real>& pull = simulation.settings.gravity;
+        const Real held = Real(1.0F / kDropLength2) * plan.surface_tension;
+        fields.on_surface = held >= maximum(absolute(pull.x), absolute(pull.y)) ? 1 : 2;
+    }
     surface_level(domain, simulation.settings.rest_count, simulation.stages->empty_slivers, work);
 }
 

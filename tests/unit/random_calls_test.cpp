@@ -97,9 +97,7 @@ void expect_of_what_is_there(const StepReport& r, const WorldDef& def) {
     EXPECT_TRUE(r.contacts_missed == 0 || room.contacts > 0);
     EXPECT_TRUE(r.particles_crowded == 0 || !std::is_floating_point_v<Real>);
     EXPECT_TRUE(r.bodies_slowed == 0 || room.two_way);
-    // Of the least tension fixed point knows none.
-    const bool round = def.surface_tension_m3ps2 > 0.0F && std::is_floating_point_v<Real>;
-    EXPECT_TRUE(r.cells_overfull == 0 || (def.volume_gain > 0.0F && !round));
+    EXPECT_TRUE(r.cells_overfull == 0 || def.volume_gain > 0.0F);
     EXPECT_TRUE(r.particles_asleep == 0 || r.asleep || room.sleeping_regions);
     EXPECT_TRUE(!r.asleep || def.sleep.speed_mps > 0.0F);
     EXPECT_TRUE(!r.has(Clamped::sound_speed) || def.pressure == Pressure::equation_of_state);

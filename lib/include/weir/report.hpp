@@ -92,8 +92,8 @@ struct StepReport {
     std::int32_t particles_beyond = 0;
     std::int32_t contacts_missed = 0;  ///< blows for which the contacts had no room
     /// Cells of groups of 4 × 4 that hold over 15 % too much at the end: a body leaves the liquid
-    /// no room, as a piston in a full tank does. 0 with surface tension, and without
-    /// `volume_gain`.
+    /// no room, as a piston in a full tank does. 0 without `volume_gain`, and where
+    /// surface tension is over 16 cells² times gravity.
     std::int32_t cells_overfull = 0;
     /// In fixed point: how often a face left a particle out, as it held all that it can: 32
     /// particles in `World<SmallFixed>`, in `World<Fixed>` 16,384, or the momentum of
