@@ -60,19 +60,30 @@ inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, s
     look(walls.open_v[up], {Real(0), Real(1)}, {x + kHalf, y + Real(1)}, up, up + 1, 8);
 }
 
-/// Calls visit(i, j, cell) for the cells of liquid that solids cut, of a body's rectangle.
+/// Calls visit(i, j, cell) for the cells that solids cut, of a body's rectangle.
 template <class Real, class Visit>
-inline void for_each_beside(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
-                            const PressedCells<Real>& cells, const Visit& visit) {
+inline void for_each_cut(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
+                         const Visit& visit) {
     const NodeBox box = cells_of(s, walls.body[slot].drawn);
     for (std::int32_t j = box.j0; j <= box.j1; ++j) {
         for (std::int32_t i = box.i0; i <= box.i1; ++i) {
             const std::int32_t c = s.index(i, j);
-            if (!untouched(walls, c, c + s.stride) && cells.level[c] > Real(0)) {
+            if (!untouched(walls, c, c + s.stride)) {
                 visit(i, j, c);
             }
         }
     }
+}
+
+/// The same for those of liquid.
+template <class Real, class Visit>
+inline void for_each_beside(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
+                            const PressedCells<Real>& cells, const Visit& visit) {
+    for_each_cut(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+        if (cells.level[c] > Real(0)) {
+            visit(i, j, c);
+        }
+    });
 }
 
 /// Finds the centres of mass, once the bodies have moved.

@@ -66,10 +66,6 @@ private:
                shut(walls.open_v[cell]) && shut(walls.open_v[cell + obstacles_.tank.stride]);
     }
 
-    NodeBox box_of(const Meeting<Real>& point) const {
-        return cells_of(obstacles_.tank, obstacles_.bodies.body[point.slot].drawn);
-    }
-
     /// Where points of a body are before one plane.
     struct Strip {
         Wide<Real> middle;  ///< as far from the plane as the nearest point
@@ -93,7 +89,8 @@ private:
 
     /// The first cell with a pressure beyond an end of a strip; else whether there is air or solid.
     std::int32_t cell_beside(const Strip& strip, const Meeting<Real>& point, Number way) const {
-        const NodeBox box = box_of(point);
+        const NodeBox box =
+            cells_of(obstacles_.tank, obstacles_.bodies.body[point.slot].drawn);
         std::int32_t found = kSolidBeside;
         Number out = strip.half + Number(kBeside);
         for (std::int32_t look = 0; look < kLooksUnder; ++look) {
@@ -132,32 +129,28 @@ private:
     /// lowest points counts as pressed: that is air.
     void close(const Strip& strip, const Meeting<Real>& point, Missing (&missing)[2]) const {
         const GridShape& s = obstacles_.tank;
-        const NodeBox box = box_of(point);
-        for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-            for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-                const Wide<Real> centre{static_cast<Number>(i) + Number(0.5),
-                                        static_cast<Number>(j) + Number(0.5)};
-                const Wide<Real> arm = centre - strip.middle;
-                const Number place = dot(arm, strip.along);
-                const std::int32_t cell = s.index(i, j);
-                if (absolute(place) > strip.half + Number(1) ||
-                    untouched(obstacles_.walls, cell, cell + s.stride)) {
-                    continue;
-                }
-                Number up = Number(0);
-                for_each_closed_face(s, obstacles_.walls, i, j, [&](const ClosedFace<Real>& face) {
-                    if (face.slot == point.slot) {
-                        up += dot(convert<Number>(face.outward), point.normal);
-                    }
-                });
-                const bool low = dot(arm, point.normal) < Number(0.5 + kBeside);
-                if (!(up > Number(0) && low) || is_wet(cell)) {
-                    Missing& half = missing[place > Number(0) ? 1 : 0];
-                    half.size -= up;
-                    half.turn -= up * place;
-                }
+        const Walls<Real>& walls = obstacles_.walls;
+        for_each_cut(s, walls, point.slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
+            const Wide<Real> centre{static_cast<Number>(i) + Number(0.5),
+                                    static_cast<Number>(j) + Number(0.5)};
+            const Wide<Real> arm = centre - strip.middle;
+            const Number place = dot(arm, strip.along);
+            if (absolute(place) > strip.half + Number(1)) {
+                return;
             }
-        }
+            Number up = Number(0);
+            for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
+                if (face.slot == point.slot) {
+                    up += dot(convert<Number>(face.outward), point.normal);
+                }
+            });
+            const bool low = dot(arm, point.normal) < Number(0.5 + kBeside);
+            if (!(up > Number(0) && low) || is_wet(cell)) {
+                Missing& half = missing[place > Number(0) ? 1 : 0];
+                half.size -= up;
+                half.turn -= up * place;
+            }
+        });
     }
 
     /// To both ends its half, or all to the one that is open. A single point has room for one.
