@@ -138,19 +138,19 @@ constexpr bool subtract_overflows(Whole a, Whole b, Whole* difference) {
 }
 
 // Without a branch; of −0 it is 0.
-inline float magnitude_of(float value) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    bits &= 0x7FFFFFFFU;
+template <class Bits, class Number>
+inline Number without_sign(Number value) {
+    Bits bits = 0;
+    std::memcpy(&bits, &value, sizeof value);
+    bits &= static_cast<Bits>(-1) >> 1U;
     std::memcpy(&value, &bits, sizeof value);
     return value;
 }
+inline float magnitude_of(float value) {
+    return without_sign<std::uint32_t>(value);
+}
 inline double magnitude_of(double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    bits &= 0x7FFFFFFFFFFFFFFFULL;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
+    return without_sign<std::uint64_t>(value);
 }
 
 template <class Number>
