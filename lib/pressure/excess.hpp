@@ -123,7 +123,7 @@ template <class Real>
 template <class Real>
 inline ExcessLimits excess_limits(const PressureFields<Real>& fields, const Held<Real>& held) {
     return {static_cast<float>(kSurfaceSlack<Real>), static_cast<float>(kSubsurfaceSlack<Real>),
-            static_cast<float>(kWindow<Real>), fields.on_surface != 0,
+            static_cast<float>(kWindow<Real>), fields.on_surface != kNoTension,
             static_cast<float>(held.at_rest), static_cast<float>(held.rise),
             held.light_u, held.light_v};
 }

@@ -57,6 +57,13 @@ inline constexpr std::uint8_t kQuietEvery = 4;
 template <class Real>
 inline constexpr Real kMostRescale = Real(16);
 
+/// What surface tension makes of liquid.
+enum Tension : std::uint8_t { kNoTension, kDrops, kPools };
+
+/// Tension against gravity, cells² (of the capillary length), from where on liquid is drops, which
+/// tension holds together. Below it weight is the stronger one within a patch already: a pool.
+inline constexpr std::int32_t kDropLength2 = 16;
+
 template <class Real>
 struct PressureFields {
     Real* pressure = nullptr;          ///< dt · p / ρ (the first liquid's), cells²/s; 0 in air
@@ -65,9 +72,8 @@ struct PressureFields {
     DensityOf<Real>* density = nullptr;            ///< 1 = full at rest
     LevelOf<Real>* level = nullptr;    ///< of the surface over `least_head`, cells; > 0 liquid
     CoarseGrid<Real> coarse;
-    /// But with surface tension air cells hold the surface's: 1 in drops, 2 in pools, as of the
-    /// substep; 0 without.
-    std::uint8_t on_surface = 0;
+    /// But with surface tension air cells hold the surface's: a `Tension`, as of the substep.
+    std::uint8_t on_surface = kNoTension;
     /// Whether paths are straight where the pressure sees to it (leap.hpp): with liquid of one
     /// density. Liquids that overturned gained 0.9 % in energy by it.
     bool leaps = true;
@@ -94,13 +100,9 @@ struct PressureFields {
     const detail::SecondLiquid<Real>* second_liquid = nullptr;  ///< null: there is one
 };
 
-/// Tension against gravity, cells² (of the capillary length), from where on liquid is drops, which
-/// tension holds together. Below it weight is the stronger one within a patch already: a pool.
-inline constexpr std::int32_t kDropLength2 = 16;
-
 template <class Real>
 inline bool are_drops(const PressureFields<Real>& fields) {
-    return fields.on_surface == 1;
+    return fields.on_surface == kDrops;
 }
 
 /// Where the surface is nearer to a cell's centre, it counts as so near, cells: below a twentieth

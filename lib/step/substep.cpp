@@ -68,7 +68,7 @@ void find_surface(Simulation<Real>& simulation, const Domain<Real>& domain,
     if (!Stored<Real>::coarse && plan.surface_tension > Real(0)) {
         const Vec2<Real>& pull = simulation.settings.gravity;
         const Real held = Real(1.0F / kDropLength2) * plan.surface_tension;
-        fields.on_surface = held >= maximum(absolute(pull.x), absolute(pull.y)) ? 1 : 2;
+        fields.on_surface = held >= maximum(absolute(pull.x), absolute(pull.y)) ? kDrops : kPools;
     }
     surface_level(domain, simulation.settings.rest_count, simulation.stages->empty_slivers, work);
 }

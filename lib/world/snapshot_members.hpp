@@ -118,7 +118,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(walls_behind, Seconds<Real>{}, Seconds<Real>(1));
     stream.member(change, Real(0), kMostRescale<Real>);
     stream.member(sound_speed, Real(0), elasticity != nullptr ? settings.sound_speed : Real(0));
-    stream.member(on_surface, 0, 2);
+    stream.member(on_surface, kNoTension, kPools);
     stream.member(drift_turn, 0, 0xFFFF);
     stream.member(quiet_turn, 0, kQuietEvery);
     stream.member(crowded, false, true);

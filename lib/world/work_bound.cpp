@@ -32,7 +32,7 @@ void fill_up(const GridShape& stored, Simulation<Real>& simulation) {
     fields.solve.first_row = 0;
     fields.solve.last_row = stored.ny - 1;
     fields.solve.share = Real(0);  // of the last pressure: scaled
-    fields.on_surface = 0;
+    fields.on_surface = kNoTension;
     Walls<Real>& walls = simulation.layers.walls;
     walls.active = simulation.bodies.used > 0;
     walls.sticking = walls.active && simulation.settings.viscosity > Real(0)
