@@ -5,6 +5,7 @@
 #include "step/places_packed.hpp"
 #include "step/tank_walls.hpp"
 #include "step/transfer_m0.hpp"
+#include "step/ways_packed.hpp"
 #include "step/weights_packed.hpp"
 
 namespace weir {
@@ -18,7 +19,7 @@ using namespace packed;
 template <bool OnU>
 [[gnu::noinline]] std::int32_t scatter(const Particles<Real>& particles, Speed* mass,
                                        Real* momentum, std::int32_t stride) {
-    const std::int32_t row = stride * kSpeedBytes;
+    std::int32_t row = stride * kSpeedBytes;
     // Momenta lie twice as far apart as masses.
     const std::uintptr_t to_momentum = whole(reinterpret_cast<std::uintptr_t>(momentum) -
                                              2 * reinterpret_cast<std::uintptr_t>(mass));
@@ -36,8 +37,10 @@ template <bool OnU>
 #else
     const Strip strip(particles);
     const std::uint32_t half = kept(kHalf<OnU>);
+    const char* const velocities = whole(strip.velocities + (OnU ? 0 : kSpeedBytes));
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
+        row = whole(row);
         const std::uint32_t at = strip.word(k) + half;
         Speed* m = first_face(mass, at, row);
         const auto w = weights_at(at);
@@ -45,7 +48,7 @@ template <bool OnU>
             ++refused;
             continue;
         }
-        const Speed velocity = OnU ? strip.velocity(k).x : strip.velocity(k).y;
+        const Speed velocity = *reinterpret_cast<const Speed*>(velocities + k);
         Real* p = reinterpret_cast<Real*>(2 * reinterpret_cast<std::uintptr_t>(m) + to_momentum);
         add_momenta(p, further(p, 2 * row), w, velocity.raw);
     }
@@ -104,18 +107,17 @@ struct Gather {
     const Transfer<Real>& transfer;
     Pace pace;
     std::int32_t flip;
-    std::uint32_t high;  ///< halves of the highest places between the tank's walls, a word
+    std::uint32_t room;  ///< `room_between_walls`
 };
 
-/// Halves of the lowest ones.
-constexpr std::uint32_t kGap = Place(kWallGap<Real>).raw;
-constexpr std::uint32_t kLowest = (kGap + 1U) / 2U * 0x10001U;
-
-/// Of what the velocity was a share, and what the faces give. @return its square.
-inline std::int32_t change(std::int16_t& own, std::int32_t flip, std::int32_t gained) {
+/// Of what the velocity was a share, and what the faces give.
+inline void change(std::int16_t& own, std::int32_t flip, std::int32_t gained,
+                   std::int32_t& fastest) {
     const std::int32_t now = saturated<16>((flip * own + gained * 64 + kept(1 << 13)) >> 14);
     own = static_cast<std::int16_t>(now);
-    return now * now;
+    if (!kLooksAfter) {
+        fastest = maximum(fastest, now * now);
+    }
 }
 
 /// How far it goes, 256ths: bits that nobody uses decide what is rounded. Along x those of its own
@@ -160,31 +162,6 @@ inline Real limit_of(const Transfer<Real>& transfer) {
     }
 }
 
-/// Of ways and places in a word: halves of both.
-constexpr std::uint32_t kHalves = 0x7FFF7FFFU;
-
-/// What goes no further than a cell or, among solids, than half a cell: less than kLongWay.
-struct Bounds {
-    std::uint32_t most;
-    std::uint32_t far;  ///< bits that the sum of a way and `most` does not have
-};
-constexpr Bounds bounds_of(bool among_solids) {
-    return among_solids ? Bounds{0x800080U, 0xFF00FF00U} : Bounds{0x1000100U, 0xFE00FE00U};
-}
-
-/// Whether a particle goes from `from` by `both` to a place inside the tank, no further than
-/// `bounds` allow: both axes in a word. Halves leave a bit that tells which of them is out.
-inline bool simply_goes(const Bounds& bounds, std::uint32_t high, std::uint32_t from,
-                        std::uint32_t both) {
-    const std::uint32_t half = ((from + both) >> 1U) & kHalves;
-    const std::uint32_t out = (half - kLowest) | (high - half);
-    return ((both + bounds.most) & bounds.far) == 0 && (out & ~kHalves) == 0;
-}
-
-inline std::uint32_t both_in_word(std::int32_t x, std::int32_t y) {
-    return static_cast<std::uint32_t>(x) + static_cast<std::uint32_t>(y) * 0x10000U;
-}
-
 /// Among solids most only go further than half a cell. False: it is not one of those.
 [[gnu::noinline]] bool goes_far(const Gather& gather, Vec2<std::int32_t> way, const Strip& strip,
                                 std::ptrdiff_t at, TransferResult<Real>& result) {
@@ -192,11 +169,15 @@ inline std::uint32_t both_in_word(std::int32_t x, std::int32_t y) {
     const auto is_far = [](std::int32_t part) { return part < -kNear || part > kNear; };
     result.far += is_far(way.x) || is_far(way.y) ? 1 : 0;
     const std::uint32_t both = both_in_word(way.x, way.y);
-    const bool goes = simply_goes(bounds_of(false), gather.high, strip.word(at), both);
+    const bool goes = simply_goes(longest_ways(false), gather.room, strip.word(at), both);
     if (goes) {
         put_word(strip.places + at, strip.word(at) + both);
     }
     return goes;
+}
+
+inline Real larger_part(const Vec2<Speed>& v) {
+    return maximum(absolute(Real(v.x)), absolute(Real(v.y)));
 }
 
 /// Those few that come to the tank's walls, or go further than a cell. `way`: 256ths.
@@ -205,6 +186,9 @@ inline std::uint32_t both_in_word(std::int32_t x, std::int32_t y) {
                                    TransferResult<Real>& result) {
     Vec2<Place>& place = strip.place(at);
     Vec2<Speed>& speed = strip.velocity(at);
+    if (kLooksAfter) {
+        result.max_speed = maximum(result.max_speed, larger_part(speed));
+    }
     const GridShape& s = gather.grid.shape;
     constexpr std::int32_t kLongest = 2 * 256;
     Vec2<Real> x{Real(place.x) + Real::of_raw(256 * clamp(way.x, -kLongest, kLongest)),
@@ -216,7 +200,7 @@ inline std::uint32_t both_in_word(std::int32_t x, std::int32_t y) {
     speed = {Speed(v.x), Speed(v.y)};
     // A conveyor may have made it faster than whatever comes after knows of.
     const Real most = limit_of(gather.transfer);
-    const Real fastest = maximum(absolute(Real(speed.x)), absolute(Real(speed.y)));
+    const Real fastest = larger_part(speed);
     if (fastest > most) {
         limit(speed, most, result);
     }
@@ -255,7 +239,6 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
     const std::int32_t row = gather.grid.shape.stride * kSpeedBytes;
     const Speed* first = whole(gather.grid.u + 1);
     const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.u, gather.grid.mass_u));
-    const std::ptrdiff_t to_upper = whole(to_gained + row);
     const Pace pace = gather.pace;
     const std::int32_t flip = gather.flip;
     const std::uint32_t half = kept(kHalf<true>);
@@ -269,9 +252,8 @@ GatherTask task_of(const Gather& gather, const Particles<Real>& particles, const
         const std::int32_t carried = weighed(along, further(along, row), w);
         put_word(way + k, static_cast<std::uint32_t>(
                               moves(pace, carried, word_at(strip.velocities + k))));
-        const Speed* gained = further(along, to_gained);
-        fastest = maximum(fastest, change(strip.velocity(k).x.raw, flip,
-                                          weighed(gained, further(along, to_upper), w)));
+        const Speed* gained = whole(further(along, to_gained));
+        change(strip.velocity(k).x.raw, flip, weighed(gained, further(gained, row), w), fastest);
     }
     return fastest;
 #endif
@@ -294,8 +276,8 @@ template <bool Keeps>
     const GatherTask task = task_of(gather, particles, ways, further(gather.grid.v, row),
                                     bytes_between(gather.grid.v, gather.grid.mass_v), kSpeedBytes);
     const bool keeps = gather.transfer.keeps_places;
-    const Bounds most = bounds_of(keeps);
-    const WayBounds bounds{kLowest, gather.high, kHalves, most.most, most.far};
+    const Longest most = longest_ways(keeps);
+    const WayBounds bounds{kLowest, kLowest + gather.room, kHalves, most.most, most.far};
     const Strip strip(particles);
     for (const auto* place = reinterpret_cast<const char*>(particles.position);
          place != task.end;) {
@@ -310,11 +292,11 @@ template <bool Keeps>
 #else
     const Speed* first = whole(further(gather.grid.v, row));
     const std::ptrdiff_t to_gained = whole(bytes_between(gather.grid.v, gather.grid.mass_v));
-    const std::ptrdiff_t to_upper = whole(to_gained + row);
     const Pace pace = gather.pace;
     const std::int32_t flip = gather.flip;
-    const std::uint32_t high = gather.high;
+    const std::uint32_t room = gather.room;
     const Strip strip(particles);
+    char* const velocities = whole(strip.velocities + kSpeedBytes);
     char* way = whole(static_cast<char*>(ways) + particles.count * Strip::kStep);
     for (std::ptrdiff_t k = strip.first; k != 0; k += Strip::kStep) {
         k = whole(k);
@@ -323,15 +305,15 @@ template <bool Keeps>
         const auto w = weights_at(at);
         const Speed* along = first_face(first, at, row);
         const std::int32_t way_y = moves(pace, weighed(along, further(along, row), w));
-        const Speed* gained = further(along, to_gained);
-        fastest = maximum(fastest, change(strip.velocity(k).y.raw, flip,
-                                          weighed(gained, further(along, to_upper), w)));
+        const Speed* gained = whole(further(along, to_gained));
+        change(*reinterpret_cast<std::int16_t*>(velocities + k), flip,
+               weighed(gained, further(gained, row), w), fastest);
         const std::uint32_t way_x = word_at(way + k);
         if (Keeps) {
             put_word(way + k, from);
         }
         const std::uint32_t both = both_in_word(static_cast<std::int32_t>(way_x), way_y);
-        if (simply_goes(bounds_of(Keeps), high, from, both)) {
+        if (simply_goes(longest_ways(Keeps), room, from, both)) {
             put_word(strip.places + k, from + both);
         } else if (const Vec2<std::int32_t> gone{static_cast<std::int32_t>(way_x), way_y};
                    !Keeps || !goes_far(gather, gone, strip, k, result)) {
@@ -352,15 +334,11 @@ std::int32_t scatter_packed(const Particles<Real>& particles, StaggeredGrid<Real
 
 TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transfer<Real>& transfer,
                                    Particles<Real>& particles) {
-    const GridShape& s = grid.shape;
-    const auto highest = [](std::int32_t cells) {
-        return (static_cast<std::uint32_t>(cells) * 256U - kGap - 1U) / 2U;
-    };
     const Gather gather{grid,
                         transfer,
                         pace_of(clock_of(transfer.dt_s)),
                         transfer.flip_ratio.raw >> 2,
-                        highest(s.nx) + highest(s.ny) * 0x10000U};
+                        room_between_walls(grid.shape)};
     alignas(std::uint32_t) unsigned char own[kStripPacked * Strip::kStep];
     void* const ways = transfer.ways != nullptr ? transfer.ways : static_cast<void*>(own);
     const std::int32_t room = transfer.ways != nullptr ? transfer.room : kStripPacked;
@@ -373,6 +351,9 @@ TransferResult<Real> gather_packed(const StaggeredGrid<Real>& grid, const Transf
         fastest = (transfer.keeps_places ? gather_v<true> : gather_v<kAlwaysKeeps>)(
             gather, strip, ways, fastest, result);
     }
+#if defined(__ARM_FEATURE_SIMD32)
+    fastest = maximum(fastest, fastest_of(particles));
+#endif
     result.max_speed = maximum(result.max_speed, transfer.max_speed);
     if (fastest > known * known) {
         const std::uint32_t speed =
