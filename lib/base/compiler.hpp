@@ -94,6 +94,13 @@ inline Number whole(Number number) {
     return number;
 }
 
+/// Told that two numbers are in registers together, compilers see that a processor that can loads
+/// or stores both at once.
+template <class Number>
+inline void together(Number& one, Number& other) {
+    __asm__("" : "+r"(one), "+r"(other));
+}
+
 /// A place whose address is a multiple of four.
 WEIR_ALWAYS_INLINE const void* aligned_to_four(const void* place) {
     return __builtin_assume_aligned(place, 4);
@@ -157,6 +164,8 @@ template <class Number>
 inline Number whole(Number number) {
     return number;
 }
+template <class Number>
+inline void together(Number&, Number&) {}
 inline const void* aligned_to_four(const void* place) {
     return place;
 }

@@ -10,9 +10,6 @@ namespace weir {
 /// A pressure to start from. Below twice the last one no product of 64 bits is needed.
 inline SmallFixed rescaled(SmallFixed last, SmallFixed rescale) {
     const auto share = static_cast<std::uint32_t>(rescale.raw);
-    if (share == 1U << 16U) {
-        return last;
-    }
     if (share >= 2U << 16U) {
         return bounded(last * rescale);
     }
@@ -22,6 +19,14 @@ inline SmallFixed rescaled(SmallFixed last, SmallFixed rescale) {
     const auto scaled = static_cast<std::int32_t>(
         whole + (size >> 16U) * rest + (((size & 0xFFFFU) * rest + 0x8000U) >> 16U));
     return bounded(SmallFixed::of_raw(last.raw < 0 ? -scaled : scaled));
+}
+
+/// Those of a row. Not inline: most steps are as long as the last, which changes none.
+[[gnu::noinline]] inline void rescale(SmallFixed* pressure, const SmallFixed* end,
+                                      SmallFixed change) {
+    for (; change != SmallFixed(1) && pressure < end; ++pressure) {
+        *pressure = rescaled(*pressure, change);
+    }
 }
 
 /// The equation of a liquid cell that has a wall beside it.
@@ -136,12 +141,12 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
                 fields.inverse_diagonal[c].raw = 512;
             }
             if (fields.inverse_diagonal[c].raw != 0) {
-                fields.pressure[c] = rescaled(fields.pressure[c], fields.solve.rescale);
                 end = c + 1;
             } else {
                 fields.pressure[c].raw = 0;
             }
         }
+        rescale(fields.pressure + row, fields.pressure + end, fields.solve.rescale);
         fields.inverse_diagonal[end].raw = kRowEnd;
         fields.inverse_diagonal[end + 1].raw = kRowEnd;
         if (end != row) {

@@ -135,18 +135,21 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
         const std::int32_t row = s.index(patch.i, patch.j + y);
         const Real of_above = to.of_above[y];
         Real* const vertical = coarse.residual + to.above[y];
-        for (std::int32_t x = 0; x < patch.width; ++x) {
-            const std::int32_t c = whole(row + x);
-            const Real inverse = fields.inverse_diagonal[c];
+        const VelocityOf<Real>* diagonal = fields.inverse_diagonal + row;
+        const VelocityOf<Real>* flow = fields.divergence + row;
+        const Real* p = fields.pressure + row;
+        for (std::int32_t x = 0; x < patch.width;
+             ++x, diagonal = whole(diagonal + 1), flow = whole(flow + 1), p = whole(p + 1)) {
+            const Real inverse = *diagonal;
             if (is_zero(inverse)) {
                 continue;
             }
-            const Real held = fields.pressure[c];
+            const Real held = *p;
             const Real residual =
-                (weights.weighted(fields.pressure, c, inverse) - fields.divergence[c]) -
+                (weights.weighted(p, row + x, inverse) - *flow) -
                 (bound_key(inverse) == bound_key(stored_quarter<Real>())
                      ? Real(4) * held
-                     : over_inverse<Real>(held, absolute(inverse)));
+                     : over_inverse<Real>(held, Solids ? absolute(inverse) : inverse));
             const Real beside = to.of_beside[x] * residual;
             const Real above = of_above * residual;
             own += residual - (beside + above);

@@ -60,11 +60,10 @@ struct FaceWeights {
     /// air the pressure is 0: only the diagonal tells them apart. The inverse diagonal is negative
     /// where a wall touches the cell; elsewhere no weight is read.
     Real weighted(const Real* p, std::int32_t c, Real inverse) const {
-        const std::int32_t up = c + grid.shape.stride;
-        const std::int32_t low = c - grid.shape.stride;
+        const std::int32_t up = grid.shape.stride;
         return Mixed || (Solids && inverse < Real(0))
-                   ? (u(c) * p[c - 1] + u(c + 1) * p[c + 1]) + (v(c) * p[low] + v(up) * p[up])
-                   : (p[c - 1] + p[c + 1]) + (p[low] + p[up]);
+                   ? (u(c) * p[-1] + u(c + 1) * p[1]) + (v(c) * p[-up] + v(c + up) * p[up])
+                   : (p[-1] + p[1]) + (p[-up] + p[up]);
     }
 
     /// Of all four faces of a cell; 0 on the tank's walls.

@@ -28,7 +28,7 @@ template <bool Solids, bool Mixed, class Real>
     const Real inverse = fields.inverse_diagonal[c];
     if (inverse != Real(0)) {
         Real& p = fields.pressure[c];
-        relax_cell<Real>(p, weights.weighted(fields.pressure, c, inverse),
+        relax_cell<Real>(p, weights.weighted(fields.pressure + c, c, inverse),
                          fields.divergence[c], Solids ? absolute(inverse) : inverse);
         if (Solids && p < Real(0) &&
             parts_from_wall(fields, weights.walls.full_density, weights.grid.shape, c)) {

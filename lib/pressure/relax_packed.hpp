@@ -149,7 +149,8 @@ template <bool Solids, class Real>
     const std::int32_t residual =
         short_of_neighbours<Solids>(at, task.walls, task.fields.pressure, task.stride, kept,
                                     flow * 512);
-    at->raw = relaxed(at->raw, residual, coarse_factor(task.step, kept < 0 ? -kept : kept));
+    const std::int32_t diagonal = Solids && kept < 0 ? -kept : kept;
+    at->raw = relaxed(at->raw, residual, coarse_factor(task.step, diagonal));
     if (Solids && at->raw < 0 &&
         parts_from_wall(task.fields, task.walls.full_density, task.shape,
                         static_cast<std::int32_t>(at - task.fields.pressure))) {
@@ -216,42 +217,46 @@ template <bool Solids, class Real>
 /// A residual of so little, raw, moves no velocity by a unit, nor does a column of 32 of them.
 inline constexpr std::int32_t kExactRaw = 8;
 
-/// Sums pᵀb and pᵀAp over the cells of a row, in the same unit and as fine as 32-bit products
-/// allow: eighths are asked for. Notes whether a residual is worth a sweep.
+/// Sums pᵀb and pᵀAp over the cells of some rows, in the same unit and as fine as 32-bit products
+/// allow: eighths are asked for. Notes whether a residual is worth a sweep. Not inline: it wants
+/// all registers.
 template <bool Solids, class Real>
-void weigh_packed(const PressureFields<Real>& fields, const Walls<Real>& walls, std::int32_t stride,
-                  std::int32_t first, std::int32_t end, Solve<Real>& solve) {
-    SumOfProducts wanted;
-    SumOfProducts there;
-    std::uint32_t off = solve.off;
-    const VelocityOf<Real>* diagonal = fields.inverse_diagonal + first;
+[[gnu::noinline]] void weigh_packed(const Walls<Real>& walls, const GridShape& s, const Part& rows,
+                                    PressureFields<Real>& fields) {
+    const std::int32_t stride = s.stride;
     const std::ptrdiff_t to_divergence = fields.divergence - fields.inverse_diagonal;
-    const Real* at = fields.pressure + first;
-    const Real* const last = fields.pressure + end;
-    for (; at != last; ++at, ++diagonal) {
-        const std::int32_t kept = diagonal->raw;
-        if (kept == 0) {
-            continue;
+    std::uint32_t off = fields.solve.off;
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        SumOfProducts wanted;
+        SumOfProducts there;
+        const VelocityOf<Real>* diagonal = fields.inverse_diagonal + s.index(0, j);
+        const Real* at = fields.pressure + s.index(0, j);
+        for (;; at = whole(at + 1), diagonal = whole(diagonal + 1)) {
+            const std::int32_t kept = diagonal->raw;
+            std::int32_t pull;  // four pressures of 29 bits less four others are one of 32
+            if (kept == 512) {
+                pull = 4 * at->raw - neighbours_in_open(at, stride);
+            } else if (kept == 0) {
+                continue;
+            } else if (kept == 384) {
+                pull = 3 * at->raw - neighbours_in_open(at, stride);
+            } else if (kept == kRowEnd) {
+                break;
+            } else {
+                pull = pull_rare<Solids>(fields, walls, stride,
+                                         static_cast<std::int32_t>(at - fields.pressure));
+            }
+            const std::int32_t p = saturated<16>(rounded_shift(at->raw, 10));
+            const std::int32_t flow = diagonal[to_divergence].raw;
+            off |= static_cast<std::uint32_t>(pull) + kExactRaw +
+                   static_cast<std::uint32_t>(flow) * 512U;
+            wanted.add(p, flow);
+            there.add(p, saturated<16>(rounded_shift(saturated<25>(pull), 9)));
         }
-        if (kept == kRowEnd) {
-            break;
-        }
-        // Four pressures of 29 bits less four others are one of 32.
-        const std::int32_t pull =
-            kept == 512 || kept == 384
-                ? (kept == 512 ? 4 : 3) * at->raw - neighbours_in_open(at, stride)
-                : pull_rare<Solids>(fields, walls, stride,
-                                    static_cast<std::int32_t>(at - fields.pressure));
-        const std::int32_t p = short_of(rounded_shift(at->raw, 10));
-        const std::int32_t flow = diagonal[to_divergence].raw;
-        off |= static_cast<std::uint32_t>(pull) +
-               static_cast<std::uint32_t>(flow * 512 + kExactRaw);
-        wanted.add(p, flow);
-        there.add(p, short_of(rounded_shift(saturated<25>(pull), 9)));
+        fields.solve.wanted.raw -= wanted.whole();
+        fields.solve.there.raw += there.whole();
     }
-    solve.off = off;
-    solve.wanted.raw -= wanted.whole();
-    solve.there.raw += there.whole();
+    fields.solve.off = off;
 }
 
 /// A small world has no coarse grid: so many sweeps take its place.

@@ -59,7 +59,7 @@ Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     for (; c < end; ++c) {
         const Real inverse = fields.inverse_diagonal[c];
         if (!is_zero(inverse)) {
-            const Real sum = weights.weighted(p, c, inverse);
+            const Real sum = weights.weighted(p + c, c, inverse);
             row.there = row.there - product(p[c], sum);
             if constexpr (kSettles<Real>) {
                 if (fields.settling) {
@@ -86,14 +86,10 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     Real* p = fields.pressure;
     const std::int32_t depth = maximum(0, solve.last_row - solve.first_row + 1);
     const Part weighed = work.take(depth, s.nx);
+    const Part rows{solve.first_row + weighed.first, solve.first_row + weighed.end};
     if constexpr (Stored<Real>::coarse) {
-        for (std::int32_t at = weighed.first; at < weighed.end; ++at) {
-            const std::int32_t j = solve.first_row + at;
-            weigh_packed<Solids>(fields, weights.walls, s.stride, s.index(0, j), s.index(s.nx, j),
-                                 solve);
-        }
+        weigh_packed<Solids>(weights.walls, s, rows, fields);
     } else {
-        const Part rows{solve.first_row + weighed.first, solve.first_row + weighed.end};
         add_rows(work, rows, s, fields,
                  [&](std::int32_t j) { return weigh_row(weights, j, fields); });
     }

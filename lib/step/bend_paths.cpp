@@ -76,12 +76,20 @@ struct Bending {
         std::uint32_t side_high;
     };
 
+    /// Those of some faces that no wall is beside. Not inline: most tanks have none.
+    [[gnu::noinline]] std::uint32_t without_walls(std::uint32_t faces, std::int32_t place) const {
+        std::uint32_t left = 0;
+        for_each_bit(faces, place, [&](std::int32_t face, std::uint32_t bit) {
+            left |= beside_wall(face) ? 0U : bit;
+        });
+        return left;
+    }
+
     template <bool OnU>
-    void bend_bits(const Bits& bits, std::int32_t place) const {
+    [[gnu::noinline]] void bend_bits(const Bits& bits, std::int32_t place) const {
         const std::int32_t stride = s.stride;
         const std::int32_t behind = OnU ? 1 : stride;
         const std::int32_t beside = OnU ? stride : 1;
-        const bool walled = walls.active || walls.thin != nullptr;
         const VelocityOf<Real>* const own = along;
         const VelocityOf<Real>* const other = across;
         const Seconds<Real> all = bend_s;
@@ -93,10 +101,9 @@ struct Bending {
             }
             return low ? here - *(at - step) : (high ? *(at + step) - here : Real(0));
         };
-        for_each_bit(bits.bent, place, [&](std::int32_t face, std::uint32_t bit) {
-            if (walled && beside_wall(face)) {
-                return;
-            }
+        const bool walled = walls.active || walls.thin != nullptr;
+        const std::uint32_t bent = walled ? without_walls(bits.bent, place) : bits.bent;
+        for_each_bit(bent, place, [&](std::int32_t face, std::uint32_t bit) {
             const VelocityOf<Real>* at = whole(own + face);
             const Real slope_along =
                 rise(at, behind, (bits.low & bit) != 0, (bits.high & bit) != 0);

@@ -21,39 +21,39 @@ struct Range {
 };
 
 template <class Real, class Field>
-inline Range<Real> range_around(const Field* field, std::int32_t face, std::int32_t stride) {
-    const Real left = field[face - 1];
-    const Real right = field[face + 1];
-    const Real lower = field[face - stride];
-    const Real upper = field[face + stride];
-    const Real here = field[face];
+inline Range<Real> range_around(const Field* face, std::int32_t stride) {
+    const Real left = face[-1];
+    const Real right = face[1];
+    const Real lower = *(face - stride);
+    const Real upper = face[stride];
+    const Real here = *face;
     return {minimum(here, minimum(minimum(left, right), minimum(lower, upper))),
             maximum(here, maximum(maximum(left, right), maximum(lower, upper)))};
 }
 
 /// The same of a value there. Not inline: most are between two of the faces around.
 template <class Real>
-[[gnu::noinline]] Real clamp_to_range(Real value, const VelocityOf<Real>* field, std::int32_t face,
+[[gnu::noinline]] Real clamp_to_range(Real value, const VelocityOf<Real>* face,
                                       std::int32_t stride) {
-    const Range<Real> range = range_around<Real>(field, face, stride);
+    const Range<Real> range = range_around<Real>(face, stride);
     return clamp(value, range.low, range.high);
 }
 
 /// field − kSmoothing ∇²field, within what is there: beyond it, a jump such as a wall without slip
 /// makes would grow from step to step.
 template <class Real>
-inline Real sharp(const VelocityOf<Real>* field, std::int32_t face, std::int32_t stride) {
-    const Real left = field[face - 1];
-    const Real right = field[face + 1];
-    const Real lower = field[face - stride];
-    const Real upper = field[face + stride];
-    const Real here = field[face];
+inline Real sharp(const VelocityOf<Real>* face, std::int32_t stride) {
+    const Real left = face[-1];
+    const Real right = face[1];
+    const Real lower = *(face - stride);
+    const Real upper = face[stride];
+    const Real here = *face;
     const Real around = (left + right) + (lower + upper);
     const Real value = here - kSmoothing<Real> * (around - Real(4) * here);
     return have_unlike_signs(value - left, value - right) ||
                    have_unlike_signs(value - lower, value - upper)
                ? value
-               : clamp_to_range<Real>(value, field, face, stride);
+               : clamp_to_range<Real>(value, face, stride);
 }
 
 /// One component: out = sharp where liquid is all around.
@@ -71,10 +71,19 @@ struct Sharpening {
     }
 
     /// A face with liquid all around.
-    void sharpen(std::int32_t face) const {
+    void sharpen(std::int32_t face, std::int32_t stride) const {
         if (thin == nullptr || ((thin->mark[face] | thin->mark[face - back]) & kTouching) == 0) {
-            out[face] = sharp<Real>(field, face, s.stride);
+            out[face] = sharp<Real>(whole(field + face), stride);
         }
+    }
+
+    /// Such faces of a row. Not inline: it wants all registers.
+    [[gnu::noinline]] void sharpen_bits(std::uint32_t faces, std::int32_t place) const {
+        const Sharpening all = *this;  // what a call cannot change
+        const std::int32_t stride = s.stride;
+        for_each_bit(faces, place, [&](std::int32_t face, std::uint32_t) {
+            all.sharpen(face, stride);
+        });
     }
 
     void one(std::int32_t i, std::int32_t j) const {
@@ -86,7 +95,7 @@ struct Sharpening {
             face - back + (on_seam ? back * (back == 1 ? s.nx : s.ny) : 0);
         if (deep(face) && deep(before) && deep(face + back) && deep(face - along) &&
             deep(face + along)) {
-            sharpen(face);
+            sharpen(face, s.stride);
         }
     }
 
@@ -159,8 +168,8 @@ void sharpen_rows(const Borders<Real>& borders, const Part& rows, const Sharpeni
         const std::uint32_t v = at.of_v() & deep(at.under.wet & at.below.wet,
                                                  at.below.wet & at.here.wet,
                                                  at.here.wet & at.above.wet);
-        for_each_bit(u, at.place, [&](std::int32_t face, std::uint32_t) { of_u.sharpen(face); });
-        for_each_bit(v, at.place, [&](std::int32_t face, std::uint32_t) { of_v.sharpen(face); });
+        of_u.sharpen_bits(u, at.place);
+        of_v.sharpen_bits(v, at.place);
     });
 }
 

@@ -9,9 +9,9 @@ namespace weir {
 
 namespace packed {
 
-/// Between two numbers of unlike size.
+/// Between two numbers of unlike size. (Whole, or compilers join two such questions to one.)
 inline bool between(std::int32_t value, std::int32_t one, std::int32_t other) {
-    return ((value - one) ^ (value - other)) < 0;
+    return ((value - one) ^ whole(value - other)) < 0;
 }
 
 /// A face less a sixth of its ∇², within what is around; 171/1024 for a sixth.
@@ -80,9 +80,7 @@ void blend_row(const FacesAround at, const BlendRow& row) {
                               further(face, at.upper)->raw);
         }
         further(face, at.was)->raw = static_cast<std::int16_t>(here);
-        if ((now | here | sharp) != 0) {
-            face->raw = blended(now, here, sharp, row.share);
-        }
+        face->raw = blended(now, here, sharp, row.share);
         left = here;
         here = right;
     }

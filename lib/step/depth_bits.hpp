@@ -2,6 +2,8 @@
 // is all around them, and each is looked at once.
 #pragma once
 
+#include <type_traits>
+
 #include "grid/staggered_grid.hpp"
 
 namespace weir {
@@ -11,6 +13,16 @@ struct CellBits {
     std::uint32_t wet = 0;   ///< liquid
     std::uint32_t held = 0;  ///< not empty
 };
+
+/// `bits`, moved up by one, and below them whether number ≥ least.
+inline std::uint32_t with_bit(std::uint32_t bits, std::uint32_t number, std::uint32_t least) {
+#if defined(__thumb2__)  // what comparing carries is the bit
+    __asm__("cmp %1, %2\n\tadc %0, %0, %0" : "+r"(bits) : "r"(number), "r"(least) : "cc");
+    return bits;
+#else
+    return bits + bits + (number >= least ? 1U : 0U);
+#endif
+}
 
 /// Some columns of row j and of the rows around it.
 template <class Real>
@@ -53,6 +65,18 @@ private:
     CellBits look(std::int32_t rows_up) const {
         const LevelOf<Real>* level = level_ + place + rows_up * s_.stride;
         CellBits bits;
+        if constexpr (std::is_same<Real, float>::value) {
+            // As whole numbers without a sign, what is negative is larger than all that is not.
+            std::uint32_t dry = ~0U;
+            std::uint32_t empty = ~0U;
+            for (const float* at = level + count_; at != level;) {
+                const auto key = static_cast<std::uint32_t>(bound_key(*--at));
+                dry = with_bit(dry, key - 1U, 0x7FFFFFFFU);
+                empty = with_bit(
+                    empty, key, static_cast<std::uint32_t>(bound_key(kEmptyLevel<float>)));
+            }
+            return {~dry, ~empty};
+        }
         for (std::int32_t k = count_ - 1; k >= 0; --k) {
             const bool wet = is_positive(Real(level[k]));
             const bool held = bound_key(Real(-level[k])) < bound_key(Real(-kEmptyLevel<Real>));

@@ -68,8 +68,7 @@ Extent<float> extent(const Particles<float>& particles) {
     struct Range {
         std::uint32_t low;
         std::uint32_t span = 0;
-        void add(float place) {
-            const auto key = static_cast<std::uint32_t>(bound_key(place));
+        void add(std::uint32_t key) {
             if (WEIR_SELDOM(key - low > span)) {  // a branch costs less than choices
                 span = key < low ? span + (low - key) : key - low;
                 low = minimum(low, key);
@@ -82,8 +81,11 @@ Extent<float> extent(const Particles<float>& particles) {
     Range y{static_cast<std::uint32_t>(bound_key(position->y))};
     const Vec2<float>* const end = position + particles.count;
     const auto look = [&](std::int32_t k) {
-        x.add(position[k].x);
-        y.add(position[k].y);
+        auto one = static_cast<std::uint32_t>(bound_key(position[k].x));
+        auto other = static_cast<std::uint32_t>(bound_key(position[k].y));
+        together(one, other);
+        x.add(one);
+        y.add(other);
     };
     for (; end - position >= 4; position += 4) {
         look(0);
