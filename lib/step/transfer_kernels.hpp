@@ -26,6 +26,7 @@ struct Pairs {
     Float* u;
     Float* v;
     std::int32_t stride;
+    std::int32_t column = 0;  ///< of the tank's, with which the stored part of each row begins
 
     std::ptrdiff_t up() const { return 2 * static_cast<std::ptrdiff_t>(stride); }
     /// Where the bases of a run count from.
@@ -241,8 +242,8 @@ struct EveryRow {
 class RowsBetween {
 public:
     RowsBetween(const Pairs<float>& pairs, std::int32_t first, std::int32_t end)
-        : first_u_(pairs.u + first * pairs.up()),
-          first_v_(pairs.v + first * pairs.up()),
+        : first_u_(pairs.u + first * pairs.up() + 2 * pairs.column),
+          first_v_(pairs.v + first * pairs.up() + 2 * pairs.column),
           numbers_(static_cast<std::size_t>((end - first) * pairs.up())) {}
 
     float* u(float* pair) const { return at(pair, first_u_, nowhere_[0]); }

@@ -300,7 +300,7 @@ bool scatter_side_by_side(const Particles<float>& particles, const StaggeredGrid
 void scatter_in_lanes(const Particles<float>& particles, const ThinWalls<float>* thin,
                       StaggeredGrid<float>& grid, Work work) {
     const GridShape& s = grid.shape;
-    const Pairs<float> pairs{grid.as_pairs(grid.v), grid.pairs, s.stride};
+    const Pairs<float> pairs{grid.as_pairs(grid.v), grid.pairs, s.stride, s.i0};
     each_row(work, s, [&](const Part& entries) {
         const std::size_t bytes =
             2 * static_cast<std::size_t>(entries.end - entries.first) * sizeof(float);

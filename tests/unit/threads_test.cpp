@@ -102,6 +102,25 @@ TEST(Threads, ParticlesInNoOrderHaveTheSameBits) {
     port::set_threads(1);
 }
 
+/// A window's rows begin with a column of the tank that is not its first.
+TEST(Threads, WindowsHaveTheSameBitsWhereverTheyStand) {
+    const auto run = [](ParallelFor parallel_for) {
+        WorldDef def = tank_def(512, 200, 12000);
+        def.capacity.window_cells = 160 * 120;
+        def.keep_sorted = true;
+        def.parallel_for = parallel_for;
+        TestWorld<float> world(def);
+        EXPECT_EQ(world->fill({{8.0F, 0.3F}, {9.2F, 1.2F}}), Status::ok);
+        for (std::int32_t step = 0; step < 3; ++step) {
+            EXPECT_EQ(world->step(1.0F / 60.0F).particles_beyond, 0);
+        }
+        return world->state_hash();
+    };
+    g_most_pieces = 0;
+    EXPECT_EQ(run(counted_backwards), run(nullptr));
+    EXPECT_GT(g_most_pieces, 3);
+}
+
 /// What is deeper in a solid than 32 cells has no way out.
 std::uint64_t bury(ParallelFor parallel_for, std::int32_t* removed) {
     TestWorld<float> world(wide_def(8, parallel_for));
