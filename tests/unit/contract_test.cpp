@@ -236,6 +236,36 @@ TYPED_TEST(ContractOfFreeBodies, NoneIsAddedInMidStep) {
     }
 }
 
+/// Nor does a body that is refused leave anything, or make a name good that was not.
+TYPED_TEST(ContractOfFreeBodies, ThoseThatAreRefusedTakeNothing) {
+    WorldDef def;
+    def.capacity.bodies = 1;
+    def.capacity.vertices = 4;
+    def.capacity.wall_edges = 4;
+    def.capacity.two_way = true;
+    TestWorld<TypeParam> world{def};
+    const Ring block = rectangle(0.1F, 0.1F);
+    const BodyId gone = put_static(*world, body_of(block, {0.1F, 0.1F}));
+    expect_ok(world->remove_body(gone));
+    const auto before = saved(*world, def.capacity);
+    BodyId id;
+    const Ring tiny = rectangle(1e-12F, 1e-12F);
+    EXPECT_NE(world->add_static_body(body_of(tiny, {0.3F, 0.1F}), &id), Status::ok);
+    EXPECT_EQ(saved(*world, def.capacity), before);
+    const Ring line = {{0.0F, 0.0F}, {0.2F, 0.1F}};
+    BodyDef wall = body_of(line, {0.1F, 0.1F});
+    wall.open = true;
+    EXPECT_EQ(world->add_static_body(wall, &id), Status::no_free_wall_edge);
+    EXPECT_EQ(saved(*world, def.capacity), before);
+    const Ring plate = rectangle(0.2F, 0.005F);
+    EXPECT_EQ(world->add_moving_body(body_of(plate, {0.1F, 0.1F}), &id),
+              Status::no_free_wall_edge);
+    EXPECT_EQ(saved(*world, def.capacity), before);
+    put_static(*world, body_of(block, {0.1F, 0.1F}));
+    Motion motion;
+    EXPECT_EQ(world->motion(gone, &motion), Status::stale_body);
+}
+
 /// Of one that was removed nothing is left that a restored world would not know of.
 TYPED_TEST(ContractOfFreeBodies, TheLastOneLeavesNothing) {
     WorldDef def;
@@ -256,6 +286,13 @@ TYPED_TEST(ContractOfFreeBodies, TheLastOneLeavesNothing) {
         EXPECT_EQ(world->step(kDt, 3).walls_held, other->step(kDt, 3).walls_held);
         EXPECT_EQ(world->state_hash(), other->state_hash());
     }
+    TestWorld<TypeParam> heavier{def};
+    body.density_ratio = 2.0F;
+    expect_ok(heavier->remove_body(put_free(*heavier, body)));
+    TestWorld<TypeParam> lighter{def};
+    body.density_ratio = 0.2F;
+    expect_ok(lighter->remove_body(put_free(*lighter, body)));
+    EXPECT_EQ(saved(*heavier, def.capacity), saved(*lighter, def.capacity));
 }
 
 }  // namespace

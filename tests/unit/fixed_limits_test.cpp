@@ -90,6 +90,7 @@ WEIR_SUITE(FixedWorld, Both);
 TYPED_TEST(FixedWorld, TheLargestIsAccepted) {
     WorldDef def = small_def();
     def.capacity.cells_x = def.capacity.cells_y = 255;
+    def.capacity.bodies = kMaxBodiesSmallFixed;
     EXPECT_EQ(init<TypeParam>(def), Status::ok);
 }
 

@@ -113,6 +113,10 @@ TEST(WindowStatus, NamesWhatItCannotBe) {
     WorldDef bodies = windowed(wide_def(0), 10000);
     bodies.capacity.bodies = 1;
     EXPECT_EQ(answer(bodies), Status::ok);
+    WorldDef narrow = windowed(tank_def(40, 150, 500, 1, 4), 66 * 26);
+    EXPECT_EQ(answer(narrow), Status::ok);
+    --narrow.capacity.window_cells;
+    EXPECT_EQ(answer(narrow), Status::window_too_small);
     bodies.capacity.wall_edges = 1;
     EXPECT_EQ(answer(bodies), Status::window_without_thin_walls);
     bodies.capacity.wall_edges = 0;
