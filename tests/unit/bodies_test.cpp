@@ -321,6 +321,19 @@ TEST(Motion, AStaticBodyIgnoresVelocity) {
     EXPECT_EQ(now.spin_radps, 0.0F);
 }
 
+/// With whichever corner a polygon ends: steps are cut as the furthest wants it.
+TEST(Motion, AnArmIsAsFastAsItsTip) {
+    for (const std::size_t first : {0U, 1U, 2U, 3U}) {
+        TestWorld<float> world(field_def(1, 4));
+        Ring arm = {{0.0F, -0.02F}, {0.2F, -0.02F}, {0.2F, 0.02F}, {0.0F, 0.02F}};
+        std::rotate(arm.begin(), arm.begin() + static_cast<std::ptrdiff_t>(first), arm.end());
+        BodyDef def = body_of(arm, {0.3F, 0.25F});
+        def.motion.spin_radps = 20.0F;
+        put_moving(*world, def);
+        EXPECT_EQ(world->step(kFrame).substeps, 4) << "3.4 cells";
+    }
+}
+
 TEST(Motion, ABodyMayLeaveTheTankAndComeBack) {
     TestWorld<float> world(field_def(2, 8));
     BodyDef def = body_of(kSquare4cm, {0.3F, 0.3F});

@@ -62,6 +62,25 @@ TYPED_TEST(HeldBody, AHingeGoesAsTold) {
     EXPECT_GT(std::fabs(now.spin_radps), 0.1F) << "and hangs on it";
 }
 
+/// Upright it falls freely, wherever its middle is, and does not turn.
+TYPED_TEST(HeldBody, UprightItMovesAndDoesNotTurn) {
+    TestWorld<TypeParam> world{held_def()};
+    BodyDef def = body_of(kTriangle, {0.2F, 0.4F}, 0.3F);
+    def.hold = Hold::upright;
+    def.motion.velocity_mps = {0.25F, 0.0F};
+    const BodyId id = put_free(*world, def);
+    const Motion start = motion_of(*world, id);
+    double t = 0;
+    for (int k = 0; k < 60; ++k) {
+        t += static_cast<double>(world->step(kDt).dt_s);
+        ASSERT_EQ(motion_of(*world, id).angle_rad, start.angle_rad);
+    }
+    const Motion now = motion_of(*world, id);
+    EXPECT_NEAR(now.position_m.x, 0.2 + 0.25 * t, 2e-4);
+    EXPECT_NEAR(now.position_m.y, 0.4 - 0.5 * 9.81 * t * t, 0.01);
+    EXPECT_EQ(now.spin_radps, 0.0F);
+}
+
 /// A float in a shaft goes up and down, and stands as deep as it is heavy.
 TYPED_TEST(HeldBody, ARailLeadsAFloat) {
     WorldDef def = held_def();

@@ -337,6 +337,7 @@ TEST(Regions, RefusedWhereTheyCannotBe) {
             def.capacity.bodies = 0;
             def.periodic_x = true;
         },
+        [](WorldDef& def) { def.capacity.bodies = 0, def.periodic_y = true; },
     };
     for (const Change change : changes) {
         WorldDef def = pools_def();

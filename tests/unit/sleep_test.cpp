@@ -171,6 +171,7 @@ TYPED_TEST(SleepOf, WhatChangesNothingWakesNobody) {
     expect_ok(pool->diagnose(&diagnostics));
     EXPECT_EQ(pool->remove_particle(-1), Status::no_such_particle);
     EXPECT_EQ(pool->add_particle({9.0F, 0.0F}, {}), Status::particle_outside_domain);
+    expect_ok(pool->drain({{0.0F, 0.2F}, {0.32F, 0.32F}}));
     EXPECT_TRUE(pool->step(kDt).asleep);
     EXPECT_EQ(pool->state_hash(), hash);
 }

@@ -72,6 +72,17 @@ TYPED_TEST(SleepingTiles, WakeWhenABodyIsTakenAway) {
     EXPECT_EQ(tiles.asleep_after(2), 1) << "the one far from it";
 }
 
+/// It may be a belt that carries them.
+TYPED_TEST(SleepingTiles, WakeWhenASurfaceChanges) {
+    Tiles<TypeParam> tiles;
+    const BodyId id = put_static(*tiles.world, body_of(kSquare4cm, {20 * kCell, 12 * kCell}));
+    tiles.put(17.5F, 12.5F);
+    tiles.put(2, 2);
+    tiles.rest();
+    expect_ok(tiles->set_surface(id, {0.0F, 0.5F, false, 0.1F}));
+    EXPECT_EQ(tiles.asleep_after(2), 1) << "the one far from it";
+}
+
 /// A particle in four is looked at in a substep. Two cells in each take it from one tile to the
 /// next but one meanwhile, away from the mark that it left.
 TEST(FastSleeper, WhatFliesFromTileToTileStaysAwake) {

@@ -48,6 +48,21 @@ TEST(ThinSweep, WhoIsFoundBehindAWallGetsAsFarInFrontOfIt) {
     }
 }
 
+/// A wall that was just put there, at whatever angle, has swept nothing.
+TEST(ThinSweep, AWallThatComesLeaningTakesNobodyAlong) {
+    WorldDef def = Tank::def();
+    def.gravity_mps2 = {};
+    TestWorld<float> world(def);
+    const Ring ring = {{0.0F, 0.0F}, {0.2F, 0.0F}};
+    BodyDef body = body_of(ring, {0.3F, 0.3F}, 0.1F);
+    body.open = true;
+    put_moving(*world, body);
+    expect_ok(world->add_particle({0.48F, 0.309F}, {}));
+    world->step(1.0F / 60.0F);
+    EXPECT_NEAR(world->particle_positions()[0].x, 24.0F, 1.0e-4F);
+    EXPECT_NEAR(world->particle_positions()[0].y, 15.45F, 1.0e-4F);
+}
+
 /// In a corner narrower than what a particle keeps from walls it goes where the walls take it.
 TEST(ThinSweep, ACornerTakesAlongWhoCannotSlide) {
     Tank tank;
