@@ -81,6 +81,19 @@ TYPED_TEST(Films, LiftCratesFromTheFloor) {
     }
 }
 
+/// In a corner of the tank liquid comes from one side alone, and presses for both.
+TYPED_TEST(Films, LiftCratesFromACorner) {
+    for (const float width : {0.03F, 0.07F}) {
+        const Ring box = rectangle(width, 0.06F);
+        const float beside = 0.5F * width + 0.0005F;
+        for (const float x : {beside, 24 * kCell - beside}) {
+            EXPECT_GT(Tank<TypeParam>().rise(box, {x, 0.03F}, 0.7F), 8.0) << width << " at " << x;
+            EXPECT_NEAR(Tank<TypeParam>().rise(box, {x, 0.03F}, 2.0F), 0.0, 0.01)
+                << width << " at " << x;
+        }
+    }
+}
+
 /// However small, flat or round they are. As long as liquid under a face's middle ended its film,
 /// crate and plate stayed where they were; as long as films lay under single edges, the others did.
 TYPED_TEST(Films, LiftWhateverLiesOnTheFloor) {
