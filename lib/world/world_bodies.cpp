@@ -58,7 +58,7 @@ Real radius_of(const BodyTable<Real>& table, const Body<Real>& body) {
     return furthest;
 }
 
-/// What it weighs.
+/// Takes in a body for which there is room.
 /// Not in one frame with the check, which goes deeper than anything else that is done with a body.
 template <class Real>
 [[gnu::noinline]] Status enter(WorldState<Real>& state, const BodyDef& def, BodyKind kind,
