@@ -10,10 +10,8 @@ void add_film(const CoupledSolve<Real>& solve, const Meeting<Real>& meeting,
               Levers<Real>& levers) {
     Impulse<Real>* reach = levers.of(meeting.slot);
     if (reach != nullptr) {
-        const BodyLoad<Real>& load = solve.walls.load[meeting.slot];
-        const Impulse<Real> film = meeting.pushes(load, Face<Real>(1));
-        levers.before += flow(film, load.unpressed);
-        reach->add(film);
+        levers.before += flow(meeting.film, solve.walls.load[meeting.slot].unpressed);
+        reach->add(meeting.film);
     }
 }
 

@@ -60,6 +60,14 @@ inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, s
     look(walls.open_v[up], {Real(0), Real(1)}, {x + kHalf, y + Real(1)}, up, up + 1, 8);
 }
 
+/// Whether solids close all of a cell's faces: it has no pressure.
+template <class Real>
+inline bool is_shut(const GridShape& s, const Walls<Real>& walls, std::int32_t cell) {
+    const auto shut = [](ShareOf<Real> open) { return !(Real(open) > Real(0)); };
+    return shut(walls.open_u[cell]) && shut(walls.open_u[cell + 1]) &&
+           shut(walls.open_v[cell]) && shut(walls.open_v[cell + s.stride]);
+}
+
 /// Calls visit(i, j, cell) for the cells that solids cut, of a body's rectangle.
 template <class Real, class Visit>
 inline void for_each_cut(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,

@@ -1,6 +1,6 @@
 #include "solid/films.hpp"
 
-#include "solid/body_force.hpp"
+#include "solid/body_reach.hpp"
 #include "solid/contour_hit.hpp"
 
 namespace weir {
@@ -29,16 +29,24 @@ public:
         }
         *link = -1;
         for (Meeting<Real>* first = list_.begin(); first != list_.end();) {
-            Meeting<Real>* last = first;
-            while (last + 1 != list_.end() && list_.of_one_face(*first, last[1])) {
-                ++last;
+            const std::uint16_t slot = first->slot;
+            const std::int32_t* const begun = link;
+            Laid laid;
+            while (first != list_.end() && first->slot == slot) {
+                Meeting<Real>* last = first;
+                while (last + 1 != list_.end() && list_.of_one_face(*first, last[1])) {
+                    ++last;
+                }
+                const bool free =
+                    first->other != kNoBody && is_free_body(obstacles_.bodies, first->other);
+                if (!free && minimum(first->gap, last->gap) < kWidestFilm<Real>) {
+                    lay(first, last, link, laid);
+                }
+                first = last + 1;
             }
-            const bool free =
-                first->other != kNoBody && is_free_body(obstacles_.bodies, first->other);
-            if (!free && minimum(first->gap, last->gap) < kWidestFilm<Real>) {
-                lay(first, last, link);
+            if (*begun >= 0) {
+                put_right(slot, *begun, laid);
             }
-            first = last + 1;
         }
     }
 
@@ -55,15 +63,15 @@ private:
         const std::int32_t cell = s.index(floor_to_int(x.x), floor_to_int(x.y));
         return obstacles_.walls.cell_case[cell] == kCellInside ? -1 : cell;
     }
+    Wide<Real> centre_of(std::int32_t cell) const {
+        const std::int32_t stride = obstacles_.tank.stride;
+        const std::int32_t inner = cell - obstacles_.tank.index(0, 0);
+        return {static_cast<Number>(inner % stride) + Number(0.5),
+                static_cast<Number>(inner / stride) + Number(0.5)};
+    }
     /// Whether a cell has a pressure.
     bool is_wet(std::int32_t cell) const {
-        return cells_.level[cell] > Real(0) && !is_closed(cell);
-    }
-    bool is_closed(std::int32_t cell) const {
-        const Walls<Real>& walls = obstacles_.walls;
-        const auto shut = [](ShareOf<Real> open) { return !(Real(open) > Real(0)); };
-        return shut(walls.open_u[cell]) && shut(walls.open_u[cell + 1]) &&
-               shut(walls.open_v[cell]) && shut(walls.open_v[cell + obstacles_.tank.stride]);
+        return cells_.level[cell] > Real(0) && !is_shut(obstacles_.tank, obstacles_.walls, cell);
     }
 
     /// Where points of a body are before one plane.
@@ -125,9 +133,20 @@ private:
         }
     };
 
+    /// What all films of a body close of it, along the normals only.
+    struct Laid {
+        Number size = Number(0);
+        Impulse<Real> sum;  ///< less what cells show where films are
+
+        void leave_out(const Impulse<Real>& reach) {
+            sum.add(Impulse<Real>{Number(-1) * reach.linear, -reach.angular});
+        }
+    };
+
     /// What closes the body with what cells press on. What cells without liquid do above the
     /// lowest points counts as pressed: that is air.
-    void close(const Strip& strip, const Meeting<Real>& point, Missing (&missing)[2]) const {
+    void close(const Strip& strip, const Meeting<Real>& point, Missing (&missing)[2],
+               Laid& laid) const {
         const GridShape& s = obstacles_.tank;
         const Walls<Real>& walls = obstacles_.walls;
         for_each_cut(s, walls, point.slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
@@ -149,12 +168,21 @@ private:
                 Missing& half = missing[place > Number(0) ? 1 : 0];
                 half.size -= up;
                 half.turn -= up * place;
+                return;
             }
+            if (is_shut(s, walls, cell)) {
+                return;
+            }
+            for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
+                if (face.slot == point.slot) {
+                    laid.leave_out(reach_of_face(obstacles_.bodies, walls, face));
+                }
+            });
         });
     }
 
     /// To both ends its half, or all to the one that is open. A single point has room for one.
-    void lay(Meeting<Real>* first, Meeting<Real>* last, std::int32_t*& link) const {
+    void lay(Meeting<Real>* first, Meeting<Real>* last, std::int32_t*& link, Laid& laid) const {
         const Strip strip = strip_of(first, last);
         const std::int32_t cell[2] = {cell_beside(strip, *first, Number(-1)),
                                       cell_beside(strip, *first, Number(1))};
@@ -162,7 +190,7 @@ private:
             return;
         }
         Missing missing[2];
-        close(strip, *first, missing);
+        close(strip, *first, missing, laid);
         const std::int32_t wet = cell[0] >= 0 ? 0 : 1;
         if (first == last || cell[1 - wet] == kSolidBeside) {
             missing[wet].take(missing[1 - wet]);
@@ -175,17 +203,56 @@ private:
         }
         const Number most = strip.half + Number(1);
         for (std::int32_t k = 0; k < 2; ++k) {
-            if (cell[k] < 0 || !(missing[k].size > Number(0))) {
+            if (!(missing[k].size > Number(0))) {
                 continue;
             }
             Meeting<Real>& point = k == 0 ? *first : *last;
-            point.film_cell = cell[k];
-            point.film = missing[k].size;
             const Number place = clamp(missing[k].turn / missing[k].size, -most, most);
-            point.middle = strip.middle + place * strip.along;
+            const Wide<Real> middle = strip.middle + place * strip.along;
+            Impulse<Real> film;
+            film.add(missing[k].size * point.normal,
+                     middle - obstacles_.bodies.load[point.slot].at);
+            laid.size += missing[k].size;
+            laid.sum.add(film);
+            if (cell[k] < 0) {
+                continue;
+            }
+            point.film = film;
+            point.film_cell = cell[k];
+            point.beyond = dot(convert<Number>(cells_.gravity_dt), middle - centre_of(cell[k]));
             *link = static_cast<std::int32_t>(&point - list_.entry);
             link = &point.next_film;
             *link = -1;
+        }
+    }
+
+    /// Along the faces, too, and in what turns the body, films close what cells show of all of it:
+    /// each has as much of what is lacking as it is long. What another free body hides is not
+    /// theirs: they would push both away.
+    void put_right(std::uint16_t slot, std::int32_t begun, const Laid& laid) const {
+        const GridShape& s = obstacles_.tank;
+        const Walls<Real>& walls = obstacles_.walls;
+        Impulse<Real> over = laid.sum;
+        bool alone = true;
+        for_each_cut(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
+            const bool shut = is_shut(s, walls, cell);
+            for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
+                if (face.slot != slot) {
+                    alone = alone && (face.slot == kNoBody ||
+                                      !is_free_body(obstacles_.bodies, face.slot));
+                } else if (!shut) {
+                    over.add(reach_of_face(obstacles_.bodies, walls, face));
+                }
+            });
+        });
+        if (!alone) {
+            return;
+        }
+        for (std::int32_t k = begun; k >= 0; k = list_.entry[k].next_film) {
+            Meeting<Real>& point = list_.entry[k];
+            const Number share = dot(point.film.linear, point.normal) / laid.size;
+            point.film.linear = point.film.linear - share * over.linear;
+            point.film.angular -= share * over.angular;
         }
     }
 
@@ -210,14 +277,9 @@ Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<
         if (meeting.slot != slot) {
             return;
         }
-        const std::int32_t stride = obstacles.tank.stride;
-        const std::int32_t inner = meeting.film_cell - obstacles.tank.index(0, 0);
-        const Wide<Real> centre{static_cast<Number>(inner % stride) + Number(0.5),
-                                static_cast<Number>(inner / stride) + Number(0.5)};
         const Number pressure =
-            static_cast<Number>(cells.pressure[meeting.film_cell]) +
-            dot(convert<Number>(cells.gravity_dt), meeting.middle - centre);
-        sum.add(meeting.pushes(obstacles.bodies.load[slot], pressure));
+            static_cast<Number>(cells.pressure[meeting.film_cell]) + meeting.beyond;
+        sum.add(Impulse<Real>{pressure * meeting.film.linear, pressure * meeting.film.angular});
     });
     return sum;
 }

@@ -2,6 +2,7 @@
 
 #include "contour/marching_squares.hpp"
 #include "geometry/outline.hpp"
+#include "solid/body_reach.hpp"
 
 namespace weir {
 
@@ -16,6 +17,9 @@ constexpr double kMostLift = 0.5;
 
 /// A cell with less room than this tells nothing of the liquid.
 constexpr double kLeastRoom = 1.0 / 16.0;
+
+/// An outline that lacks less than so much of a face is closed.
+constexpr double kClosed = 1.0 / 64.0;
 
 /// Most looks along an edge.
 constexpr std::int32_t kMostLooks = 64;
@@ -56,6 +60,61 @@ Shown<Real> shown_of(const Obstacles<Real>& obstacles, std::uint16_t slot) {
         }
     }
     return shown;
+}
+
+/// What the pressure of liquid at rest does to a body, cell by cell.
+template <class Real>
+struct AtRest {
+    using Number = Face<Real>;
+    Wide<Real> from;     ///< no pressure there
+    Wide<Real> gravity;  ///< the pressure's gradient
+    Wide<Real> open{};   ///< what is lacking to a closed outline
+    Wide<Real> push{};
+
+    void press(std::int32_t i, std::int32_t j, Number beyond, Wide<Real> reach) {
+        const Wide<Real> centre{static_cast<Number>(i) + Number(0.5),
+                                static_cast<Number>(j) + Number(0.5)};
+        open = open + reach;
+        push = push + (dot(gravity, centre - from) + beyond) * reach;
+    }
+    /// Of the body that is lifted.
+    Number area() const {
+        const Number square = dot(gravity, gravity);
+        return square > Number(0) ? absolute(dot(gravity, push)) / square : Number(0);
+    }
+};
+
+/// Where cells and films close a body in liquid, the area that they lift of it; else 0. Beside
+/// what it lies on the contour shows more of it than they reach.
+template <class Real>
+Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
+                       std::uint16_t slot) {
+    using Number = Face<Real>;
+    const GridShape& s = obstacles.tank;
+    const Walls<Real>& walls = obstacles.walls;
+    AtRest<Real> rest{obstacles.bodies.load[slot].at, convert<Number>(cells.gravity_dt)};
+    bool any = false;
+    Meetings<Real>(obstacles.bodies).for_each_film([&](const Meeting<Real>& film) {
+        if (film.slot == slot) {
+            const std::int32_t inner = film.film_cell - s.index(0, 0);
+            rest.press(inner % s.stride, inner / s.stride, film.beyond, film.film.linear);
+            any = true;
+        }
+    });
+    if (!any) {
+        return Number(0);
+    }
+    for_each_beside(s, walls, slot, cells, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+        Wide<Real> closed{};
+        for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
+            closed = closed + (face.slot == slot ? convert<Number>(face.outward) : Wide<Real>{});
+        });
+        if ((closed.x != Number(0) || closed.y != Number(0)) && !is_shut(s, walls, c)) {
+            rest.press(i, j, way_to_contour(s, walls, c, cells.gravity_dt), closed);
+        }
+    });
+    const bool all = absolute(rest.open.x) + absolute(rest.open.y) < Number(kClosed);
+    return all ? rest.area() : Number(0);
 }
 
 /// The liquid along an outline.
@@ -142,7 +201,9 @@ void immerse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, 
     using Number = Face<Real>;
     BodyLoad<Real>& load = obstacles.bodies.load[slot];
     load.ease = Number(1);
-    const Shown<Real> shown = shown_of(obstacles, slot);
+    const Number lifted = lifted_area(obstacles, cells, slot);
+    const Shown<Real> shown =
+        lifted > Number(0) ? Shown<Real>{lifted} : shown_of(obstacles, slot);
     const Number missing = load.area - shown.area;
     // Which part of a cell is whose where bodies share it is a guess: that much may be there.
     const Number most = Number(kMissed) * load.area;

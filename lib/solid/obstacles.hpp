@@ -42,20 +42,14 @@ struct Meeting {
     std::uint16_t slot;
     std::uint16_t other;      ///< kNoBody: the tank
     std::int32_t next_film = -1;  ///< number of the next one with a film, negative: none
-    Face<Real> film = Face<Real>(0);  ///< how much of the face has that film's pressure
-    std::int32_t film_cell = 0;       ///< which is this one's
-    Vec2<Face<Real>> middle{};
+    std::int32_t film_cell = 0;         ///< whose pressure that film has,
+    Face<Real> beyond = Face<Real>(0);  ///< and so much more, as it lies elsewhere
+    Impulse<Real> film{};               ///< what it does to the free body, per pressure
     HeldWay<Real> ahead{};       ///< along the normal
     HeldWay<Real> aside{};       ///< along the surface, the normal's right
     bool other_is_free = false;
 
     Vec2<Face<Real>> side() const { return {normal.y, -normal.x}; }
-    /// How the film's pressure pushes the free body.
-    Impulse<Real> pushes(const BodyLoad<Real>& load, Face<Real> times) const {
-        Impulse<Real> reach;
-        reach.add((times * film) * normal, middle - load.at);
-        return reach;
-    }
 };
 static_assert(sizeof(Meeting<float>) <= kMeetingBytes<float>, "raise kMeetingBytes");
 static_assert(sizeof(Meeting<double>) <= kMeetingBytes<double>, "raise kMeetingBytes");

@@ -121,7 +121,7 @@ inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
 inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 120 : 240;
 template <class Real>
-inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 96 : 176;
+inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 96 : 184;
 /// How a body pushes into its cells, where there is room to keep it: for some 60 cells a body.
 template <class Real>
 inline constexpr std::size_t kLeverBytes = sizeof(Real) == 4 ? 4096 : 8192;
