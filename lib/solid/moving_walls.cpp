@@ -200,8 +200,19 @@ void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s)
     }
 }
 
-#define WEIR_INSTANTIATE(Real)                           \
-    template const MovingWalls<Real>& moving_walls();   \
+template <class Real>
+void note_moving(const BodyTable<Real>& table, Walls<Real>& walls) {
+    walls.moving = nullptr;
+    for (std::int32_t slot = table.movable.first; slot < table.movable.end; ++slot) {
+        if (table.body[slot].kind == BodyKind::moving && table.body[slot].has_speed()) {
+            walls.moving = &moving_walls<Real>();
+        }
+    }
+}
+
+#define WEIR_INSTANTIATE(Real)                                        \
+    template const MovingWalls<Real>& moving_walls();                 \
+    template void note_moving(const BodyTable<Real>&, Walls<Real>&);  \
     template void move_bodies(BodyTable<Real>&, Walls<Real>&, Seconds<Real>);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE

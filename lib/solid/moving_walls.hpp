@@ -36,6 +36,10 @@ const MovingWalls<Real>& moving_walls();
 template <class Real>
 void move_bodies(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s);
 
+/// Between steps: whether any move now. What the last substep knew is in no snapshot.
+template <class Real>
+void note_moving(const BodyTable<Real>& table, Walls<Real>& walls);
+
 /// Velocity of a body's material at a point of the tank, cells/s.
 template <class Real>
 inline Vec2<Real> velocity_at(const Walls<Real>& walls, std::uint16_t slot, Vec2<Real> point) {

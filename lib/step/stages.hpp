@@ -20,6 +20,7 @@ const Stages<Real>& stages_around() {
         constexpr decltype(Stages<Real>::most_moved) kMost = kNothing;
         static constexpr Stages<Real> kStages{Substep,
                                               kMoving ? move_bodies<Real> : nullptr,
+                                              kMoving ? note_moving<Real> : nullptr,
                                               inside_solid<Real>,
                                               kMoving ? merge_moving<Real> : kDrawn,
                                               kMoving ? most_nodes<Real> : kMost,
@@ -32,9 +33,9 @@ const Stages<Real>& stages_around() {
         constexpr auto kNowhere = [](const GridShape&, const Walls<Real>&, Vec2<Real>) {
             return false;
         };
-        static constexpr Stages<Real> kStages{Substep,  nullptr,  kNowhere, kNothing,
-                                              kNothing, kNothing, nullptr,  nullptr,
-                                              nullptr};
+        static constexpr Stages<Real> kStages{Substep,  nullptr,  nullptr, kNowhere,
+                                              kNothing, kNothing, kNothing, nullptr,
+                                              nullptr,  nullptr};
         return kStages;
     }
 }

@@ -16,6 +16,8 @@ struct Stages {
                     StepReport& report);
     /// Null: none can.
     void (*move_bodies)(BodyTable<Real>& table, Walls<Real>& walls, Seconds<Real> dt_s);
+    /// Between steps. Null: none can.
+    void (*note_moving)(const BodyTable<Real>& table, Walls<Real>& walls);
     bool (*inside_solid)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point);
     /// Draws the bodies that were put elsewhere since the last step: somebody looks at them.
     std::int32_t (*draw_moved)(Layers<Real>& layers, BodyTable<Real>& table);

@@ -114,6 +114,9 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
     const auto per_s = static_cast<double>(units_per_s(*state_));
     sum_particles(simulation, cell_m, per_s, *diagnostics);
     simulation.stages->draw_moved(simulation.layers, simulation.bodies);
+    if (simulation.stages->note_moving != nullptr) {
+        simulation.stages->note_moving(simulation.bodies, simulation.layers.walls);
+    }
     if constexpr (kHasWindow<Real>) {
         if (simulation.window.cells > 0 && !look_around(simulation)) {
             return Status::ok;

@@ -1,7 +1,7 @@
 // Diagnostics against sums by hand, and that looking changes nothing.
 #include <gtest/gtest.h>
 
-#include "test_world.hpp"
+#include "busy_world.hpp"
 #include "weir/weir.hpp"
 
 namespace weir {
@@ -92,6 +92,24 @@ TEST(Diagnostics, DivergenceIsToldInSeconds) {
         Diagnostics d;
         expect_ok(world->diagnose(&d));
         EXPECT_NEAR(d.divergence_per_s, 0.4 / kCellM, 2.0) << "the velocity's change over a cell";
+    }
+}
+
+/// A world that was restored has not made the step that moved its bodies.
+TEST(Diagnostics, AreThoseOfTheWorldThatWasSaved) {
+    TestWorld<float> world(busy_def(0));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.3F, 0.1F}}));
+    Dice dice(1);
+    for (std::int32_t step = 0; step < 300; ++step) {
+        live(*world, dice, 1);
+        TestWorld<float> other(busy_def(0));
+        change_worlds(world, other, busy_def(0));
+        Diagnostics a;
+        Diagnostics b;
+        expect_ok(world->diagnose(&a));
+        expect_ok(other->diagnose(&b));
+        EXPECT_EQ(a.divergence_per_s, b.divergence_per_s) << "step " << step;
+        EXPECT_EQ(a.volume_m2, b.volume_m2) << "step " << step;
     }
 }
 
