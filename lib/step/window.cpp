@@ -314,10 +314,15 @@ bool look_around(Simulation<Real>& simulation) {
     const Extent<Real> extent = particles.count > 0 ? extent_of(particles) : Extent<Real>{};
     GridShape part = occupied_part(tank, simulation.settings.borders, extent, false);
     GridShape both = united(part, simulation.occupied);
-    if (!fits_window(simulation, both)) {
-        return false;
+    // What was restored may stand anywhere in the window, and leaves no room for a rim.
+    const GridShape before = stored_part(simulation);
+    const GridShape needed = united(before, with_rim(simulation, part));
+    if (needed.nx != before.nx || needed.ny != before.ny) {
+        if (!fits_window(simulation, both)) {
+            return false;
+        }
+        move_window(both, simulation);
     }
-    move_window(both, simulation);
     part.stride = both.stride = tank.stride;
     simulation.occupied = both;
     simulation.grid.shape = part;

@@ -129,5 +129,25 @@ TYPED_TEST(WindowBodies, HoldWhatIsBeyond) {
     EXPECT_EQ(lifted, all - below) << "on the plate";
 }
 
+/// The window that was restored is wide enough, though no wider one would fit.
+TYPED_TEST(WindowBodies, KnowTheLiquidThatWasRestored) {
+    const WorldDef def = windowed(wide_def(kKinds), 67 * 27);
+    TestWorld<TypeParam> world(def);
+    TestWorld<TypeParam> other(def);
+    expect_ok(world->fill({{1.0F, 0.6F}, {1.4F, 0.7F}}));
+    world->step(1.0F / 60.0F);
+    change_worlds(world, other, def);
+    Diagnostics a;
+    Diagnostics b;
+    expect_ok(world->diagnose(&a));
+    expect_ok(other->diagnose(&b));
+    EXPECT_GT(a.volume_m2, 0.03);
+    EXPECT_TRUE(same(a, b)) << a.volume_m2 << " " << b.volume_m2;
+    EXPECT_EQ(other->state_hash(), world->state_hash());
+    world->step(1.0F / 60.0F);
+    other->step(1.0F / 60.0F);
+    EXPECT_EQ(other->state_hash(), world->state_hash());
+}
+
 }  // namespace
 }  // namespace weir
