@@ -16,9 +16,10 @@ void add_film(const CoupledSolve<Real>& solve, const Meeting<Real>& meeting,
 }
 
 /// @param own the body that is asked for.
+/// @param films whether to look for films at the cell.
 template <class Real>
 Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::int32_t i,
-                       std::int32_t j) {
+                       std::int32_t j, bool films = true) {
     const Walls<Real>& walls = solve.walls;
     Levers<Real> levers;
     for_each_closed_face(solve.shape, walls, i, j, [&](const ClosedFace<Real>& face) {
@@ -32,6 +33,9 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::
             }
         }
     });
+    if (!films) {
+        return levers;
+    }
     const std::int32_t cell = solve.shape.index(i, j);
     Meetings<Real>(solve.obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
         if (meeting.film_cell == cell) {
@@ -44,10 +48,13 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::
 /// Whether a body's face or a film may be at a cell.
 template <class Real>
 bool is_pressed(const CoupledSolve<Real>& solve, std::int32_t cell) {
+    if (!untouched(solve.walls, cell, cell + solve.shape.stride)) {
+        return true;
+    }
     bool film = false;
     Meetings<Real>(solve.obstacles.bodies).for_each_film(
         [&](const Meeting<Real>& meeting) { film = film || meeting.film_cell == cell; });
-    return film || !untouched(solve.walls, cell, cell + solve.shape.stride);
+    return film;
 }
 
 /// Calls visit(slot, box) for the rectangle of each free body.
@@ -104,21 +111,32 @@ Face<Real> pushed_into(const CoupledSolve<Real>& solve, const Lever<Real>* lever
     return sum;
 }
 
+/// In the diagonal, as a sum, while cells are gone through: that a cell was met, and that it has a
+/// film. To go through the films at each cell takes longer than all that they do.
+constexpr std::int32_t kMet = 1;
+constexpr std::int32_t kHasFilm = 2;
+
 /// Calls visit(box's slot, i, j, cell, levers, whether it was met before) for the cells of liquid
-/// on which free bodies press. The diagonal serves as a mark for cells that were met.
+/// on which free bodies press. Films are in their bodies' rectangles.
 template <class Real, class Visit>
 void for_each_pressed(const CoupledSolve<Real>& solve, Visit visit) {
     for_each_cell(solve, [&](std::int32_t, std::int32_t, std::int32_t c) {
         solve.diagonal[c] = Real(0);
     });
+    Meetings<Real>(solve.obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
+        solve.diagonal[meeting.film_cell] = Real(kHasFilm);
+    });
     for_each_box(solve, [&](std::uint16_t slot, const NodeBox& box) {
         for (std::int32_t j = box.j0; j <= box.j1; ++j) {
             for (std::int32_t i = box.i0; i <= box.i1; ++i) {
                 const std::int32_t c = solve.shape.index(i, j);
-                if (solve.cells.level[c] > Real(0) && is_pressed(solve, c)) {
-                    const Levers<Real> levers = levers_of(solve, slot, i, j);
-                    visit(slot, i, j, c, levers, solve.diagonal[c] != Real(0));
-                    solve.diagonal[c] = Real(1);
+                const auto mark = floor_to_int(solve.diagonal[c]);
+                const bool film = (mark & kHasFilm) != 0;
+                if (solve.cells.level[c] > Real(0) &&
+                    (film || !untouched(solve.walls, c, c + solve.shape.stride))) {
+                    const Levers<Real> levers = levers_of(solve, slot, i, j, film);
+                    visit(slot, i, j, c, levers, (mark & kMet) != 0);
+                    solve.diagonal[c] = Real(mark | kMet);
                 }
             }
         }
