@@ -83,7 +83,27 @@ inline void for_each_cut(const GridShape& s, const Walls<Real>& walls, std::uint
     }
 }
 
-/// The same for those of liquid.
+/// Whether a cell is all within a body: what the body closes of it sums up to nothing, exactly.
+template <class Real>
+inline bool is_within(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
+                      std::int32_t cell) {
+    const auto own = [&](std::int32_t node) { return nearest_at(walls, node) == slot; };
+    const std::int32_t up = cell + s.stride;
+    return is_shut(s, walls, cell) && own(cell) && own(cell + 1) && own(up) && own(up + 1);
+}
+
+/// Without the cells that are within the body.
+template <class Real, class Visit>
+inline void for_each_rim(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
+                            const Visit& visit) {
+    for_each_cut(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+        if (!is_within(s, walls, slot, c)) {
+            visit(i, j, c);
+        }
+    });
+}
+
+/// The same as `for_each_cut` for cells of liquid.
 template <class Real, class Visit>
 inline void for_each_beside(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
                             const PressedCells<Real>& cells, const Visit& visit) {

@@ -149,7 +149,7 @@ private:
                Laid& laid) const {
         const GridShape& s = obstacles_.tank;
         const Walls<Real>& walls = obstacles_.walls;
-        for_each_cut(s, walls, point.slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
+        for_each_rim(s, walls, point.slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
             const Wide<Real> centre{static_cast<Number>(i) + Number(0.5),
                                     static_cast<Number>(j) + Number(0.5)};
             const Wide<Real> arm = centre - strip.middle;
@@ -228,13 +228,16 @@ private:
 
     /// Along the faces, too, and in what turns the body, films close what cells show of all of it:
     /// each has as much of what is lacking as it is long. What another free body hides is not
-    /// theirs: they would push both away.
+    /// theirs: they would push both away. That is seen before most of what is lacking is summed up.
     void put_right(std::uint16_t slot, std::int32_t begun, const Laid& laid) const {
         const GridShape& s = obstacles_.tank;
         const Walls<Real>& walls = obstacles_.walls;
         Impulse<Real> over = laid.sum;
         bool alone = true;
-        for_each_cut(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
+        for_each_rim(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
+            if (!alone) {
+                return;
+            }
             const bool shut = is_shut(s, walls, cell);
             for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
                 if (face.slot != slot) {
@@ -273,10 +276,7 @@ Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<
                            std::uint16_t slot) {
     using Number = Face<Real>;
     Impulse<Real> sum;
-    Meetings<Real>(obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
-        if (meeting.slot != slot) {
-            return;
-        }
+    Meetings<Real>(obstacles.bodies).for_each_film_of(slot, [&](const Meeting<Real>& meeting) {
         const Number pressure =
             static_cast<Number>(cells.pressure[meeting.film_cell]) + meeting.beyond;
         sum.add(Impulse<Real>{pressure * meeting.film.linear, pressure * meeting.film.angular});

@@ -94,17 +94,18 @@ Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real
     const Walls<Real>& walls = obstacles.walls;
     AtRest<Real> rest{obstacles.bodies.load[slot].at, convert<Number>(cells.gravity_dt)};
     bool any = false;
-    Meetings<Real>(obstacles.bodies).for_each_film([&](const Meeting<Real>& film) {
-        if (film.slot == slot) {
-            const std::int32_t inner = film.film_cell - s.index(0, 0);
-            rest.press(inner % s.stride, inner / s.stride, film.beyond, film.film.linear);
-            any = true;
-        }
+    Meetings<Real>(obstacles.bodies).for_each_film_of(slot, [&](const Meeting<Real>& film) {
+        const std::int32_t inner = film.film_cell - s.index(0, 0);
+        rest.press(inner % s.stride, inner / s.stride, film.beyond, film.film.linear);
+        any = true;
     });
     if (!any) {
         return Number(0);
     }
-    for_each_beside(s, walls, slot, cells, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+    for_each_rim(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+        if (!(cells.level[c] > Real(0))) {
+            return;
+        }
         Wide<Real> closed{};
         for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
             closed = closed + (face.slot == slot ? convert<Number>(face.outward) : Wide<Real>{});

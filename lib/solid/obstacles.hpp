@@ -119,6 +119,16 @@ struct Meetings {
             visit(entry[k]);
         }
     }
+    /// The same for those of a body.
+    template <class Visit>
+    void for_each_film_of(std::uint16_t slot, Visit visit) const {
+        for (std::int32_t k = *first_film; k >= 0 && entry[k].slot <= slot;
+             k = entry[k].next_film) {
+            if (entry[k].slot == slot) {
+                visit(entry[k]);
+            }
+        }
+    }
     Meeting<Real>* begin() const { return entry; }
     Meeting<Real>* end() const { return entry + *used; }
 };
