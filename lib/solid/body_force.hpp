@@ -95,7 +95,7 @@ inline bool is_within(const GridShape& s, const Walls<Real>& walls, std::uint16_
 /// Without the cells that are within the body.
 template <class Real, class Visit>
 inline void for_each_rim(const GridShape& s, const Walls<Real>& walls, std::uint16_t slot,
-                            const Visit& visit) {
+                         const Visit& visit) {
     for_each_cut(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
         if (!is_within(s, walls, slot, c)) {
             visit(i, j, c);
