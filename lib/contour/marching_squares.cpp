@@ -127,7 +127,7 @@ Vec2<Real> unit(Vec2<Real> v) {
     if constexpr (Stored<Real>::coarse) {
         return packed_unit(v);
     }
-    const Real larger = maximum(absolute(v.x), absolute(v.y));
+    const Real larger = larger_part(v);
     const Vec2<Real> scaled{v.x / larger, v.y / larger};
     const Real size = length(scaled);
     return {scaled.x / size, scaled.y / size};

@@ -218,7 +218,7 @@ void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* l
                  const Real* pressure, StaggeredGrid<Real>& grid) {
     const GridShape& s = grid.shape;
     const Parting<Real> parting{level, pressure,
-                                kHold<Real> * maximum(absolute(fall.x), absolute(fall.y))};
+                                kHold<Real> * larger_part(fall)};
     const auto close_u = [&](std::int32_t i, std::int32_t cell, std::int32_t inward, Real off) {
         close_wall(grid.u, grid.inverse_density_u, column(s, i), cell, inward, off, parting);
     };

@@ -31,6 +31,11 @@ template <class Real>
 Real length(Vec2<Real> a) {
     return square_root(dot(a, a));
 }
+/// Size of the larger component.
+template <class Real>
+constexpr Real larger_part(Vec2<Real> a) {
+    return maximum(absolute(a.x), absolute(a.y));
+}
 template <class Real>
 bool is_finite(Vec2<Real> a) {
     return is_finite(a.x) && is_finite(a.y);

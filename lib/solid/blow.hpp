@@ -38,7 +38,7 @@ void blow(Scene<Real>& scene, std::int32_t k, std::uint16_t slot, Vec2<Real> x,
     }
     const Vec2<Real> kept = particles.velocity[k];  // as it is stored
     scene.result.max_speed =
-        maximum(scene.result.max_speed, maximum(absolute(kept.x), absolute(kept.y)));
+        maximum(scene.result.max_speed, larger_part(kept));
 }
 
 /// The surface of a body answers a particle that hits it at `x`.

@@ -23,6 +23,18 @@ inline NodeBox cells_of(const GridShape& shape, const NodeBox& drawn) {
             minimum(shape.ny - 1, drawn.j1)};
 }
 
+/// Centre of a cell by its column and row, and by its place among all.
+template <class Real>
+inline Wide<Real> centre_of_cell(std::int32_t i, std::int32_t j) {
+    using Number = Face<Real>;
+    return {static_cast<Number>(i) + Number(0.5), static_cast<Number>(j) + Number(0.5)};
+}
+template <class Real>
+inline Wide<Real> centre_of_cell(const GridShape& s, std::int32_t cell) {
+    const std::int32_t inner = cell - s.index(0, 0);
+    return centre_of_cell<Real>(inner % s.stride, inner / s.stride);
+}
+
 /// A closed part of a cell's face, as the pressure in the cell sees it.
 template <class Real>
 struct ClosedFace {

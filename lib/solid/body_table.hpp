@@ -24,7 +24,7 @@ enum class Lead : std::uint8_t { none, now, held };
 /// it turns by so much. The same of velocities.
 template <class Number>
 Number furthest_way(Vec2<Number> way, Number turn, Number radius) {
-    return maximum(absolute(way.x), absolute(way.y)) + absolute(turn) * radius;
+    return larger_part(way) + absolute(turn) * radius;
 }
 
 /// Cells and seconds. Vertices stand at first_vertex in the pools, pieces at

@@ -63,12 +63,6 @@ private:
         const std::int32_t cell = s.index(floor_to_int(x.x), floor_to_int(x.y));
         return obstacles_.walls.cell_case[cell] == kCellInside ? -1 : cell;
     }
-    Wide<Real> centre_of(std::int32_t cell) const {
-        const std::int32_t stride = obstacles_.tank.stride;
-        const std::int32_t inner = cell - obstacles_.tank.index(0, 0);
-        return {static_cast<Number>(inner % stride) + Number(0.5),
-                static_cast<Number>(inner / stride) + Number(0.5)};
-    }
     /// Whether a cell has a pressure.
     bool is_wet(std::int32_t cell) const {
         return cells_.level[cell] > Real(0) && !is_shut(obstacles_.tank, obstacles_.walls, cell);
@@ -150,9 +144,7 @@ private:
         const GridShape& s = obstacles_.tank;
         const Walls<Real>& walls = obstacles_.walls;
         for_each_rim(s, walls, point.slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
-            const Wide<Real> centre{static_cast<Number>(i) + Number(0.5),
-                                    static_cast<Number>(j) + Number(0.5)};
-            const Wide<Real> arm = centre - strip.middle;
+            const Wide<Real> arm = centre_of_cell<Real>(i, j) - strip.middle;
             const Number place = dot(arm, strip.along);
             if (absolute(place) > strip.half + Number(1)) {
                 return;
@@ -219,7 +211,8 @@ private:
             }
             point.film = film;
             point.film_cell = cell[k];
-            point.beyond = dot(convert<Number>(cells_.gravity_dt), middle - centre_of(cell[k]));
+            point.beyond = dot(convert<Number>(cells_.gravity_dt),
+                               middle - centre_of_cell<Real>(obstacles_.tank, cell[k]));
             *link = static_cast<std::int32_t>(&point - list_.entry);
             link = &point.next_film;
             *link = -1;

@@ -99,7 +99,7 @@ Entry<Real> first_entry(const GridShape& shape, const Walls<Real>& walls, Vec2<R
     constexpr std::int32_t kMostSamples = 16;
     constexpr std::int32_t kHalvings = 8;
     const Vec2<Real> way = to - from;
-    const Real longest = maximum(absolute(way.x), absolute(way.y));
+    const Real longest = larger_part(way);
     const std::int32_t samples = longest * kSamples < static_cast<Real>(kMostSamples)
                                      ? ceil_to_int(longest * kSamples)
                                      : kMostSamples;

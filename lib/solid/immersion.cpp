@@ -71,9 +71,7 @@ struct AtRest {
     Wide<Real> open{};   ///< what is lacking to a closed outline
     Wide<Real> push{};
 
-    void press(std::int32_t i, std::int32_t j, Number beyond, Wide<Real> reach) {
-        const Wide<Real> centre{static_cast<Number>(i) + Number(0.5),
-                                static_cast<Number>(j) + Number(0.5)};
+    void press(Wide<Real> centre, Number beyond, Wide<Real> reach) {
         open = open + reach;
         push = push + (dot(gravity, centre - from) + beyond) * reach;
     }
@@ -95,8 +93,7 @@ Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real
     AtRest<Real> rest{obstacles.bodies.load[slot].at, convert<Number>(cells.gravity_dt)};
     bool any = false;
     Meetings<Real>(obstacles.bodies).for_each_film_of(slot, [&](const Meeting<Real>& film) {
-        const std::int32_t inner = film.film_cell - s.index(0, 0);
-        rest.press(inner % s.stride, inner / s.stride, film.beyond, film.film.linear);
+        rest.press(centre_of_cell<Real>(s, film.film_cell), film.beyond, film.film.linear);
         any = true;
     });
     if (!any) {
@@ -111,7 +108,8 @@ Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real
             closed = closed + (face.slot == slot ? convert<Number>(face.outward) : Wide<Real>{});
         });
         if ((closed.x != Number(0) || closed.y != Number(0)) && !is_shut(s, walls, c)) {
-            rest.press(i, j, way_to_contour(s, walls, c, cells.gravity_dt), closed);
+            rest.press(centre_of_cell<Real>(i, j), way_to_contour(s, walls, c, cells.gravity_dt),
+                       closed);
         }
     });
     const bool all = absolute(rest.open.x) + absolute(rest.open.y) < Number(kClosed);

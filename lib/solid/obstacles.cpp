@@ -171,7 +171,7 @@ private:
         const Number approach = dot(normal, unpressed_at(table_, own, at) - its);
         const Number fall = free ? Number(0) : dot(normal, obstacles_.fall);
         const Number slow = static_cast<Number>(kSlowFall) *
-                            maximum(absolute(obstacles_.fall.x), absolute(obstacles_.fall.y));
+                            larger_part(obstacles_.fall);
         const auto restitution = static_cast<Number>(
             maximum(table_.body[own].surface.restitution,
                     law_before(obstacles_, other, normal).restitution));

@@ -122,7 +122,7 @@ inline constexpr std::int32_t kSampled = 4;
 
 template <class Real>
 Real fastest_part(const Vec2<VelocityOf<Real>>& velocity) {
-    return maximum(absolute(Real(velocity.x)), absolute(Real(velocity.y)));
+    return larger_part(convert<Real>(velocity));
 }
 
 /// Calls visit(tile) for the tiles that a box of nodes reaches into, and one more on each side.

@@ -24,7 +24,7 @@ struct Settings {
     Vec2<Real> fall_in(Seconds<Real> dt_s) const { return dt_s * gravity; }
     /// By how much a step of so long presses more from a cell to the next, along the stronger axis.
     Real cell_weight(Seconds<Real> dt_s) const {
-        return dt_s * maximum(absolute(gravity.x), absolute(gravity.y));
+        return dt_s * larger_part(gravity);
     }
 };
 

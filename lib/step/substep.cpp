@@ -66,9 +66,8 @@ void find_surface(Simulation<Real>& simulation, const Domain<Real>& domain,
     PressureFields<Real>& fields = simulation.pressure;
     fields.settling = plan.settling;
     if (!Stored<Real>::coarse && plan.surface_tension > Real(0)) {
-        const Vec2<Real>& pull = simulation.settings.gravity;
         const Real held = Real(1.0F / kDropLength2) * plan.surface_tension;
-        fields.on_surface = held >= maximum(absolute(pull.x), absolute(pull.y)) ? kDrops : kPools;
+        fields.on_surface = held >= larger_part(simulation.settings.gravity) ? kDrops : kPools;
     }
     surface_level(domain, simulation.settings.rest_count, simulation.stages->empty_slivers, work);
 }
@@ -100,9 +99,8 @@ void update_grid(Simulation<Real>& simulation, const Domain<Real>& domain,
 /// share. Divided by dt.
 template <class Real>
 Real volume_gain_per_s(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
-    const Vec2<Real> g = simulation.settings.gravity;
-    const Real wave = square_root(maximum(absolute(g.x), absolute(g.y)) +
-                                  simulation.settings.surface_tension);
+    const Settings<Real>& settings = simulation.settings;
+    const Real wave = square_root(larger_part(settings.gravity) + settings.surface_tension);
     const Real way = dt_s * (simulation.max_speed + wave);
     return simulation.settings.volume_gain * minimum(Real(1), way + way) / dt_s;
 }

@@ -148,7 +148,7 @@ inline void advect(Vec2<Real> size, const TankBlow<Real>& blow, Vec2<Real> along
     result.far += is_within(along, transfer.near) ? 0 : 1;
     x = x + transfer.dt_s * limited(along, transfer.limit);
     meet_tank(size, blow, x, v);
-    result.max_speed = maximum(result.max_speed, maximum(absolute(v.x), absolute(v.y)));
+    result.max_speed = maximum(result.max_speed, larger_part(v));
 }
 
 }  // namespace weir

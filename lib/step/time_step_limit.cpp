@@ -32,11 +32,6 @@ std::int32_t at_least(Real ratio, std::int32_t most) {
     return ratio < static_cast<Real>(most) ? maximum(1, ceil_to_int(ratio)) : most + 1;
 }
 
-template <class Real>
-Real strength(Vec2<Real> gravity) {
-    return maximum(absolute(gravity.x), absolute(gravity.y));
-}
-
 /// Fastest point of any body or particle, along an axis or less, cells/s.
 template <class Real>
 Real fastest(const Simulation<Real>& simulation) {
@@ -69,7 +64,7 @@ Real softened(Real sound_speed, Real speed) {
 
 template <class Real>
 Seconds<Real> longest_step(const Settings<Real>& settings) {
-    const Real gravity = strength(settings.gravity);
+    const Real gravity = larger_part(settings.gravity);
     const Real most = static_cast<Real>(static_cast<std::int32_t>(settings.max_substeps));
     if (!(gravity > Real(0))) {
         return Seconds<Real>(1);
@@ -82,7 +77,7 @@ template <class Real>
 SubstepPlan<Real> plan_substeps(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const Settings<Real>& settings = simulation.settings;
     const bool elastic = simulation.pressure.elasticity != nullptr;
-    const Real gravity = strength(settings.gravity);
+    const Real gravity = larger_part(settings.gravity);
     const Real speed = fastest(simulation);
     const std::int32_t most = settings.max_substeps;
     const Real reach = (speed + gravity * dt_s) * dt_s / settings.cfl;

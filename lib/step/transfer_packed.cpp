@@ -176,10 +176,6 @@ inline Real limit_of(const Transfer<Real>& transfer) {
     return goes;
 }
 
-inline Real larger_part(const Vec2<Speed>& v) {
-    return maximum(absolute(Real(v.x)), absolute(Real(v.y)));
-}
-
 /// Those few that come to the tank's walls, or go further than a cell. `way`: 256ths.
 [[gnu::noinline]] void meet_rare(const Gather& gather, Vec2<std::int32_t> way,
                                    const Strip& strip, std::ptrdiff_t at,
@@ -187,7 +183,7 @@ inline Real larger_part(const Vec2<Speed>& v) {
     Vec2<Place>& place = strip.place(at);
     Vec2<Speed>& speed = strip.velocity(at);
     if (kLooksAfter) {
-        result.max_speed = maximum(result.max_speed, larger_part(speed));
+        result.max_speed = maximum(result.max_speed, larger_part(convert<Real>(speed)));
     }
     const GridShape& s = gather.grid.shape;
     constexpr std::int32_t kLongest = 2 * 256;
@@ -200,7 +196,7 @@ inline Real larger_part(const Vec2<Speed>& v) {
     speed = {Speed(v.x), Speed(v.y)};
     // A conveyor may have made it faster than whatever comes after knows of.
     const Real most = limit_of(gather.transfer);
-    const Real fastest = larger_part(speed);
+    const Real fastest = larger_part(convert<Real>(speed));
     if (fastest > most) {
         limit(speed, most, result);
     }

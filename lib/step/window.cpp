@@ -283,15 +283,21 @@ void show_beyond(Simulation<Real>& simulation) {
     begin_pool(-simulation.window.beyond, simulation);
 }
 
+/// Whether a window reaches all around a part.
+inline bool reaches(const GridShape& window, const GridShape& part) {
+    const GridShape both = united(window, part);
+    return both.nx == window.nx && both.ny == window.ny;
+}
+
 template <class Real>
 std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
     const GridShape& tank = simulation.layers.shape;
     const GridShape before = stored_part(simulation);
     const GridShape rim = with_rim(simulation, part);
-    const GridShape both = united(before, rim);
-    if (both.nx == before.nx && both.ny == before.ny) {
+    if (reaches(before, rim)) {
         return 0;
     }
+    const GridShape both = united(before, rim);
     // It stays where it can: liquid that comes and goes does not move it each time.
     const std::int32_t entries = simulation.window.cells;
     const bool stays = window_around(tank, both).size() <= entries;
@@ -315,9 +321,7 @@ bool look_around(Simulation<Real>& simulation) {
     GridShape part = occupied_part(tank, simulation.settings.borders, extent, false);
     GridShape both = united(part, simulation.occupied);
     // What was restored may stand anywhere in the window, and leaves no room for a rim.
-    const GridShape before = stored_part(simulation);
-    const GridShape needed = united(before, with_rim(simulation, part));
-    if (needed.nx != before.nx || needed.ny != before.ny) {
+    if (!reaches(stored_part(simulation), with_rim(simulation, part))) {
         if (!fits_window(simulation, both)) {
             return false;
         }

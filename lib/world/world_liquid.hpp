@@ -43,7 +43,7 @@ Vec2<Real> inner_velocity(const detail::WorldState<Real>& state, Vec2f velocity_
 template <class Real>
 void note_speed(Simulation<Real>& simulation, Vec2<Real> velocity) {
     simulation.max_speed = maximum(simulation.max_speed,
-                                   maximum(absolute(velocity.x), absolute(velocity.y)));
+                                   larger_part(velocity));
 }
 
 /// Whether a box of the caller's may be used now.

@@ -36,7 +36,7 @@ float shorter_turn(float angle_rad) {
 
 /// Of the way to somewhere, which that velocity and spin would take, what a body can go at most.
 float share_of_way(const Motion& motion, float cell_m, const Reach& reach) {
-    const float speed = maximum(absolute(motion.velocity_mps.x), absolute(motion.velocity_mps.y));
+    const float speed = larger_part(motion.velocity_mps);
     const float fastest = reach.speed * cell_m;
     const float spin = absolute(motion.spin_radps);
     constexpr float kBelow = 0.999999F;  // the product is rounded

@@ -35,6 +35,13 @@ struct Tiles {
         put(62, 1, {-0.05F, 0.0F});
         EXPECT_EQ(asleep_after(20), count);
     }
+    static BodyDef square() { return body_of(kSquare4cm, {20 * kCell, 12 * kCell}); }
+    /// One beside it and one far from it.
+    void rest_beside_square() {
+        put(17.5F, 12.5F);
+        put(2, 2);
+        rest();
+    }
     std::int32_t asleep_after(int steps) {
         StepReport report;
         for (int step = 0; step < steps; ++step) {
@@ -61,10 +68,8 @@ TYPED_TEST(SleepingTiles, WakeAsOneWithTheirNeighbours) {
 /// What stood beside them may have held them.
 TYPED_TEST(SleepingTiles, WakeWhenABodyIsTakenAway) {
     Tiles<TypeParam> tiles;
-    const BodyId id = put_moving(*tiles.world, body_of(kSquare4cm, {20 * kCell, 12 * kCell}));
-    tiles.put(17.5F, 12.5F);
-    tiles.put(2, 2);
-    tiles.rest();
+    const BodyId id = put_moving(*tiles.world, tiles.square());
+    tiles.rest_beside_square();
     Motion motion;
     expect_ok(tiles->motion(id, &motion));
     motion.position_m = {40 * kCell, 12 * kCell};
@@ -75,10 +80,8 @@ TYPED_TEST(SleepingTiles, WakeWhenABodyIsTakenAway) {
 /// It may be a belt that carries them.
 TYPED_TEST(SleepingTiles, WakeWhenASurfaceChanges) {
     Tiles<TypeParam> tiles;
-    const BodyId id = put_static(*tiles.world, body_of(kSquare4cm, {20 * kCell, 12 * kCell}));
-    tiles.put(17.5F, 12.5F);
-    tiles.put(2, 2);
-    tiles.rest();
+    const BodyId id = put_static(*tiles.world, tiles.square());
+    tiles.rest_beside_square();
     expect_ok(tiles->set_surface(id, {0.0F, 0.5F, false, 0.1F}));
     EXPECT_EQ(tiles.asleep_after(2), 1) << "the one far from it";
 }
