@@ -6,6 +6,7 @@
 #include "math/sum_of_products.hpp"
 #include "pressure/face_weights.hpp"
 #include "pressure/parting.hpp"
+#include "pressure/relax_m0.hpp"
 #include "pressure/pressure_fields.hpp"
 #include "solid/walls.hpp"
 
@@ -158,6 +159,7 @@ template <bool Solids, class Real>
     }
 }
 
+#if !defined(WEIR_LOOPS_OF_M0)
 /// Relaxes cells c, c + 2 … of a row.
 template <bool Solids, class Real>
 WEIR_ALWAYS_INLINE void relax_packed_row(const PackedRelaxTask<Real>& task,
@@ -203,6 +205,7 @@ WEIR_ALWAYS_INLINE void relax_packed_row(const PackedRelaxTask<Real>& task,
         }
     }
 }
+#endif
 
 /// Diagonal × pressure less the neighbours'.
 template <bool Solids, class Real>
@@ -291,9 +294,27 @@ template <bool Solids, bool Mixed, class Real>
                                     PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
     const PackedRelaxTask<Real> task(fields, weights.walls, s, omega);
+    const std::int32_t i = (rows.first + colour) & 1;
+    std::int32_t on = s.stride + 1 - 2 * i;  // to where the next row begins
+#if defined(WEIR_LOOPS_OF_M0)
+    CellsOfRow row(fields, s.stride, s.index(i, rows.first));
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
-        relax_packed_row<Solids>(task, s.index((j + colour) & 1, j));
+        CellsOfRow cells = row;
+        while (relax_plain_cells(cells, task.of_4, task.of_3) != kRowEnd) {
+            relax_rare<Solids>(task, cells.here(), *cells.diagonal, cells.divergence());
+            cells.go(2);
+        }
+        row.go(on);
+        on = 2 * s.stride - on;
     }
+#else
+    std::int32_t c = s.index(i, rows.first);
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        relax_packed_row<Solids>(task, c);
+        c += on;
+        on = 2 * s.stride - on;
+    }
+#endif
 }
 
 }  // namespace weir

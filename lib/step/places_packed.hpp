@@ -4,14 +4,6 @@
 #include "fluid/particles.hpp"
 #include "math/packed_arithmetic.hpp"
 
-/// Loops in assembly want all registers of a Cortex-M0. Compilers keep some of them without
-/// optimisation, for small code (the upper ones) and for code that may stand anywhere: there plain
-/// loops make the same bits.
-#if defined(__ARM_ARCH_6M__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && \
-    !defined(__PIC__) && !defined(__clang__) && !defined(WEIR_PLAIN_LOOPS)
-#define WEIR_LOOPS_OF_M0
-#endif
-
 namespace weir {
 
 namespace packed {

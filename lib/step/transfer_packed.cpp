@@ -273,7 +273,7 @@ template <bool Keeps>
                                     bytes_between(gather.grid.v, gather.grid.mass_v), kSpeedBytes);
     const bool keeps = gather.transfer.keeps_places;
     const Longest most = longest_ways(keeps);
-    const WayBounds bounds{kLowest, kLowest + gather.room, kHalves, most.most, most.far};
+    const WayBounds bounds{2U * kLowest, gather.room, kHalves, most.most, most.far};
     const Strip strip(particles);
     for (const auto* place = reinterpret_cast<const char*>(particles.position);
          place != task.end;) {

@@ -6,6 +6,7 @@
 #include "fluid/particles.hpp"
 #include "port/port.hpp"
 #include "port/print.hpp"
+#include "pressure/projection.hpp"
 #include "step/blend_change.hpp"
 #include "step/grid_to_particle.hpp"
 #include "step/grid_update.hpp"
@@ -30,6 +31,8 @@ struct Fields {
     Real v[kEntries];
     Speed mass_v[kEntries];
     weir::LevelOf<Real> level[kEntries];
+    weir::DensityOf<Real> density[kEntries];
+    Real pressure[kEntries];
     weir::Vec2<Place> position[kParticles];
     weir::Vec2<Speed> velocity[kParticles];
     std::uint32_t ways[kParticles];
@@ -54,6 +57,9 @@ weir::PressureFields<Real> pressure() {
     weir::PressureFields<Real> fields;
     fields.divergence = grid().u + kEntries;
     fields.inverse_diagonal = grid().v + kEntries;
+    fields.pressure = g_fields.pressure;
+    fields.density = g_fields.density;
+    fields.level = g_fields.level;
     return fields;
 }
 
@@ -183,6 +189,45 @@ void gather(bool scratch) {
     }
 }
 
+/// In tanks of all sizes that fit, four fifths full. `pressed`: full, by pressures that grow to what
+/// numbers hold.
+void project(bool pressed) {
+    weir::StaggeredGrid<Real> to = grid();
+    weir::PressureFields<Real> fields = pressure();
+    to.shape.nx = 1 + static_cast<std::int32_t>(g_numbers.word() % kColumns);
+    to.shape.ny = 1 + static_cast<std::int32_t>(g_numbers.word() % kRows);
+    fill_velocities();
+    const std::uint32_t bits = 8U + g_numbers.word() % 21U;
+    for (std::int32_t k = 0; k < kEntries; ++k) {
+        g_fields.pressure[k].raw = pressed ? (1 << 28) : g_numbers.either(bits);
+        if (pressed) {
+            to.u[k].raw = static_cast<std::int16_t>(30000 - 6000 * (k % (kColumns + 2)));
+            to.v[k].raw = static_cast<std::int16_t>(30000 - 6000 * (k / (kColumns + 2)));
+        }
+        g_fields.density[k].raw = static_cast<std::uint8_t>(g_numbers.size(8));
+        g_fields.level[k].raw = -100;
+    }
+    for (std::int32_t j = 0; j < to.shape.ny; ++j) {
+        for (std::int32_t i = 0; i < to.shape.nx; ++i) {
+            const auto height = static_cast<std::int8_t>(1 + g_numbers.size(6));
+            g_fields.level[to.shape.index(i, j)].raw =
+                pressed || g_numbers.word() % 5U != 0 ? height : static_cast<std::int8_t>(-height);
+        }
+    }
+    fields.last_dt = weir::Seconds<Real>(0.0625);
+    fields.cell_weight = Real(0.25);
+    const weir::Borders<Real> borders;
+    weir::projection<false>(weir::Domain<Real>{to, fields, borders, kNoWalls},
+                            weir::Seconds<Real>(0.0625),
+                            (pressed ? 24 : 1) +
+                                static_cast<std::int32_t>(g_numbers.word() % 6U));
+    add_to_hash(to.u, kEntries * sizeof(Speed));
+    add_to_hash(to.v, kEntries * sizeof(Speed));
+    for (const Real pressure : g_fields.pressure) {
+        g_hash.add(pressure);
+    }
+}
+
 void calculate() {
     for (std::int32_t k = 0; k < 50; ++k) {
         const Real a = Real::of_raw(g_numbers.either(31));
@@ -224,5 +269,9 @@ int main() {
         calculate();
     }
     tell("calculate");
+    for (std::int32_t round = 0; round < kRounds; ++round) {
+        project(round % 8 == 0);
+    }
+    tell("project");
     port::exit(0);
 }
