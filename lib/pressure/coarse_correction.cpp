@@ -4,6 +4,7 @@
 
 #include "pressure/coarse_faces.hpp"
 #include "pressure/coarse_seams.hpp"
+#include "pressure/coarse_shares.hpp"
 #include "pressure/coarse_sweep_lanes.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
@@ -27,35 +28,6 @@ template <class Real>
 void clear(Real* field, const GridShape& shape) {
     clear_rows(shape, {0, shape.ny + 2}, field);
 }
-
-/// How a patch's cells share in its own and its neighbours' unknowns: linear between the centres,
-/// and to the surface.
-template <class Real>
-struct Shares {
-    std::int32_t beside[kCoarseEdge];  ///< per column
-    std::int32_t above[kCoarseEdge];   ///< per row; or below
-    Real of_beside[kCoarseEdge];
-    Real of_above[kCoarseEdge];
-
-    Shares(const CoarseGrid<Real>& coarse, std::int32_t q) {
-        const std::int32_t up = coarse.shape.stride;
-        along(coarse.centre_x[q], coarse.reach_u[q], coarse.reach_u[q + 1], q, 1, beside,
-              of_beside);
-        along(coarse.centre_y[q], coarse.reach_v[q], coarse.reach_v[q + up], q, up, above,
-              of_above);
-    }
-
-private:
-    static void along(Real centre, Real before, Real after, std::int32_t q, std::int32_t step,
-                      std::int32_t* neighbour, Real* share) {
-        constexpr Real kPerEdge = Real(1.0 / kCoarseEdge);
-        for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
-            const Real way = static_cast<Real>(k) - centre;
-            neighbour[k] = way > Real(0) ? q + step : q - step;
-            share[k] = kPerEdge * (way > Real(0) ? way * after : -way * before);
-        }
-    }
-};
 
 #if WEIR_HAS_LANES
 /// Adds what the cells of a patch add, one after the other. `step`: from one cell's terms to the
@@ -128,41 +100,47 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
                      const PressureFields<Real>& fields, const Patch& patch,
                      const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
-    const Shares<Real> to(coarse, patch.q);
+    const CoarseShares<Real> to(coarse, patch.q);
     const bool own_row = targets.has(patch.q);
+    Real* const sums = coarse.residual + patch.q;
     Real own = Real(0);
+    Real left = own_row ? sums[-1] : Real(0);
+    Real right = own_row ? sums[1] : Real(0);
     for (std::int32_t y = 0; y < patch.height; ++y) {
+        const std::int32_t up = y < to.rows_before ? -coarse.shape.stride : coarse.shape.stride;
+        const bool counted = targets.has(patch.q + up);
         const std::int32_t row = s.index(patch.i, patch.j + y);
         const Real of_above = to.of_above[y];
-        Real* const vertical = coarse.residual + to.above[y];
-        const VelocityOf<Real>* diagonal = fields.inverse_diagonal + row;
-        const VelocityOf<Real>* flow = fields.divergence + row;
-        const Real* p = fields.pressure + row;
-        for (std::int32_t x = 0; x < patch.width;
-             ++x, diagonal = whole(diagonal + 1), flow = whole(flow + 1), p = whole(p + 1)) {
-            const Real inverse = *diagonal;
+        Real vertical = counted ? sums[up] : Real(0);
+        const VelocityOf<Real>* const diagonal = whole(fields.inverse_diagonal + row);
+        const VelocityOf<Real>* const flow = whole(fields.divergence + row);
+        const Real* const p = whole(fields.pressure + row);
+        const auto add = [&](std::int32_t x) {
+            const Real inverse = diagonal[x];
             if (is_zero(inverse)) {
-                continue;
+                return;
             }
-            const Real held = *p;
+            const Real held = p[x];
             const Real residual =
-                (weights.weighted(p, row + x, inverse) - *flow) -
+                (weights.weighted(p + x, row + x, inverse) - flow[x]) -
                 (bound_key(inverse) == bound_key(stored_quarter<Real>())
                      ? Real(4) * held
                      : over_inverse<Real>(held, Solids ? absolute(inverse) : inverse));
             const Real beside = to.of_beside[x] * residual;
             const Real above = of_above * residual;
             own += residual - (beside + above);
-            if (own_row) {
-                coarse.residual[to.beside[x]] += beside;
-            }
-            if (targets.has(to.above[y])) {
-                *vertical += above;
-            }
+            (x < to.columns_before ? left : right) += beside;
+            vertical += above;
+        };
+        for_each_column(patch, add);
+        if (counted) {
+            sums[up] = vertical;
         }
     }
     if (own_row) {
-        coarse.residual[patch.q] += own;
+        sums[-1] = left;
+        sums[0] += own;
+        sums[1] = right;
     }
 }
 
@@ -190,23 +168,24 @@ void gather_residuals(const FaceWeights<Solids, Mixed, Real>& weights,
 
 template <class Real>
 void add_correction(const GridShape& s, const Patch& patch, PressureFields<Real>& fields) {
-    const Shares<Real> from(fields.coarse, patch.q);
-    const Real* e = fields.coarse.correction;
-    const Real own = e[patch.q];
+    const CoarseShares<Real> from(fields.coarse, patch.q);
+    const Real* const e = fields.coarse.correction + patch.q;
+    const std::int32_t up = fields.coarse.shape.stride;
+    const Real own = e[0];
     Real column[kCoarseEdge];
-    for (std::int32_t x = 0; x < patch.width; ++x) {
-        column[x] = from.of_beside[x] * (e[from.beside[x]] - own);
-    }
+    for_each_column(patch, [&](std::int32_t x) {
+        column[x] = from.of_beside[x] * (e[x < from.columns_before ? -1 : 1] - own);
+    });
     for (std::int32_t y = 0; y < patch.height; ++y) {
-        const Real row = own + from.of_above[y] * (e[from.above[y]] - own);
+        const Real row = own + from.of_above[y] * (e[y < from.rows_before ? -up : up] - own);
         const std::int32_t c = s.index(patch.i, patch.j + y);
-        const VelocityOf<Real>* const inverse = fields.inverse_diagonal + c;
-        Real* const p = fields.pressure + c;
-        for (std::int32_t x = 0; x < patch.width; ++x) {
+        const VelocityOf<Real>* const inverse = whole(fields.inverse_diagonal + c);
+        Real* const p = whole(fields.pressure + c);
+        for_each_column(patch, [&](std::int32_t x) {
             if (!is_zero(Real(inverse[x]))) {
                 p[x] += row + column[x];
             }
-        }
+        });
     }
 }
 
