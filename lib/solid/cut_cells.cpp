@@ -41,10 +41,14 @@ NodeBox touched_cells(const GridShape& s, const NodeBox& cells, const Walls<Real
 /// Cases of the cells whose nodes changed, and the faces around them.
 template <class Real>
 void contour_matrix(const GridShape& s, const NodeBox& cells, Walls<Real>& walls) {
-    const DistanceOf<Real>* d = walls.distance;
+    const DistanceOf<Real>* const d = walls.distance;
+    const std::int32_t up = s.stride;
+    std::uint8_t* const cases = walls.cell_case;
+    ShareOf<Real>* const open_u = walls.open_u;
+    ShareOf<Real>* const open_v = walls.open_v;
     // The bits of a node and of the one above it, as they stand on the left side of a case.
     const auto side = [&](std::int32_t node) {
-        return (d[node] <= Real(0) ? 1U : 0U) | (d[node + s.stride] <= Real(0) ? 8U : 0U);
+        return (is_positive(Real(d[node])) ? 0U : 1U) | (is_positive(Real(d[node + up])) ? 0U : 8U);
     };
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         std::int32_t c = s.index(cells.i0, j);
@@ -59,18 +63,20 @@ void contour_matrix(const GridShape& s, const NodeBox& cells, Walls<Real>& walls
             const std::uint32_t right = side(c + 1);
             const auto solid_nodes =
                 static_cast<std::uint8_t>(left | (right & 1U) << 1U | (right & 8U) >> 1U);
-            walls.cell_case[c] = solid_nodes;
-            const bool cut = is_cut(solid_nodes);
-            const Real whole = Real(solid_nodes == kOpen ? 1 : 0);
-            walls.open_u[c] = cut ? open_fraction<Real>(d[c], d[c + s.stride]) : whole;
-            walls.open_v[c] = cut ? open_fraction<Real>(d[c], d[c + 1]) : whole;
+            cases[c] = solid_nodes;
+            if (is_cut(solid_nodes)) {
+                open_u[c] = open_fraction<Real>(d[c], d[c + up]);
+                open_v[c] = open_fraction<Real>(d[c], d[c + 1]);
+            } else {
+                open_u[c] = open_v[c] = Real(solid_nodes == kOpen ? 1 : 0);
+            }
             left = right;
         }
-        walls.open_u[c] = open_fraction<Real>(d[c], d[c + s.stride]);
+        open_u[c] = open_fraction<Real>(d[c], d[c + up]);
     }
     const std::int32_t top = s.index(cells.i1, cells.j1 + 1);
     for (std::int32_t c = s.index(cells.i0, cells.j1 + 1); c <= top; ++c) {
-        walls.open_v[c] = open_fraction<Real>(d[c], d[c + 1]);
+        open_v[c] = open_fraction<Real>(d[c], d[c + 1]);
     }
 }
 
@@ -174,12 +180,17 @@ void add_cut_cells(const GridShape& s, const NodeBox& cells, Walls<Real>& walls)
     });
 }
 
-/// Cases of a cell and the ones below and above it, joined, and how many of them are open.
+/// Cases of a cell and the ones below and above it, and joined.
 struct Column {
     std::uint32_t any;
     std::uint32_t all;
-    std::int32_t own;
-    std::int32_t ends;
+    std::uint32_t below;
+    std::uint32_t here;
+    std::uint32_t above;
+
+    /// How many of them are open.
+    std::int32_t own() const { return here == kOpen ? 1 : 0; }
+    std::int32_t ends() const { return (below == kOpen ? 1 : 0) + (above == kOpen ? 1 : 0); }
 };
 
 /// Density that a cell shows when all around it is full: without the cut cells if they add theirs.
@@ -189,9 +200,9 @@ Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t
                   const Column& right) {
     if constexpr (kExactShares<Real>) {
         // Shares of the kernel are so many 32nds.
-        const std::int32_t sides = (left.own + right.own) + middle.ends;
+        const std::int32_t sides = (left.own() + right.own()) + middle.ends();
         return kCornerShare<Real> *
-               static_cast<Real>(12 * middle.own + 4 * sides + (left.ends + right.ends));
+               static_cast<Real>(12 * middle.own() + 4 * sides + (left.ends() + right.ends()));
     } else {
         return kernel_over<Real>(s, i, j, area);
     }
@@ -209,30 +220,36 @@ bool is_mirrored(const Walls<Real>& walls, Real open, std::int32_t a, std::int32
 
 /// What is around cells i0 … i1 of a row.
 template <class Real>
-void look_around_row(const GridShape& s, std::int32_t j, std::int32_t i0, std::int32_t i1,
+void look_around_row(const GridShape& shape, std::int32_t j, std::int32_t i0, std::int32_t i1,
                      const VelocityOf<Real>* area, bool thin, Walls<Real>& walls) {
-    const std::int32_t below = j > 0 ? -s.stride : 0;
-    const std::int32_t above = j + 1 < s.ny ? s.stride : 0;
+    const GridShape s = shape;  // what a byte that is stored cannot change
+    const std::int32_t row = s.index(0, j);
+    const std::uint8_t* const here = walls.cell_case + row;
+    const std::uint8_t* const below = here - (j > 0 ? s.stride : 0);
+    const std::uint8_t* const above = here + (j + 1 < s.ny ? s.stride : 0);
+    ShareOf<Real>* const full = walls.full_density + row;
+    MarksNear marks(walls, s, i0, j);
     const auto column = [&](std::int32_t i) {
-        const std::uint8_t* at = walls.cell_case + s.index(clamp(i, 0, s.nx - 1), j);
-        const std::uint32_t low = at[below];
-        const std::uint32_t here = at[0];
-        const std::uint32_t high = at[above];
-        const auto open = [](std::uint32_t nodes) { return nodes == kOpen ? 1 : 0; };
-        return Column{low | here | high, low & here & high, open(here), open(low) + open(high)};
+        const std::uint32_t low = below[i];
+        const std::uint32_t own = here[i];
+        const std::uint32_t high = above[i];
+        return Column{low | own | high, low & own & high, low, own, high};
     };
-    Column left = column(i0 - 1);
+    Column left = column(maximum(i0 - 1, 0));
     Column middle = column(i0);
     for (std::int32_t i = i0; i <= i1; ++i) {
-        const Column right = column(i + 1);
+        const Column right = column(minimum(i + 1, s.nx - 1));
         const std::uint32_t any = left.any | middle.any | right.any;
-        const bool near = any != kOpen && (left.all & middle.all & right.all) != kSolid;
-        const std::int32_t c = s.index(i, j);
-        walls.full_density[c] = near ? full_density<Real>(s, area, i, j, left, middle, right)
-                                     : Real(any == kOpen ? 1 : 0);
-        mark_near(walls, s, i, j,
-                  near && (thin || is_mirrored<Real>(walls, walls.open_u[c], c, c + s.stride) ||
-                           is_mirrored<Real>(walls, walls.open_v[c], c, c + 1)));
+        bool mirrored = false;
+        if (any != kOpen && (left.all & middle.all & right.all) != kSolid) {
+            const std::int32_t c = row + i;
+            full[i] = full_density<Real>(s, area, i, j, left, middle, right);
+            mirrored = thin || is_mirrored<Real>(walls, walls.open_u[c], c, c + s.stride) ||
+                       is_mirrored<Real>(walls, walls.open_v[c], c, c + 1);
+        } else {
+            full[i] = Real(any == kOpen ? 1 : 0);
+        }
+        marks.put(mirrored);
         left = middle;
         middle = right;
     }

@@ -116,7 +116,7 @@ inline void add_cut_groups(const GridShape& s, const NodeBox& cells, const NodeB
     });
 }
 
-/// `mark_near` for cells i … i + 7.
+/// `MarksNear` for cells i … i + 7.
 inline void mark_eight(const Walls<float>& walls, const GridShape& shape, std::int32_t i,
                        std::int32_t j, std::uint32_t near) {
     const std::int32_t column = shape.i0 + i;

@@ -118,14 +118,27 @@ inline std::int32_t first_near_word(const GridShape& part) {
     return part.j0 * near_words(part) + part.i0 / 32;
 }
 
-template <class Real>
-inline void mark_near(Walls<Real>& walls, const GridShape& shape, std::int32_t i, std::int32_t j,
-                      bool near) {
-    const std::int32_t column = shape.i0 + i;
-    std::uint32_t& word = walls.near[(shape.j0 + j) * near_words(shape) + column / 32];
-    const std::uint32_t bit = 1U << (static_cast<std::uint32_t>(column) % 32U);
-    word = near ? word | bit : word & ~bit;
-}
+/// Marks cells of a row in `near`, or not, one after the other from column i on.
+class MarksNear {
+public:
+    template <class Real>
+    MarksNear(Walls<Real>& walls, const GridShape& shape, std::int32_t i, std::int32_t j)
+        : word_(walls.near + (shape.j0 + j) * near_words(shape) + (shape.i0 + i) / 32),
+          bit_(1U << (static_cast<std::uint32_t>(shape.i0 + i) % 32U)) {}
+
+    void put(bool near) {
+        *word_ = near ? *word_ | bit_ : *word_ & ~bit_;
+        bit_ <<= 1U;
+        if (bit_ == 0) {
+            bit_ = 1;
+            ++word_;
+        }
+    }
+
+private:
+    std::uint32_t* word_;
+    std::uint32_t bit_;
+};
 
 template <class Real>
 inline bool is_near(const Walls<Real>& walls, const GridShape& shape, std::int32_t i,
