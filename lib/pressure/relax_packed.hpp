@@ -36,8 +36,14 @@ inline std::int32_t times_diagonal(std::int32_t diagonal, std::int32_t pressure)
 
 /// So much of a face, in 128ths, times what is behind it: most faces are open or closed.
 inline std::int32_t through(std::int32_t open, std::int32_t pressure) {
-    return open == 128 ? pressure
-                       : (pressure >> 14) * open * 128 + (((pressure & 0x3FFF) * open) >> 7);
+    if (open == 128) {
+        return pressure;
+    }
+#if defined(__ARM_ARCH_6M__)  // without products of 64 bits
+    return (pressure >> 14) * open * 128 + (((pressure & 0x3FFF) * open) >> 7);
+#else
+    return static_cast<std::int32_t>((std::int64_t{pressure} * open) >> 7);
+#endif
 }
 
 /// Sum over the neighbours of the cell `at`, each with its face.
@@ -62,11 +68,19 @@ inline std::int32_t neighbours_in_open(const Real* at, std::int32_t stride) {
 }
 inline std::int32_t less_diagonal(std::int32_t from, std::int32_t diagonal,
                                   std::int32_t pressure) {
+#if defined(__ARM_ARCH_6M__)
     const std::int32_t high = (pressure >> 14) * diagonal;
-    if (WEIR_SELDOM(static_cast<std::uint32_t>((high >> 22) + 1) > 1U)) {
+    const std::int32_t sign = high >> 22;
+    const std::int32_t all = high * 128 + (((pressure & 0x3FFF) * diagonal) >> 7);
+#else
+    const std::int64_t product = std::int64_t{pressure} * diagonal;
+    const auto sign = static_cast<std::int32_t>(product >> 36);
+    const auto all = static_cast<std::int32_t>(product >> 7);
+#endif
+    if (WEIR_SELDOM(static_cast<std::uint32_t>(sign + 1) > 1U)) {
         return less_much(from, diagonal, pressure);
     }
-    return from - (high * 128 + (((pressure & 0x3FFF) * diagonal) >> 7));
+    return from - all;
 }
 
 /// Of a cell's neighbours, each with its face, so much more than its diagonal × pressure. `flow`:
@@ -142,6 +156,15 @@ struct PackedRelaxTask {
           of_3(step / 384) {}
 };
 
+/// Not inline: all other cells would save the registers that it wants.
+template <class Real>
+[[gnu::noinline]] void part_from_wall(const PackedRelaxTask<Real>& task, Real* at) {
+    if (parts_from_wall(task.fields, task.walls.full_density, task.shape,
+                        static_cast<std::int32_t>(at - task.fields.pressure))) {
+        at->raw = 0;
+    }
+}
+
 /// A cell at the surface or at a wall, with its diagonal and what flows out of it. Walls do not
 /// pull: `relax_weighted` says why.
 template <bool Solids, class Real>
@@ -152,10 +175,8 @@ template <bool Solids, class Real>
                                     flow * 512);
     const std::int32_t diagonal = Solids && kept < 0 ? -kept : kept;
     at->raw = relaxed(at->raw, residual, coarse_factor(task.step, diagonal));
-    if (Solids && at->raw < 0 &&
-        parts_from_wall(task.fields, task.walls.full_density, task.shape,
-                        static_cast<std::int32_t>(at - task.fields.pressure))) {
-        at->raw = 0;
+    if (Solids && at->raw < 0) {
+        part_from_wall(task, at);
     }
 }
 

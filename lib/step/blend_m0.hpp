@@ -9,14 +9,13 @@
 
 namespace weir::packed {
 
-/// Whether the diagonal in `d` is that of a cell `amid`; if not: on to 4.
-#define WEIR_AMID(d)                 \
-    "lsls %[t], %[" d "], #25\n\t"   \
-    "bne 4f\n\t"                     \
-    "asrs %[" d "], %[" d "], #7\n\t" \
-    "subs %[" d "], #3\n\t"          \
-    "cmp %[" d "], #1\n\t"           \
-    "bhi 4f\n\t"
+/// Whether the diagonal in `d` is that of a cell `amid`, 384 or 128 more, which is in `t`; if not:
+/// on to 4.
+#define WEIR_AMID(d)             \
+    "subs %[" d "], #192\n\t"    \
+    "subs %[" d "], #192\n\t"    \
+    "bics %[" d "], %[t]\n\t"    \
+    "bne 4f\n\t"
 
 /// `t` becomes this number, if it is `more`.
 #define WEIR_IF(more, number)          \
@@ -42,6 +41,7 @@ namespace weir::packed {
 /// (7). On to 4.
 #define WEIR_SHARPEN                       \
     "movs %[sharp], %[here]\n\t"           \
+    "movs %[t], #128\n\t"                  \
     WEIR_AMID("low")                       \
     "ldr %[up], %[to_before]\n\t"          \
     "ldrsh %[up], [%[f], %[up]]\n\t"       \
@@ -59,8 +59,7 @@ namespace weir::packed {
     "muls %[sharp], %[t]\n\t"              \
     "asrs %[t], %[sharp], #31\n\t"         \
     "adds %[sharp], %[sharp], %[t]\n\t"    \
-    "movs %[t], #128\n\t"                  \
-    "lsls %[t], %[t], #2\n\t"              \
+    "ldr %[t], %[half]\n\t"                \
     "adds %[sharp], %[sharp], %[t]\n\t"    \
     "asrs %[sharp], %[sharp], #10\n\t"     \
     "subs %[sharp], %[here], %[sharp]\n\t" \
@@ -105,17 +104,13 @@ namespace weir::packed {
     "movs %[sharp], %[t]\n\t" \
     "b 4b\n"
 
-/// `sharp`, what stands here and `now` make what is left there. On to 5 if all are 0, to 8 if it is
-/// no number of 16 bits.
+/// `sharp`, what stands here and `now` make what is left there. On to 8 if it is no number of 16
+/// bits.
 #define WEIR_BLEND                      \
     "4:\n\t"                            \
     "mov %[t], %[to_was]\n\t"           \
     "strh %[here], [%[f], %[t]]\n\t"    \
     "mov %[t], %[now]\n\t"              \
-    "movs %[low], %[t]\n\t"             \
-    "orrs %[low], %[here]\n\t"          \
-    "orrs %[low], %[sharp]\n\t"         \
-    "beq 5f\n\t"                        \
     "lsls %[low], %[t], #2\n\t"         \
     "adds %[low], %[low], %[sharp]\n\t" \
     "ldr %[up], %[chances]\n\t"         \
@@ -131,8 +126,7 @@ namespace weir::packed {
     "cmp %[low], %[t]\n\t"              \
     "bne 8f\n"                          \
     "10:\n\t"                           \
-    "strh %[low], [%[f]]\n"             \
-    "5:\n\t"                            \
+    "strh %[low], [%[f]]\n\t"           \
     "movs %[left], %[here]\n\t"         \
     "movs %[here], %[right]\n\t"        \
     "adds %[f], #2\n\t"                 \
@@ -147,6 +141,7 @@ namespace weir::packed {
                                                   const Speed* end, std::int32_t share) {
     const FacesAround at = told;
     const std::uint32_t chances = kChance;
+    const std::uint32_t half = 512;  // of what is cut off
     std::int32_t left = field[-1].raw;
     std::int32_t here = field[0].raw;
     std::int32_t right, sharp, t, low, up;
@@ -178,7 +173,8 @@ namespace weir::packed {
               [now] "=&h"(now)
             : [end] "h"(end), [to_now] "h"(at.now), [to_diagonal] "h"(at.diagonal),
               [to_was] "h"(at.was), [share] "h"(share), [to_before] "m"(at.before),
-              [to_lower] "m"(at.lower), [to_upper] "m"(at.upper), [chances] "m"(chances)
+              [to_lower] "m"(at.lower), [to_upper] "m"(at.upper), [chances] "m"(chances),
+              [half] "m"(half)
             : "cc", "memory");
     return here;
 }
