@@ -132,7 +132,13 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
             (x < to.columns_before ? left : right) += beside;
             vertical += above;
         };
-        for_each_column(patch, add);
+        if constexpr (Solids || Mixed) {  // too much to be there four times
+            for (std::int32_t x = 0; x < patch.width; ++x) {
+                add(x);
+            }
+        } else {
+            for_each_column(patch, add);
+        }
         if (counted) {
             sums[up] = vertical;
         }
