@@ -34,7 +34,7 @@ TRANSFERS = ("stage_particle_to_grid", "stage_grid_to_particle")
 # 2 to 3 on M4; divisions 2 to 12; flash without wait states). Of an M0 cycles_m0.cpp counts them.
 # Makers of RISC-V chips do not say what their instructions take: there an instruction a cycle is
 # the least, and steps a second the most that there can be.
-CYCLES = {"cortex-m0": 1.39, "cortex-m3": 1.59, "cortex-m4f": 1.44}
+CYCLES = {"cortex-m0": 1.36, "cortex-m3": 1.59, "cortex-m4f": 1.44}
 
 # The example that fills 16 KB: 400 particles on 18 × 18 cells, with a solid.
 EXAMPLE = {"cortex-m0": "microbit", "riscv32": "sifive_e"}
