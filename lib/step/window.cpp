@@ -313,8 +313,30 @@ std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation) {
     return entries + simulation.stages->draw_stored(simulation.layers, simulation.bodies);
 }
 
+/// A part and, of what the last substep worked on, the cells that a window may not lose.
 template <class Real>
-bool look_around(Simulation<Real>& simulation) {
+GridShape with_fields(const Simulation<Real>& simulation, const GridShape& part,
+                      bool densities_are_shown) {
+    const GridShape& tank = simulation.layers.shape;
+    const PressureFields<Real>& fields = simulation.pressure;
+    const GridShape last = simulation.occupied;
+    GridShape all = part;
+    for (std::int32_t j = last.j0; j < last.j0 + last.ny; ++j) {
+        for (std::int32_t i = last.i0; i < last.i0 + last.nx; ++i) {
+            const std::int32_t c = tank.index(i, j);
+            if (fields.pressure[c] != Real(0) ||
+                (densities_are_shown && fields.density[c] != DensityOf<Real>(0))) {
+                const std::int32_t columns = i % kWindowColumns;  // windows begin at whole groups
+                const std::int32_t rows = j % kWindowRows;
+                all = united(all, {columns + 1, rows + 1, 0, i - columns, j - rows});
+            }
+        }
+    }
+    return all;
+}
+
+template <class Real>
+bool look_around(Simulation<Real>& simulation, bool densities_are_shown) {
     const GridShape& tank = simulation.layers.shape;
     const Particles<Real>& particles = simulation.particles;
     const Extent<Real> extent = particles.count > 0 ? extent_of(particles) : Extent<Real>{};
@@ -322,10 +344,12 @@ bool look_around(Simulation<Real>& simulation) {
     GridShape both = united(part, simulation.occupied);
     // What was restored may stand anywhere in the window, and leaves no room for a rim.
     if (!reaches(stored_part(simulation), with_rim(simulation, part))) {
+        both = with_fields(simulation, part, densities_are_shown);
         if (!fits_window(simulation, both)) {
             return false;
         }
         move_window(both, simulation);
+        both = stored_part(simulation);
     }
     part.stride = both.stride = tank.stride;
     simulation.occupied = both;
@@ -339,7 +363,7 @@ bool look_around(Simulation<Real>& simulation) {
     template GridShape hide_beyond(Simulation<Real>&);                                      \
     template void show_beyond(Simulation<Real>&);                                           \
     template std::int32_t move_window(const GridShape&, Simulation<Real>&);                 \
-    template bool look_around(Simulation<Real>&);
+    template bool look_around(Simulation<Real>&, bool);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

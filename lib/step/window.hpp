@@ -46,9 +46,10 @@ void show_beyond(Simulation<Real>& simulation);
 template <class Real>
 std::int32_t move_window(const GridShape& part, Simulation<Real>& simulation);
 
-/// Gives the grid the part that the particles are in now, as a substep does, and loses nothing of
-/// what the last one left. False: there is no room for that, and nothing was done.
+/// Gives the grid the part that the particles are in now, as a substep does, and loses no pressure
+/// of the last one, nor densities if they are shown. False: there is no room for that, and nothing
+/// was done.
 template <class Real>
-bool look_around(Simulation<Real>& simulation);
+bool look_around(Simulation<Real>& simulation, bool densities_are_shown);
 
 }  // namespace weir

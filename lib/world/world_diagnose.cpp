@@ -118,7 +118,7 @@ Status World<Real>::diagnose(Diagnostics* diagnostics) {
         simulation.stages->note_moving(simulation.bodies, simulation.layers.walls);
     }
     if constexpr (kHasWindow<Real>) {
-        if (simulation.window.cells > 0 && !look_around(simulation)) {
+        if (simulation.window.cells > 0 && !look_around(simulation, !state_->density_stale)) {
             return Status::ok;
         }
     }

@@ -149,5 +149,26 @@ TYPED_TEST(WindowBodies, KnowTheLiquidThatWasRestored) {
     EXPECT_EQ(other->state_hash(), world->state_hash());
 }
 
+/// It goes along with the liquid, though what was restored stands in all of it.
+TYPED_TEST(WindowBodies, GoesOnFromWhereItWasRestored) {
+    const WorldDef def = windowed(wide_def(kKinds), 67 * 43);
+    TestWorld<TypeParam> world(def);
+    expect_ok(world->fill({{1.0F, 2.6F}, {1.2F, 2.76F}}));
+    for (std::int32_t step = 0; step < 15; ++step) {
+        EXPECT_EQ(world->step(1.0F / 60.0F).particles_beyond, 0);
+        TestWorld<TypeParam> other(def);
+        change_worlds(world, other, def);
+        Diagnostics a;
+        Diagnostics b;
+        expect_ok(world->diagnose(&a));
+        expect_ok(other->diagnose(&b));
+        EXPECT_GT(a.volume_m2, 0.02);
+        EXPECT_TRUE(same(a, b)) << step << ": " << a.volume_m2 << " " << b.volume_m2;
+        other->step(1.0F / 60.0F);
+        world->step(1.0F / 60.0F);
+        ASSERT_EQ(other->state_hash(), world->state_hash()) << step;
+    }
+}
+
 }  // namespace
 }  // namespace weir

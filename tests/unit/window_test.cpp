@@ -82,6 +82,29 @@ TYPED_TEST(Window, LosesNobodyHoweverSmallItIs) {
     }
 }
 
+/// Poured far from where an empty world's window is: what was looked at there, too.
+TYPED_TEST(Window, HoldsTheLiquidBeforeTheFirstStep) {
+    TestWorld<TypeParam> part(windowed(wide_def(0), 66 * 34));
+    TestWorld<TypeParam> whole(wide_def(0));
+    for (TestWorld<TypeParam>* world : {&part, &whole}) {
+        expect_ok((*world)->fill({{0.0F, 0.0F}, {0.2F, 0.1F}}));
+        static_cast<void>((*world)->density());
+        expect_ok((*world)->drain({{0.0F, 0.0F}, {1.0F, 1.0F}}));
+        expect_ok((*world)->fill({{3.0F, 2.0F}, {3.2F, 2.1F}}));
+    }
+    for (std::int32_t step = 0; step < 3; ++step) {
+        Diagnostics a;
+        Diagnostics b;
+        expect_ok(part->diagnose(&a));
+        expect_ok(whole->diagnose(&b));
+        EXPECT_NEAR(a.volume_m2, 0.02, 0.002);
+        EXPECT_TRUE(same(a, b)) << "step " << step;
+        part->step(0.01F);
+        whole->step(0.01F);
+        EXPECT_EQ(part->state_hash(), whole->state_hash()) << "step " << step;
+    }
+}
+
 TEST(WindowView, SaysWhichPartOfTheTankItShows) {
     TestWorld<float> world(windowed(wide_def(0), 66 * 34));
     expect_ok(world->fill({{3.0F, 2.0F}, {3.2F, 2.2F}}));

@@ -219,7 +219,8 @@ public:
     /// Mass, momentum, energies, volume and what is left of the divergence. Costs about as much
     /// as a scatter, twice that in packed worlds; changes no state, and no view but
     /// `signed_distance()` of bodies that were put elsewhere. What only the grid can tell, from the
-    /// volume on, is 0 where `Capacity::window_cells` do not hold all particles.
+    /// volume on, is 0 where `Capacity::window_cells` do not hold all particles, together with
+    /// the pressures of the last step.
     Status diagnose(Diagnostics* diagnostics);
 
     /// Copies all that decides the future into the caller's memory, which may stand anywhere.
