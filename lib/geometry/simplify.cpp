@@ -54,19 +54,6 @@ bool refine(const Marked& marked, double tolerance) {
     return added;
 }
 
-std::int32_t furthest_from_first(View<Vec2f> ring) {
-    std::int32_t found = 0;
-    double most = 0.0;
-    for (std::int32_t i = 1; i < ring.size; ++i) {
-        const Vec2<double> way = convert<double>(ring[i]) - convert<double>(ring[0]);
-        if (dot(way, way) > most) {
-            most = dot(way, way);
-            found = i;
-        }
-    }
-    return found;
-}
-
 std::int32_t write_kept(const Marked& marked, Vec2f* out) {
     std::int32_t count = 0;
     for (std::int32_t i = 0; i < marked.ring.size; ++i) {
@@ -124,8 +111,7 @@ Status simplify_ring(View<Vec2f> ring, float tolerance_m, std::uint8_t* keep, Ve
     for (std::int32_t i = 0; i < ring.size; ++i) {
         keep[i] = 0;
     }
-    keep[0] = 1;
-    keep[furthest_from_first(ring)] = 1;
+    keep[0] = 1;  // the first span goes all around
     const double tolerance = tolerance_m > 0.0F ? static_cast<double>(tolerance_m) : 0.0;
     while (refine(marked, tolerance)) {
     }

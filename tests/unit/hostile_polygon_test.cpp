@@ -86,6 +86,8 @@ const std::vector<HostileRow>& refused_rows() {
          Status::polygon_crosses_itself, {0, 1, 0, 3, {8, 4}}},
         {"fold", {{{0, 0}, {9, 0}, {8, 0}, {8, 8}, {0, 8}}}, Status::polygon_crosses_itself,
          {0, 0, 0, 1, {9, 0}}},
+        {"fold at the first vertex", {{{9, 0}, {8, 0}, {8, 8}, {0, 8}, {0, 0}}},
+         Status::polygon_crosses_itself, {0, 0, 0, 4, {9, 0}}},
         {"fold over the first vertex", {{{8, 0}, {8, 8}, {0, 8}, {0, 0}, {9, 0}}},
          Status::polygon_crosses_itself, {0, 0, 0, 3, {8, 0}}},
         {"vertex on an edge", {{{0, 0}, {8, 0}, {8, 8}, {4, 0}, {0, 8}}},
