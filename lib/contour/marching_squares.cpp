@@ -230,7 +230,7 @@ void add_piece(Vec2<Real> p, Vec2<Real> q, OpenMoments<Real>& sums) {
 /// Where on its way from `from` to `to` a coordinate passes 0; 1 if it does not.
 template <class Real>
 Real passes_zero(Real from, Real to) {
-    const bool passes = (from > Real(0)) != (to > Real(0)) && from != to;
+    const bool passes = (from > Real(0)) != (to > Real(0));
     return passes ? from / (from - to) : Real(1);
 }
 

@@ -91,7 +91,7 @@ template <class L>
 inline typename L::Floats pass_zero(typename L::Floats from, typename L::Floats to) {
     const auto zero = L::all(0.0F);
     const auto one = L::all(1.0F);
-    const auto passes = ((from > zero) ^ (to > zero)) & (from != to);
+    const auto passes = (from > zero) ^ (to > zero);
     return passes ? from / (passes ? from - to : one) : one;
 }
 

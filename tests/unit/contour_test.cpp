@@ -170,6 +170,17 @@ TEST(Coverage, CountsHolesAndCutsOffWhatIsBeyondTheGrid) {
     EXPECT_NEAR(sum(share), 0.5, 1e-6);
 }
 
+/// By hand: a side that is upright off a cell's middle, and one that leans through two cells.
+TEST(Coverage, KnowsWhichSideOfACellIsCovered) {
+    std::vector<float> share(4);
+    const Vec2f box[] = {{0.25F, 0.0F}, {2.125F, 0.0F}, {2.125F, 1.0F}, {0.25F, 1.0F}};
+    ASSERT_EQ(cover_cells({box, 4}, {}, 4, 1, share.data()), Status::ok);
+    EXPECT_EQ(share, (std::vector<float>{0.75F, 1.0F, 0.125F, 0.0F}));
+    const Vec2f ramp[] = {{0.0F, 0.0F}, {2.0F, 0.0F}, {0.0F, 1.0F}};
+    ASSERT_EQ(cover_cells({ramp, 3}, {}, 4, 1, share.data()), Status::ok);
+    EXPECT_EQ(share, (std::vector<float>{0.75F, 0.25F, 0.0F, 0.0F}));
+}
+
 /// A grid that shows a part of another one has that part's shares, and beyond a polygon there is
 /// none at all: no dust of rounding.
 TEST(Coverage, OfAPartIsThatOfTheWhole) {
@@ -236,6 +247,34 @@ TEST(WallNormal, IsRadialAtACircle) {
                                     Vec2f{at.x - float(i), at.y - float(j)}, Neighbours{}, 1.5F,
                                     exact);
         EXPECT_LT(std::abs(cross(n, exact)), 0.01F) << k;  // half a degree
+    }
+}
+
+/// A plane's gradient everywhere in a cell, whatever nodes say that know no wall, or that are none
+/// of the field's.
+TEST(WallNormal, DoesNotLookWhereThereIsNoWallOrNoNode) {
+    constexpr float kFar = 1.5F;
+    const Vec2f slope{0.6F, -0.8F};
+    for (int side = 0; side < 4; ++side) {
+        for (const bool beyond : {false, true}) {
+            float node[16];
+            for (int k = 0; k < 16; ++k) {
+                const Vec2f from{static_cast<float>(k % 4) - 1.5F,
+                                 static_cast<float>(k / 4) - 1.5F};
+                const bool off = side == 0   ? k % 4 == 0
+                                 : side == 1 ? k % 4 == 3
+                                 : side == 2 ? k / 4 == 0
+                                             : k / 4 == 3;
+                node[k] = off ? (beyond ? -100.0F : kFar) : 0.5F * dot(slope, from);
+            }
+            const Neighbours has{!beyond || side != 0, !beyond || side != 1, !beyond || side != 2,
+                                 !beyond || side != 3};
+            for (const Vec2f at : {Vec2f{0.1F, 0.2F}, {0.9F, 0.1F}, {0.2F, 0.8F}, {0.7F, 0.9F}}) {
+                const Vec2f n = distance_gradient(node + 5, 4, at, has, kFar);
+                EXPECT_NEAR(n.x, 0.3F, 1e-6F) << side << beyond;
+                EXPECT_NEAR(n.y, -0.4F, 1e-6F) << side << beyond;
+            }
+        }
     }
 }
 

@@ -81,24 +81,35 @@ TYPED_TEST(LedBody, ForgetsWhatHitItMeanwhile) {
 }
 
 /// There by the end of the step, the shorter way round, and no further after it.
-TYPED_TEST(LedBody, GoesThereAndStandsStill) {
-    TestWorld<TypeParam> world{pool_def(24, 20)};
-    Motion m;
-    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}, 3.0F));
+template <class Real>
+void lead_round(World<Real>& world, BodyId id, float turn) {
+    Motion m = motion_of(world, id);
+    const Vec2f from = m.position_m;
     for (int k = 1; k <= 10; ++k) {
-        const Vec2f to{0.1F + 0.01F * static_cast<float>(k), 0.1F + 0.004F * static_cast<float>(k)};
-        const float angle = 3.0F + 0.1F * static_cast<float>(k);
-        expect_ok(world->move_body(id, to, k % 2 == 0 ? angle : angle - 6.2831853F, kDt));
-        expect_ok(world->motion(id, &m));
-        EXPECT_NEAR(m.spin_radps, 6.0F, 1e-2F);
-        world->step(kDt);
-        expect_ok(world->motion(id, &m));
+        const auto n = static_cast<float>(k);
+        const Vec2f to{from.x + 0.01F * n, from.y + 0.004F * n};
+        const float angle = 3.0F + turn * n;
+        const float round = turn > 0.0F ? -6.2831853F : 6.2831853F;
+        expect_ok(world.move_body(id, to, k % 2 == 0 ? angle : angle + round, kDt));
+        expect_ok(world.motion(id, &m));
+        EXPECT_NEAR(m.spin_radps, turn / kDt, 1e-2F);
+        world.step(kDt);
+        expect_ok(world.motion(id, &m));
         EXPECT_NEAR(m.position_m.x, to.x, 1e-5F);
         EXPECT_NEAR(m.position_m.y, to.y, 1e-5F);
         EXPECT_NEAR(std::remainder(m.angle_rad - angle, 6.2831853F), 0.0F, 1e-3F);
         EXPECT_EQ(m.velocity_mps.x, 0.0F);
         EXPECT_EQ(m.spin_radps, 0.0F);
     }
+}
+
+TYPED_TEST(LedBody, GoesThereAndStandsStill) {
+    TestWorld<TypeParam> world{pool_def(24, 20)};
+    Motion m;
+    const BodyId id = put_moving(*world, body_of(kSquare4cm, {0.1F, 0.1F}, 3.0F));
+    lead_round(*world, id, 0.1F);
+    lead_round(*world, put_moving(*world, body_of(kSquare4cm, {0.1F, 0.3F}, 3.0F)), -0.1F);
+    expect_ok(world->motion(id, &m));
     const Vec2f last = m.position_m;
     world->step(kDt);
     expect_ok(world->motion(id, &m));
