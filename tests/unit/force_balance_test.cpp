@@ -75,5 +75,43 @@ TEST(ForceBalance, CoveredWallsReceiveNothing) {
     EXPECT_NEAR(static_cast<double>(tank_force_of(*world).x), push, 0.1 * push);
 }
 
+/// Still water lifts a body in the middle of what it displaces, wherever the body's own origin is,
+/// and whatever another one takes that shares its cells.
+template <class Real>
+class Buoyancy : public testing::Test {};
+TYPED_TEST_SUITE(Buoyancy, EveryScalar, );
+
+TYPED_TEST(Buoyancy, LiftsInTheMiddle) {
+    WorldDef def = tank_def(32, 24, 3072, 2, 8);
+    def.capacity.two_way = true;
+    def.pressure_sweeps = 32;
+    TestWorld<TypeParam> world{def};
+    Ring box = rectangle(0.16F, 0.12F);
+    for (Vec2f& corner : box) {
+        corner = {corner.x - 0.1F, corner.y + 0.06F};
+    }
+    const BodyId ids[] = {put_static(*world, body_of(box, {0.32F, 0.11F})),
+                          put_static(*world, body_of(box, {0.504F, 0.117F}))};
+    expect_ok(world->fill({{0, 0}, {0.64F, 0.34F}}));
+    constexpr int kSteps = 180;
+    constexpr int kFirst = 60;
+    double lift[2] = {};
+    double turn[2] = {};
+    for (int step = 0; step < kSteps; ++step) {
+        const auto dt = static_cast<double>(world->step(kDt).dt_s);
+        for (int k = 0; k < 2 && step >= kFirst; ++k) {
+            BodyForce force;
+            expect_ok(world->force(ids[k], &force));
+            lift[k] += static_cast<double>(force.impulse_m3ps.y) / dt / (kSteps - kFirst);
+            turn[k] += static_cast<double>(force.angular_impulse_m4ps) / dt / (kSteps - kFirst);
+        }
+    }
+    constexpr double kWeight = kG * 0.16 * 0.12;
+    for (int k = 0; k < 2; ++k) {
+        EXPECT_NEAR(lift[k] / kWeight, 1.0, 0.05) << k;
+        EXPECT_NEAR(turn[k] / (kWeight * 0.16), 0.0, 0.03) << k;
+    }
+}
+
 }  // namespace
 }  // namespace weir

@@ -98,6 +98,10 @@ TYPED_TEST(SleepOf, EveryChangeWakesWithinOneStep) {
          [](Pool<TypeParam>& p) {
              expect_ok(p->set_gravity({0.3F, -9.8F}));
          }},
+        {"weight",
+         [](Pool<TypeParam>& p) {
+             expect_ok(p->set_gravity({0.0F, -9.0F}));
+         }},
         {"body put elsewhere",
          [](Pool<TypeParam>& p) {
              Motion motion;
