@@ -119,6 +119,27 @@ TYPED_TEST(LadderOf, BodiesAreHeldEveryOtherStep) {
     EXPECT_FALSE(world->step(1.0F / 60.0F, 3).walls_held) << "too fast";
 }
 
+/// Where a body is free, pictures are binary, or all stand still.
+TEST(Ladder, HoldsNobodyWhereThereIsNothingToHold) {
+    const auto holds = [](bool free, Contour contour, float spin_radps) {
+        WorldDef def = small_def();
+        def.capacity.two_way = true;
+        def.contour = contour;
+        TestWorld<float> world(def);
+        BodyDef bar = body_of(kSquare4cm, {0.1F, 0.1F});
+        bar.motion.spin_radps = spin_radps;
+        put_moving(*world, bar);
+        if (free) {
+            put_free(*world, body_of(kSquare4cm, {0.2F, 0.2F}));
+        }
+        return world->step(1.0F / 60.0F, 3).walls_held;
+    };
+    EXPECT_TRUE(holds(false, Contour::interpolated, 1.0F));
+    EXPECT_FALSE(holds(true, Contour::interpolated, 1.0F));
+    EXPECT_FALSE(holds(false, Contour::mid_edge, 1.0F));
+    EXPECT_FALSE(holds(false, Contour::interpolated, 0.0F));
+}
+
 /// Who was put elsewhere is drawn there in the next step, in that of a restored world, too.
 TYPED_TEST(LadderOf, SnapshotKnowsWhoWasPutElsewhere) {
     const WorldDef def = small_def();

@@ -70,7 +70,8 @@ struct StepReport {
     bool asleep = false;
     std::int32_t rung = 0;            ///< of the ladder, as asked for
     /// Bodies moved on as the liquid feels it, but were not drawn: with the next step they are
-    /// where they would be. Not if one is free, was put elsewhere, or moves by over a cell a step.
+    /// where they would be. Not if one is free, was put elsewhere, or moves by over a cell a step,
+    /// nor with Contour::mid_edge.
     bool walls_held = false;
     /// Time that was simulated, or slept: less than was asked for if `Clamped::time_step`. What
     /// goes by rates, as an inlet or an outlet does, goes by this.
