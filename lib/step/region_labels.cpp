@@ -4,8 +4,8 @@ namespace weir {
 
 namespace {
 
-/// Tiles that hold liquid, and who of them belongs together: each names another of its region with
-/// a lower number, or itself (Galler & Fischer 1964). Diagonal neighbours belong together, too.
+/// Tiles that hold liquid, and who of them belongs together: each names another of its region, or
+/// itself (Galler & Fischer 1964). Diagonal neighbours belong together, too.
 struct Labels {
     std::int32_t* parent;  ///< −1: dry
     std::int32_t* verdict;  ///< of a tile that names itself: 0 at rest, −1 not, or its new number
@@ -21,8 +21,7 @@ struct Labels {
     }
     void join(std::int32_t a, std::int32_t b) const {
         const std::int32_t first = first_of(a);
-        const std::int32_t other = first_of(b);
-        parent[maximum(first, other)] = minimum(first, other);
+        parent[first] = first_of(b);
     }
     template <class Visit>
     void for_each_wet(Visit visit) const {

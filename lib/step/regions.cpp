@@ -145,11 +145,12 @@ template <class Real>
 void watch_borders(Simulation<Real>& simulation) {
     Regions<Real>& regions = *simulation.regions;
     const GridShape part = simulation.occupied;
-    const auto first = [](std::int32_t cell) { return (cell + kTileEdge - 1) / kTileEdge; };
+    static_assert(kWindowColumns % kTileEdge == 0 && kWindowRows % kTileEdge == 0,
+                  "the part begins with a tile");
     const std::int32_t i1 = (part.i0 + part.nx - 1) / kTileEdge;
     const std::int32_t j1 = (part.j0 + part.ny - 1) / kTileEdge;
-    for (std::int32_t j = first(part.j0); j <= j1; ++j) {
-        for (std::int32_t i = first(part.i0); i <= i1; ++i) {
+    for (std::int32_t j = part.j0 / kTileEdge; j <= j1; ++j) {
+        for (std::int32_t i = part.i0 / kTileEdge; i <= i1; ++i) {
             if (regions.sleeps(j * regions.tiles_x + i)) {
                 continue;
             }

@@ -87,9 +87,9 @@ Part around(std::int32_t k, std::int32_t by, const Part& among, const Say& say) 
 bool all_know(const Simulation<float>& simulation, const SubstepPlan<float>& plan) {
     const Settings<float>& settings = simulation.settings;
     const PressureFields<float>& fields = simulation.pressure;
-    const bool plain = simulation.regions == nullptr && simulation.window.cells == 0 &&
-                       simulation.two_way == nullptr && simulation.layers.walls.thin == nullptr &&
-                       fields.elasticity == nullptr && fields.second_liquid == nullptr;
+    const bool plain = simulation.regions == nullptr && simulation.two_way == nullptr &&
+                       simulation.layers.walls.thin == nullptr && fields.elasticity == nullptr &&
+                       fields.second_liquid == nullptr;
     return plain && !settings.borders.wrap_x && !settings.borders.wrap_y &&
            plan.viscosity == 0.0F && settings.surface_tension == 0.0F;
 }
@@ -132,7 +132,7 @@ void narrow_rows(Simulation<float>& simulation, const SubstepPlan<float>& plan) 
         grid.shape.spans = grid.row_spans;
     }
     grid.whole_rows = grid.shape.spans == nullptr;
-    grid.knows_rows = may;
+    grid.knows_rows = true;  // unless somebody leaps in this substep
 }
 
 #endif

@@ -12,7 +12,7 @@ namespace {
 constexpr float kSize = 0.02F;
 
 WorldDef wide_def(bool solids, bool threads) {
-    WorldDef def = tank_def(300, 90, 4500, solids ? 3 : 0, solids ? 12 : 0);
+    WorldDef def = tank_def(302, 90, 4500, solids ? 3 : 0, solids ? 12 : 0);
     def.cell_m = kSize;
     def.parallel_for = threads ? port::parallel_for : nullptr;
     return def;
@@ -124,6 +124,62 @@ TEST(RowSpans, HaveTheBitsOfWholeRows) {
         spared += expect_same_bits(true, seed == 2, seed, 80);
     }
     EXPECT_GT(spared, 80 * kSeeds) << "of " << 160 * kSeeds << " steps";
+}
+
+/// In how many steps of such a world rows were not worked on whole.
+std::int32_t narrow_steps(WorldDef def) {
+    if (def.periodic_x || def.periodic_y) {
+        def.capacity.bodies = def.capacity.vertices = 0;
+    }
+    TestWorld<float> world(def);
+    if (def.capacity.sleeping_regions) {
+        expect_ok(world->let_regions_sleep());
+    }
+    const Ring ring = rectangle(0.6F, 0.1F);
+    if (def.capacity.bodies > 0) {
+        BodyDef bar = body_of(ring, {2.0F, 0.1F});
+        bar.open = def.capacity.wall_edges > 0;
+        put_static(*world, bar);
+    }
+    expect_ok(world->fill({{2.5F, 0.9F}, {3.0F, 1.6F}}));
+    const Liquid kind = def.capacity.second_liquid ? Liquid::second : Liquid::first;
+    expect_ok(world->fill({{5.5F, 1.5F}, {5.6F, 1.6F}}, nullptr, kind));
+    std::int32_t steps = 0;
+    for (std::int32_t step = 0; step < 10; ++step) {
+        world->step(0.01F);
+        steps += grid_of(world).whole_rows ? 0 : 1;
+    }
+    return steps;
+}
+
+/// Of some kinds of liquid, tanks and solids there are stages that know no spans.
+TEST(RowSpans, AreNotForEveryKindOfWorld) {
+    using Change = void (*)(WorldDef&);
+    struct Row {
+        const char* name;
+        Change change;
+    };
+    const Row rows[] = {
+        {"forces", [](WorldDef& def) { def.capacity.two_way = true; }},
+        {"thin walls", [](WorldDef& def) { def.capacity.wall_edges = 400; }},
+        {"elastic", [](WorldDef& def) { def.pressure = Pressure::equation_of_state; }},
+        {"two liquids", [](WorldDef& def) { def.capacity.second_liquid = true; }},
+        {"periodic in x", [](WorldDef& def) { def.periodic_x = true; }},
+        {"periodic in y", [](WorldDef& def) { def.periodic_y = true; }},
+        {"viscous", [](WorldDef& def) { def.viscosity_m2ps = 1.0e-3F; }},
+        {"surface tension", [](WorldDef& def) { def.surface_tension_m3ps2 = 7.3e-5F; }},
+        {"regions",
+         [](WorldDef& def) {
+             def.capacity.sleeping_regions = true;
+             def.sleep.speed_mps = 0.02F;
+         }},
+    };
+    EXPECT_GT(narrow_steps(wide_def(true, false)), 5);
+    for (const Row& row : rows) {
+        WorldDef def = wide_def(true, false);
+        row.change(def);
+        EXPECT_EQ(narrow_steps(def), 0) << row.name;
+    }
 }
 
 /// What is not worked on shows as empty to whoever looks.
