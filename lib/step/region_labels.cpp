@@ -144,7 +144,6 @@ std::int32_t settle_regions(Simulation<Real>& simulation) {
         regions.tile[tile] = regions.tile[tile] == kRestless ? kNoRegion : regions.tile[tile];
     }
     regions.restless = false;
-    regions.stale = true;
     return cost_of_settling(simulation);
 }
 

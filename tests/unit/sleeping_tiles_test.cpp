@@ -59,6 +59,25 @@ struct Tiles {
 
 WEIR_SUITE(SleepingTiles, EveryScalar);
 
+/// In a world's first substep there was no pressure yet: they wake with none, which is a number.
+TYPED_TEST(SleepingTiles, FromTheFirstSubstepOn) {
+    TestWorld<TypeParam> world(tiles_def(64, 24));
+    expect_ok(world->add_particle({12.5F * kCell, 12.5F * kCell}, {}));
+    expect_ok(world->add_particle({40.5F * kCell, 12.5F * kCell}, {}));
+    expect_ok(world->let_regions_sleep());
+    EXPECT_EQ(world->step(0.1F).particles_asleep, 2);
+    expect_ok(world->add_particle({12.75F * kCell, 12.5F * kCell}, {0.5F, 0.0F}));
+    world->step(kDt);
+    EXPECT_EQ(world->step(kDt).particles_asleep, 1);
+    const auto pressure = world->pressure();
+    for (std::int32_t j = 0; j < pressure.rows; ++j) {
+        for (std::int32_t i = 0; i < pressure.columns; ++i) {
+            const auto here = static_cast<double>(pressure.at(i, j));
+            ASSERT_TRUE(here >= -1.0 && here <= 1.0) << i << " " << j << ": " << here;
+        }
+    }
+}
+
 /// However far a chain of neighbours reaches; and nobody else.
 TYPED_TEST(SleepingTiles, WakeAsOneWithTheirNeighbours) {
     Tiles<TypeParam> tiles;
