@@ -2,6 +2,7 @@
 // repeated with the recorded rungs has the same bits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "busy_world.hpp"
@@ -36,6 +37,22 @@ TYPED_TEST(LadderOf, EveryRungCostsLessAndSaysSo) {
         EXPECT_TRUE(rung == 0 || rung == 3 || work_of(report) < before) << rung;
         before = work_of(report);
     }
+}
+
+/// Half of the substeps, and of one substep one.
+TEST(Ladder, HalvesSubstepsUpwards) {
+    bool seen[6] = {};
+    for (float dt_s = 0.005F; dt_s < 0.2F; dt_s *= 1.3F) {
+        TestWorld<float> whole(dam_def());
+        TestWorld<float> half(dam_def());
+        for (TestWorld<float>* world : {&whole, &half}) {
+            expect_ok((*world)->fill({{0, 0}, {0.24F, 0.36F}}));
+        }
+        const std::int32_t all = whole->step(dt_s).substeps;
+        EXPECT_EQ(half->step(dt_s, 4).substeps, (all + 1) / 2);
+        seen[std::min(all, 5)] = true;
+    }
+    EXPECT_TRUE(seen[1] && seen[3]);
 }
 
 /// Rungs chosen by a budget, then replayed from the record, in one and in slices.

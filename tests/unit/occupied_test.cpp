@@ -56,6 +56,24 @@ TYPED_TEST(Occupied, AnEmptyRestOfTheTankChangesNoBit) {
     }
 }
 
+/// Where liquid was that is taken away no pressure is left.
+TYPED_TEST(Occupied, NothingIsLeftWhereLiquidWas) {
+    TestWorld<TypeParam> world(tank_def(16, 32, 2000));
+    expect_ok(world->fill({{0.0F, 0.0F}, {0.32F, 0.6F}}));
+    for (int k = 0; k < 5; ++k) {
+        world->step(1.0F / 60.0F);
+    }
+    EXPECT_GT(world->pressure().at(2, 20), TypeParam(0));
+    expect_ok(world->drain({{0.0F, 0.16F}, {0.32F, 0.64F}}));
+    world->step(1.0F / 60.0F);
+    const auto pressure = world->pressure();
+    for (std::int32_t j = 12; j < pressure.rows; ++j) {
+        for (std::int32_t i = 0; i < pressure.columns; ++i) {
+            ASSERT_EQ(pressure.at(i, j), TypeParam(0)) << i << ", " << j;
+        }
+    }
+}
+
 /// Who counts forces begins at the tank's corner: the same bits, for more work.
 TYPED_TEST(Occupied, NorDoesAnEmptyCorner) {
     using Real = TypeParam;

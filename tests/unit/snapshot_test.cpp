@@ -147,6 +147,35 @@ TEST(Snapshot, DrawsABodyThatWasMovedSince) {
     EXPECT_EQ(world->add_particle({0.1F, 0.1F}, {}), Status::ok);
 }
 
+/// Nor of another body in its slot that differs from it in any one thing.
+TEST(Snapshot, DrawsABodyInWhoseSlotIsAnother) {
+    WorldDef def = small_def();
+    def.capacity.wall_edges = 0;
+    const Ring corner = {{0, 0}, {0.04F, 0}, {0.04F, 0.04F}};
+    const Ring more = {{0, 0}, {0.04F, 0}, {0.04F, 0.04F}, {0, 0.04F}};
+    const Ring other_end = {{0, 0}, {0.04F, 0}, {0.04F, 0.05F}};
+    const Vec2f at{0.1F, 0.1F};
+    const BodyDef rows[] = {body_of(corner, at),           body_of(corner, {0.13F, 0.1F}),
+                            body_of(corner, {0.1F, 0.13F}), body_of(corner, at, 0.5F),
+                            body_of(more, at),             body_of(other_end, at)};
+    for (const bool moves : {false, true}) {
+        for (std::size_t row = moves ? 0 : 1; row < std::size(rows); ++row) {
+            TestWorld<float> one(def);
+            TestWorld<float> other(def);
+            const BodyId id = put_static(*one, rows[0]);
+            one->step(0.0F);
+            const Bytes snapshot = saved(*one, def.capacity);
+            expect_ok(one->remove_body(id));
+            static_cast<void>(moves ? put_moving(*one, rows[row]) : put_static(*one, rows[row]));
+            one->step(0.0F);
+            expect_ok(one->restore(snapshot.data(), snapshot.size()));
+            expect_ok(other->restore(snapshot.data(), snapshot.size()));
+            SCOPED_TRACE(testing::Message() << moves << " " << row);
+            expect_same_picture(one, other, def.capacity);
+        }
+    }
+}
+
 TEST(Snapshot, RollsBackTheSameWorld) {
     const WorldDef def = busy_def(0);
     TestWorld<float> world(def);

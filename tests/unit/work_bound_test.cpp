@@ -71,6 +71,21 @@ TEST(WorkBound, HoldsForTheLookBeforeSleep) {
     EXPECT_TRUE(world->step(0.0F).asleep);
 }
 
+/// That look is in the bound of a step as it is in that of its last stage.
+TEST(WorkBound, TheLookBeforeSleepIsToldOnce) {
+    WorkBound bounds[2];
+    for (const bool sleeps : {false, true}) {
+        WorldDef def = tank_def(16, 16, 1000, 3, 12);
+        def.sleep.speed_mps = sleeps ? 0.02F : 0.0F;
+        const TestWorld<float> world(def);
+        expect_ok(world->work_bound(kDt, bounds + (sleeps ? 1 : 0)));
+    }
+    constexpr std::int32_t kLast = kStageCount - 1;
+    EXPECT_EQ(bounds[1].step - bounds[0].step,
+              bounds[1].substep[kLast] - bounds[0].substep[kLast]);
+    EXPECT_GT(bounds[1].step, bounds[0].step + 1000);
+}
+
 TEST(WorkBound, HoldsForFreeBodies) {
     WorldDef def = busy_def(0);
     def.capacity.two_way = true;
