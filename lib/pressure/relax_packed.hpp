@@ -6,8 +6,8 @@
 #include "math/sum_of_products.hpp"
 #include "pressure/face_weights.hpp"
 #include "pressure/parting.hpp"
-#include "pressure/relax_m0.hpp"
 #include "pressure/pressure_fields.hpp"
+#include "pressure/relax_m0.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {

@@ -129,6 +129,16 @@ TYPED_TEST(WindowBodies, HoldWhatIsBeyond) {
     EXPECT_EQ(lifted, all - below) << "on the plate";
 }
 
+template <class Real>
+void expect_same_diagnosis(TestWorld<Real>& world, TestWorld<Real>& other, double least_m2) {
+    Diagnostics a;
+    Diagnostics b;
+    expect_ok(world->diagnose(&a));
+    expect_ok(other->diagnose(&b));
+    EXPECT_GT(a.volume_m2, least_m2);
+    EXPECT_TRUE(same(a, b)) << a.volume_m2 << " " << b.volume_m2;
+}
+
 /// The window that was restored is wide enough, though no wider one would fit.
 TYPED_TEST(WindowBodies, KnowTheLiquidThatWasRestored) {
     const WorldDef def = windowed(wide_def(kKinds), 67 * 27);
@@ -137,12 +147,7 @@ TYPED_TEST(WindowBodies, KnowTheLiquidThatWasRestored) {
     expect_ok(world->fill({{1.0F, 0.6F}, {1.4F, 0.7F}}));
     world->step(1.0F / 60.0F);
     change_worlds(world, other, def);
-    Diagnostics a;
-    Diagnostics b;
-    expect_ok(world->diagnose(&a));
-    expect_ok(other->diagnose(&b));
-    EXPECT_GT(a.volume_m2, 0.03);
-    EXPECT_TRUE(same(a, b)) << a.volume_m2 << " " << b.volume_m2;
+    expect_same_diagnosis(world, other, 0.03);
     EXPECT_EQ(other->state_hash(), world->state_hash());
     world->step(1.0F / 60.0F);
     other->step(1.0F / 60.0F);
@@ -158,12 +163,8 @@ TYPED_TEST(WindowBodies, GoesOnFromWhereItWasRestored) {
         EXPECT_EQ(world->step(1.0F / 60.0F).particles_beyond, 0);
         TestWorld<TypeParam> other(def);
         change_worlds(world, other, def);
-        Diagnostics a;
-        Diagnostics b;
-        expect_ok(world->diagnose(&a));
-        expect_ok(other->diagnose(&b));
-        EXPECT_GT(a.volume_m2, 0.02);
-        EXPECT_TRUE(same(a, b)) << step << ": " << a.volume_m2 << " " << b.volume_m2;
+        SCOPED_TRACE(step);
+        expect_same_diagnosis(world, other, 0.02);
         other->step(1.0F / 60.0F);
         world->step(1.0F / 60.0F);
         ASSERT_EQ(other->state_hash(), world->state_hash()) << step;
