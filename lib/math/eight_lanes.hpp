@@ -87,23 +87,28 @@ struct EightLanes : WideGroups<8> {
         __builtin_memcpy(&lanes, from, sizeof lanes);
         return lanes;
     }
+    /// Two, and two that are 0.
+    static Four load_two(const float* from) {
+        using Halves = double __attribute__((vector_size(16)));
+        double both;
+        __builtin_memcpy(&both, from, sizeof both);
+        return reinterpret_cast<Four>(Halves{both, 0.0});
+    }
     /// In two loads. Each finds what it reads in one store; a load across the last two waits for
     /// both. (A compiler would make one load of two.)
     static Four load_halves(const float* from) {
         struct Pair {
             float first, second;
         };
-        using Halves = double __attribute__((vector_size(16)));
-        double low;
-        __builtin_memcpy(&low, from, sizeof low);
-        Four lanes = reinterpret_cast<Four>(Halves{low, 0.0});
+        Four lanes = load_two(from);
         __asm__("vmovhps %1, %0, %0"
                 : "+x"(lanes)
                 : "m"(*reinterpret_cast<const Pair*>(from + 2)));
         return lanes;
     }
     static Floats one_a_group(const float* from) {
-        return Floats{from[0], from[0], from[0], from[0], from[1], from[1], from[1], from[1]};
+        const Four two = load_two(from);
+        return __builtin_shufflevector(two, two, 0, 0, 0, 0, 1, 1, 1, 1);
     }
     static Floats load_pairs(const float* from, const std::uint32_t* at) {
         return __builtin_shufflevector(load_four(from + 2 * static_cast<std::size_t>(at[0])),

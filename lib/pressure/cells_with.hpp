@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/eight_lanes.hpp"
-#include "pressure/coarse_lanes.hpp"
+#include "pressure/coarse_faces_lanes.hpp"
 #include "pressure/coarse_sweep_lanes.hpp"
 #include "pressure/excess_lanes.hpp"
 #include "pressure/plain_lanes.hpp"
@@ -66,6 +66,7 @@ struct CellsWith {
     /// Patches, coarse cells and a sum in the cells' order: more lanes than eight take longer.
     static constexpr WideCells kLoops{relax,
                                       relax_apart<EightLanes>,
+                                      find_face_terms<EightLanes>,
                                       find_terms<EightLanes>,
                                       correct,
                                       build,

@@ -71,27 +71,17 @@ std::int32_t gather_in_lanes(const PressureFields<float>& fields, const Walls<fl
     static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
     const float* open_u = walls != nullptr ? walls->open_u : nullptr;
     const float* open_v = walls != nullptr ? walls->open_v : nullptr;
-    Patch patch = patch_of(s, coarse.shape, patches_in(s, coarse.shape, row).first, row);
-    const std::int32_t end = patch.q + whole_patches(s, row);
-    float terms[2 * kTerms];
-    const WideCells* wide = wide_cells();
-    while (patch.q < end) {
-        const std::int32_t c = s.index(patch.i, patch.j);
-        const float* diagonal = coarse.inverse_diagonal + patch.q;
-        const std::int32_t together = wide != nullptr && patch.q + 2 <= end ? 2 : 1;
-        if (diagonal[0] != 0.0F || (together == 2 && diagonal[1] != 0.0F)) {
-            const auto find = together == 2 ? wide->find_terms : find_terms<FourLanes>;
-            find(fields, open_u, open_v, s.stride, patch.q, c, patch.height, terms);
-        }
-        for (std::int32_t n = 0; n < together; ++n) {
-            if (diagonal[n] != 0.0F) {
-                add_terms(terms + 4 * n, 4 * together, patch, targets, coarse);
-            }
-            patch.q += 1;
-            patch.i += kCoarseEdge;
-        }
-    }
-    return patch.i / kCoarseEdge;
+    return for_whole_patches<kTerms>(
+        s, coarse.shape, row,
+        [&](const Patch& patch) { return coarse.inverse_diagonal[patch.q] != 0.0F; },
+        [&](const Patch& patch, bool two, float* terms) {
+            const auto find = two ? wide_cells()->find_terms : find_terms<FourLanes>;
+            find(fields, open_u, open_v, s.stride, patch.q, s.index(patch.i, patch.j),
+                 patch.height, terms);
+        },
+        [&](const Patch& patch, const float* terms, std::int32_t step) {
+            add_terms(terms, step, patch, targets, coarse);
+        });
 }
 #endif
 
@@ -298,9 +288,7 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
                              seam ? big.ny : fields.solve.last_row / kCoarseEdge + 2};
     share_sums_of_patches(s, big, beside_liquid, work, [&](const Part& rows,
                                                            const Targets& targets) {
-        for_each_patch(s, big, rows, [&](const Patch& patch) {
-            add_patch(weights, fields, patch, targets, coarse);
-        });
+        add_patches(weights, fields, rows, targets, coarse);
     });
     if (work.once(4 * big.border())) {
         join_cells(weights.borders, big, coarse.inverse_diagonal);

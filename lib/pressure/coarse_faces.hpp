@@ -2,7 +2,7 @@
 // faces of its cells join it to its neighbours and to the surface.
 #pragma once
 
-#include "pressure/coarse_lanes.hpp"
+#include "pressure/coarse_faces_lanes.hpp"
 #include "pressure/face_weights.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
@@ -188,18 +188,31 @@ bool among_empty(const Patch& patch, const CoarseGrid<Real>& coarse) {
              full[patch.q - coarse.shape.stride] > Real(0));
 }
 
-/// Whether all faces between a patch and the two before it are wide open.
+/// Such a patch: its faces lie four cells from middle to middle.
 template <bool Solids, bool Mixed, class Real>
-bool first_faces_open(const FaceWeights<Solids, Mixed, Real>& weights, const Patch& patch) {
+void join_full(const FaceWeights<Solids, Mixed, Real>& weights, const Patch& patch,
+               CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
     const std::int32_t first = s.index(patch.i, patch.j);
-    const auto wide = [](Real open) { return bound_key(open) == bound_key(Real(1)); };
-    for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
-        if (!wide(weights.open_u(first + k * s.stride)) || !wide(weights.open_v(first + k))) {
-            return false;
+    const auto sum_of_four = [&](const auto& share) {
+        Real sum = Real(0);
+        for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
+            sum += share(k) / Real(kCoarseEdge);
         }
+        return sum;
+    };
+    const auto along_u = [&](std::int32_t k) { return first + k * s.stride; };
+    const auto along_v = [&](std::int32_t k) { return first + k; };
+    const auto u = [&](std::int32_t k) { return weights.u(along_u(k)); };
+    const auto v = [&](std::int32_t k) { return weights.v(along_v(k)); };
+    coarse.weight_u[patch.q] = sum_of_four(u);
+    coarse.weight_v[patch.q] = sum_of_four(v);
+    if constexpr (Mixed) {
+        const auto open_u = [&](std::int32_t k) { return weights.open_u(along_u(k)); };
+        const auto open_v = [&](std::int32_t k) { return weights.open_v(along_v(k)); };
+        coarse.reach_u[patch.q] = sum_of_four(open_u);
+        coarse.reach_v[patch.q] = sum_of_four(open_v);
     }
-    return true;
 }
 
 /// Faces before the cells of a patch. In one that is full or empty only those to the patches before
@@ -219,24 +232,8 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
                                    coarse.weight_v, coarse.reach_v, targets};
     // With faces of many kinds not worth its code where that is scarce.
     if ((kHasLanes<Real> || (!Solids && !Mixed)) && among_full(patch, coarse)) {
-        if (!targets.has(patch.q)) {
-            return;
-        }
-        if (!Mixed && (!Solids || first_faces_open(weights, patch))) {
-            coarse.weight_u[patch.q] = Real(1);  // four faces, four cells from middle to middle
-            coarse.weight_v[patch.q] = Real(1);
-            return;
-        }
-        const auto join = [&](const CoarseAxis<Real>& axis, CoarseFace<Real> face) {
-            if (face.open > Real(0)) {
-                axis.add(patch.q, face, Real(kCoarseEdge));
-            }
-        };
-        for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
-            const std::int32_t u = s.index(patch.i, patch.j + k);
-            const std::int32_t v = s.index(patch.i + k, patch.j);
-            join(along_x, {weights.open_u(u), weights.light_u(u)});
-            join(along_y, {weights.open_v(v), weights.light_v(v)});
+        if (targets.has(patch.q)) {
+            join_full(weights, patch, coarse);
         }
         return;
     }
@@ -273,6 +270,57 @@ void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFi
         return bits;
     };
     each_face_that_counts(patch, fields.level, s.stride, first, sides, liquid, add_u, add_v);
+}
+
+#if WEIR_HAS_LANES
+/// `add_patch` of the patches of a row that are of full width. Returns how many they are.
+template <bool Solids>
+std::int32_t add_patches_in_lanes(const FaceWeights<Solids, false, float>& weights,
+                                  const PressureFields<float>& fields, std::int32_t row,
+                                  const Targets& targets, CoarseGrid<float>& coarse) {
+    const CoarseFacesTask task{fields, weights.grid.shape,
+                               Solids ? weights.walls.open_u : nullptr,
+                               Solids ? weights.walls.open_v : nullptr};
+    std::uint32_t told = 0;
+    return for_whole_patches<8 * kCoarseEdge * kCoarseEdge>(
+        task.shape, coarse.shape, row,
+        [&](const Patch& patch) {
+            if (!among_full(patch, coarse)) {
+                return !among_empty(patch, coarse);
+            }
+            if (targets.has(patch.q)) {
+                join_full(weights, patch, coarse);
+            }
+            return false;
+        },
+        [&](const Patch& patch, bool two, float* terms) {
+            const auto find = two ? wide_cells()->find_face_terms : find_face_terms<FourLanes>;
+            told = find(task, patch, terms);
+        },
+        [&](const Patch& patch, const float* terms, std::int32_t step) {
+            add_face_terms(told, terms, step, patch, targets, coarse);
+        });
+}
+#endif
+
+/// Of some rows of patches.
+template <bool Solids, bool Mixed, class Real>
+void add_patches(const FaceWeights<Solids, Mixed, Real>& weights,
+                 const PressureFields<Real>& fields, const Part& rows, const Targets& targets,
+                 CoarseGrid<Real>& coarse) {
+    const GridShape& s = weights.grid.shape;
+    for (std::int32_t row = rows.first; row < rows.end; ++row) {
+        const Part columns = patches_in(s, coarse.shape, row);
+        std::int32_t column = columns.first;
+        if constexpr (kHasLanes<Real> && !Mixed) {
+            if (!weights.borders.wrap_x && !weights.borders.wrap_y) {
+                column = add_patches_in_lanes(weights, fields, row, targets, coarse);
+            }
+        }
+        for (; column < columns.end; ++column) {
+            add_patch(weights, fields, patch_of(s, coarse.shape, column, row), targets, coarse);
+        }
+    }
 }
 
 }  // namespace weir

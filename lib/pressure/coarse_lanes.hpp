@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/four_lanes.hpp"
+#include "pressure/patches.hpp"
 #include "pressure/wide_cells.hpp"
 
 namespace weir {
@@ -39,6 +40,40 @@ inline LiquidCells count_liquid(const float* inverse, std::int32_t stride, std::
 /// Which cells of a patch's row hold liquid, a bit each.
 inline std::uint32_t liquid_bits(const float* level) {
     return bits_of(load_lanes(level) > all_lanes(0.0F));
+}
+
+/// For those patches of a row that are of full width and that asks(patch) names: what find(patch,
+/// two, terms) finds, of two side by side where lanes suffice, is added by add(patch, terms, step
+/// from one cell's terms to the next one's). `Terms`: of a patch. Returns how many are of full
+/// width.
+template <std::int32_t Terms, class Asks, class Find, class Add>
+inline std::int32_t for_whole_patches(const GridShape& s, const GridShape& big, std::int32_t row,
+                                      const Asks& asks, const Find& find, const Add& add) {
+    Patch patch = patch_of(s, big, patches_in(s, big, row).first, row);
+    const std::int32_t end = patch.q + whole_patches(s, row);
+    float terms[2 * Terms];
+    const bool wide = wide_cells() != nullptr;
+    while (patch.q < end) {
+        Patch next = patch;
+        next.q += 1;
+        next.i += kCoarseEdge;
+        const bool two = wide && next.q < end;
+        const bool first_asked = asks(patch);
+        const bool next_asked = two && asks(next);
+        if (first_asked || next_asked) {
+            find(patch, two, terms);
+        }
+        const std::int32_t step = two ? 8 : 4;
+        if (first_asked) {
+            add(patch, terms, step);
+        }
+        if (next_asked) {
+            add(next, terms + 4, step);
+        }
+        patch.q += step / 4;
+        patch.i += step;
+    }
+    return patch.i / kCoarseEdge;
 }
 
 /// What is left of the equations of cells from c on; 0 in air. `open_u` and `open_v`: open

@@ -8,8 +8,10 @@
 
 namespace weir {
 
+struct CoarseFacesTask;
 struct DimpleTask;
 struct ExcessLimits;
+struct Patch;
 struct PatchLimits;
 struct RelaxTask;
 struct RowTask;
@@ -20,7 +22,8 @@ struct WideCells {
     void (*relax_all)(const RelaxTask& task);
     void (*relax_apart)(const CoarseGrid<float>& coarse, float omega, std::int32_t i,
                         const Part& rows);
-    /// Of two patches.
+    /// Of a patch and the next one.
+    std::uint32_t (*find_face_terms)(const CoarseFacesTask& task, const Patch& patch, float* terms);
     void (*find_terms)(const PressureFields<float>& fields, const float* open_u,
                        const float* open_v, std::int32_t stride, std::int32_t q, std::int32_t c,
                        std::int32_t rows, float* terms);
