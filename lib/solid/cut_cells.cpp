@@ -118,9 +118,10 @@ void close_lone_slivers(const GridShape& s, const NodeBox& cells, Walls<Real>& w
     });
 }
 
+/// Open areas of some cells, and slivers among them.
 template <class Real>
-void open_areas(const GridShape& s, const NodeBox& cells, const Walls<Real>& walls,
-                VelocityOf<Real>* area) {
+void open_areas(const GridShape& s, const NodeBox& cells, VelocityOf<Real>* area,
+                Walls<Real>& walls) {
     for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
         const std::int32_t last = s.index(cells.i1, j);
         for (std::int32_t c = s.index(cells.i0, j); c <= last; ++c) {
@@ -128,39 +129,14 @@ void open_areas(const GridShape& s, const NodeBox& cells, const Walls<Real>& wal
             area[c] = Real(solid_nodes == kOpen ? 1 : 0);
             if (is_cut(solid_nodes)) {
                 const Real open = open_area(corners_of(s, walls, c).distance);
-                area[c] = open < kSliver<Real> ? Real(0) : open;
+                if (open < kSliver<Real>) {
+                    close_faces(s, c, walls);
+                } else {
+                    area[c] = open;
+                }
             }
         }
     }
-}
-
-template <class Real>
-void close_slivers(const GridShape& s, const NodeBox& cells, const VelocityOf<Real>* area,
-                   Walls<Real>& walls) {
-    for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
-        const std::int32_t last = s.index(cells.i1, j);
-        for (std::int32_t c = s.index(cells.i0, j); c <= last; ++c) {
-            if (area[c] == Real(0) && walls.cell_case[c] != kSolid) {
-                close_faces(s, c, walls);
-            }
-        }
-    }
-}
-
-/// The kernel with which particles reach a cell's density over the open areas of the nine cells
-/// around one, in packed worlds: so many 32nds of areas that are known to 1/128, exactly. At the
-/// tank's walls the cells are mirrored, as masses are.
-template <class Real>
-Real kernel_over(const GridShape& s, std::int32_t i, std::int32_t j, const VelocityOf<Real>* area) {
-    const VelocityOf<Real>* own = area + s.index(i, j);
-    const VelocityOf<Real>* low = own - (j > 0 ? s.stride : 0);
-    const VelocityOf<Real>* high = own + (j + 1 < s.ny ? s.stride : 0);
-    const std::int32_t left = i > 0 ? -1 : 0;
-    const std::int32_t right = i + 1 < s.nx ? 1 : 0;
-    const std::int32_t sides = (own[left].raw + own[right].raw) + (low[0].raw + high[0].raw);
-    const std::int32_t corners = (low[left].raw + low[right].raw) +
-                                 (high[left].raw + high[right].raw);
-    return Real::of_raw(16 * (12 * own[0].raw + 4 * sides + corners));
 }
 
 /// Cut cells in and around some cells add theirs to them.
@@ -180,31 +156,26 @@ void add_cut_cells(const GridShape& s, const NodeBox& cells, Walls<Real>& walls)
     });
 }
 
-/// Cases of a cell and the ones below and above it, and joined.
+/// Cases of a cell and the ones below and above it, joined, and how much liquid they hold: how many
+/// are open, as cut cells add theirs; in packed worlds open areas, in 128ths.
 struct Column {
     std::uint32_t any;
     std::uint32_t all;
-    std::uint32_t below;
-    std::uint32_t here;
-    std::uint32_t above;
-
-    /// How many of them are open.
-    std::int32_t own() const { return here == kOpen ? 1 : 0; }
-    std::int32_t ends() const { return (below == kOpen ? 1 : 0) + (above == kOpen ? 1 : 0); }
+    std::int32_t own;
+    std::int32_t ends;
 };
 
-/// Density that a cell shows when all around it is full: without the cut cells if they add theirs.
+/// Density that a cell shows when all around it is full, without cut cells that add theirs. Shares
+/// of the kernel with which particles reach it are so many 32nds. Areas of packed worlds are known
+/// to 1/128: the sum is exact.
 template <class Real>
-Real full_density(const GridShape& s, const VelocityOf<Real>* area, std::int32_t i,
-                  std::int32_t j, const Column& left, const Column& middle,
-                  const Column& right) {
+Real full_density(const Column& left, const Column& middle, const Column& right) {
+    const std::int32_t sum =
+        12 * middle.own + 4 * (left.own + right.own + middle.ends) + (left.ends + right.ends);
     if constexpr (kExactShares<Real>) {
-        // Shares of the kernel are so many 32nds.
-        const std::int32_t sides = (left.own() + right.own()) + middle.ends();
-        return kCornerShare<Real> *
-               static_cast<Real>(12 * middle.own() + 4 * sides + (left.ends() + right.ends()));
+        return kCornerShare<Real> * static_cast<Real>(sum);
     } else {
-        return kernel_over<Real>(s, i, j, area);
+        return Real::of_raw(16 * sum);
     }
 }
 
@@ -224,16 +195,22 @@ void look_around_row(const GridShape& shape, std::int32_t j, std::int32_t i0, st
                      const VelocityOf<Real>* area, bool thin, Walls<Real>& walls) {
     const GridShape s = shape;  // what a byte that is stored cannot change
     const std::int32_t row = s.index(0, j);
+    const std::int32_t down = j > 0 ? s.stride : 0;
+    const std::int32_t up = j + 1 < s.ny ? s.stride : 0;
     const std::uint8_t* const here = walls.cell_case + row;
-    const std::uint8_t* const below = here - (j > 0 ? s.stride : 0);
-    const std::uint8_t* const above = here + (j + 1 < s.ny ? s.stride : 0);
     ShareOf<Real>* const full = walls.full_density + row;
     MarksNear marks(walls, s, i0, j);
-    const auto column = [&](std::int32_t i) {
-        const std::uint32_t low = below[i];
+    const auto column = [here, area = area + row, down, up](std::int32_t i) {
+        const std::uint32_t low = here[i - down];
         const std::uint32_t own = here[i];
-        const std::uint32_t high = above[i];
-        return Column{low | own | high, low & own & high, low, own, high};
+        const std::uint32_t high = here[i + up];
+        if constexpr (kExactShares<Real>) {
+            return Column{low | own | high, low & own & high, own == kOpen ? 1 : 0,
+                          (low == kOpen ? 1 : 0) + (high == kOpen ? 1 : 0)};
+        } else {
+            return Column{low | own | high, low & own & high, area[i].raw,
+                          area[i - down].raw + area[i + up].raw};
+        }
     };
     Column left = column(maximum(i0 - 1, 0));
     Column middle = column(i0);
@@ -243,7 +220,7 @@ void look_around_row(const GridShape& shape, std::int32_t j, std::int32_t i0, st
         bool mirrored = false;
         if (any != kOpen && (left.all & middle.all & right.all) != kSolid) {
             const std::int32_t c = row + i;
-            full[i] = full_density<Real>(s, area, i, j, left, middle, right);
+            full[i] = full_density<Real>(left, middle, right);
             mirrored = thin || is_mirrored<Real>(walls, walls.open_u[c], c, c + s.stride) ||
                        is_mirrored<Real>(walls, walls.open_v[c], c, c + 1);
         } else {
@@ -297,8 +274,7 @@ void update_cut_cells(const GridShape& shape, const NodeBox& nodes, const Rim& r
     if constexpr (kExactShares<Real>) {
         close_lone_slivers(shape, inner, walls);
     } else {
-        open_areas(shape, with_those_beside(shape, inner), walls, scratch);
-        close_slivers(shape, inner, scratch, walls);
+        open_areas(shape, with_those_beside(shape, inner), scratch, walls);
     }
     const NodeBox asked{maximum(inner.i0, rim.left), maximum(inner.j0, rim.below), inner.i1,
                         inner.j1};
