@@ -104,9 +104,10 @@ void measure_edge(Vec2<Real> from, Vec2<Real> to, Real far, const Sheet<Real>& s
 template <class Real>
 void turn_signs(Vec2<Real> from, Vec2<Real> to, const Bounds<Real>& tank,
                 const Sheet<Real>& sheet) {
+    constexpr Real kMoved = Real(1.0 / 512.0);  // `off_the_border` moves no node by as much
     const NodeBox& box = sheet.box;
-    const Span rows = whole_numbers(minimum(from.y, to.y) - Real(1),
-                                    maximum(from.y, to.y) + Real(1), box.j0, box.j1);
+    const Span rows = whole_numbers(minimum(from.y, to.y) - kMoved,
+                                    maximum(from.y, to.y) + kMoved, box.j0, box.j1);
     for (std::int32_t j = rows.first; j <= rows.last; ++j) {
         const Real y = off_the_border(tank, Vec2<Real>{Real(0), static_cast<Real>(j)}).y;
         if ((from.y <= y) == (to.y <= y)) {
@@ -116,8 +117,7 @@ void turn_signs(Vec2<Real> from, Vec2<Real> to, const Bounds<Real>& tank,
         const auto right_of = [&](std::int32_t i) {
             return off_the_border(tank, Vec2<Real>{static_cast<Real>(i), Real(0)}).x >= crossing;
         };
-        // The border moves a node by less than a cell.
-        std::int32_t i = whole_numbers(crossing - Real(1), crossing, box.i0, box.i1).first;
+        std::int32_t i = whole_numbers(crossing - kMoved, crossing, box.i0, box.i1).first;
         while (i <= box.i1 && !right_of(i)) {
             ++i;
         }
