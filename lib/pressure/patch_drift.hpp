@@ -25,7 +25,7 @@ inline constexpr Real kSolidPatch = Real(2);
 /// By how much the mean excess rises from one patch to the next, times the gain between them.
 template <class Real>
 inline Real rise(Real from, Real to) {
-    const bool solid = from == kSolidPatch<Real> || to == kSolidPatch<Real>;
+    const bool solid = maximum(from, to) >= kSolidPatch<Real>;
     return solid ? Real(0) : kPatchGain<Real> * (to - from);
 }
 
