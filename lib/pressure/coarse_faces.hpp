@@ -192,26 +192,28 @@ bool among_empty(const Patch& patch, const CoarseGrid<Real>& coarse) {
 template <bool Solids, bool Mixed, class Real>
 void join_full(const FaceWeights<Solids, Mixed, Real>& weights, const Patch& patch,
                CoarseGrid<Real>& coarse) {
+    if constexpr (!Solids && !Mixed) {
+        coarse.weight_u[patch.q] = coarse.weight_v[patch.q] = Real(1);
+        return;
+    }
     const GridShape& s = weights.grid.shape;
     const std::int32_t first = s.index(patch.i, patch.j);
-    const auto sum_of_four = [&](const auto& share) {
+    const auto sum_of_four = [&](const auto& share, std::int32_t step) {
         Real sum = Real(0);
         for (std::int32_t k = 0; k < kCoarseEdge; ++k) {
-            sum += share(k) / Real(kCoarseEdge);
+            sum += share(first + k * step) / Real(kCoarseEdge);
         }
         return sum;
     };
-    const auto along_u = [&](std::int32_t k) { return first + k * s.stride; };
-    const auto along_v = [&](std::int32_t k) { return first + k; };
-    const auto u = [&](std::int32_t k) { return weights.u(along_u(k)); };
-    const auto v = [&](std::int32_t k) { return weights.v(along_v(k)); };
-    coarse.weight_u[patch.q] = sum_of_four(u);
-    coarse.weight_v[patch.q] = sum_of_four(v);
+    const auto u = [&](std::int32_t face) { return weights.u(face); };
+    const auto v = [&](std::int32_t face) { return weights.v(face); };
+    coarse.weight_u[patch.q] = sum_of_four(u, s.stride);
+    coarse.weight_v[patch.q] = sum_of_four(v, 1);
     if constexpr (Mixed) {
-        const auto open_u = [&](std::int32_t k) { return weights.open_u(along_u(k)); };
-        const auto open_v = [&](std::int32_t k) { return weights.open_v(along_v(k)); };
-        coarse.reach_u[patch.q] = sum_of_four(open_u);
-        coarse.reach_v[patch.q] = sum_of_four(open_v);
+        const auto open_u = [&](std::int32_t face) { return weights.open_u(face); };
+        const auto open_v = [&](std::int32_t face) { return weights.open_v(face); };
+        coarse.reach_u[patch.q] = sum_of_four(open_u, s.stride);
+        coarse.reach_v[patch.q] = sum_of_four(open_v, 1);
     }
 }
 
