@@ -200,7 +200,8 @@ void look_around_row(const GridShape& shape, std::int32_t j, std::int32_t i0, st
     const std::uint8_t* const here = walls.cell_case + row;
     ShareOf<Real>* const full = walls.full_density + row;
     MarksNear marks(walls, s, i0, j);
-    const auto column = [here, area = area + row, down, up](std::int32_t i) {
+    const VelocityOf<Real>* const open = area + row;
+    const auto column = [&](std::int32_t i) {
         const std::uint32_t low = here[i - down];
         const std::uint32_t own = here[i];
         const std::uint32_t high = here[i + up];
@@ -208,8 +209,8 @@ void look_around_row(const GridShape& shape, std::int32_t j, std::int32_t i0, st
             return Column{low | own | high, low & own & high, own == kOpen ? 1 : 0,
                           (low == kOpen ? 1 : 0) + (high == kOpen ? 1 : 0)};
         } else {
-            return Column{low | own | high, low & own & high, area[i].raw,
-                          area[i - down].raw + area[i + up].raw};
+            return Column{low | own | high, low & own & high, open[i].raw,
+                          open[i - down].raw + open[i + up].raw};
         }
     };
     Column left = column(maximum(i0 - 1, 0));
