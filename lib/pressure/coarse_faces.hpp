@@ -220,8 +220,9 @@ void join_full(const FaceWeights<Solids, Mixed, Real>& weights, const Patch& pat
 /// Faces before the cells of a patch. In one that is full or empty only those to the patches before
 /// it matter.
 template <bool Solids, bool Mixed, class Real>
-void add_patch(const FaceWeights<Solids, Mixed, Real>& weights, const PressureFields<Real>& fields,
-               const Patch& patch, const Targets& targets, CoarseGrid<Real>& coarse) {
+WEIR_ALWAYS_INLINE void add_patch(const FaceWeights<Solids, Mixed, Real>& weights,
+                                  const PressureFields<Real>& fields, const Patch& patch,
+                                  const Targets& targets, CoarseGrid<Real>& coarse) {
     const GridShape& s = weights.grid.shape;
     const std::int32_t up = coarse.shape.stride;
     if (among_empty(patch, coarse)) {
