@@ -124,8 +124,10 @@ template <class Real>
     if (went == Went::far) {
         return true;
     }
+    // Beside a body that slides by, that may be far from the tank.
     const Vec2<Real> from = origin(scene, slot, before);
-    return is_crossed(scene.shape, scene.walls, from, x) && leads_through(scene, from, x);
+    return in_tank(scene.shape, from) && is_crossed(scene.shape, scene.walls, from, x) &&
+           leads_through(scene, from, x);
 }
 
 /// A particle near the contour of a solid, to which it stands so. False: it has no way out.

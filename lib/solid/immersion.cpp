@@ -133,6 +133,12 @@ void look(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, Wid
     using Number = Face<Real>;
     const GridShape& s = obstacles.tank;
     const Wide<Real> corner{at.x - Number(0.5), at.y - Number(0.5)};
+    const auto reaches = [](Number place, std::int32_t end) {
+        return place >= Number(-1) && place < static_cast<Number>(end);
+    };
+    if (!reaches(corner.x, s.nx) || !reaches(corner.y, s.ny)) {
+        return;  // who is led may be further away than whole numbers tell
+    }
     const std::int32_t i0 = floor_to_int(corner.x);
     const std::int32_t j0 = floor_to_int(corner.y);
     const Number tx = corner.x - static_cast<Number>(i0);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "test_world.hpp"
@@ -60,6 +61,27 @@ TYPED_TEST(HeldBody, AHingeGoesAsTold) {
     EXPECT_NEAR(now.position_m.x, 0.2 + 0.25 * t, 2e-5);
     EXPECT_NEAR(now.position_m.y, 0.3, 1e-6);
     EXPECT_GT(std::fabs(now.spin_radps), 0.1F) << "and hangs on it";
+}
+
+/// Led on for ever, at the most that a call may ask for, it is further away than whole numbers tell.
+TYPED_TEST(HeldBody, AHingeMayLeaveForGood) {
+    constexpr bool kFixed = std::is_same_v<TypeParam, Fixed>;
+    WorldDef tank = tank_def(4, 4, 4, 1, 4);
+    tank.capacity.two_way = true;
+    tank.gravity_mps2 = {0.0F, 0.0F};
+    tank.max_substeps = 1;
+    TestWorld<TypeParam> world{tank};
+    BodyDef def = body_of(kSquare4cm, {0.04F, 0.04F});
+    def.hold = Hold::hinge;
+    const float fastest = kFixed ? 300.0F : 19900.0F;
+    def.motion.velocity_mps = {fastest, -fastest};
+    const BodyId id = put_free(*world, def);
+    for (int k = 0; k < 2300; ++k) {
+        EXPECT_TRUE(world->step(1.0F).dt_s > 0.0F);
+    }
+    const Motion now = motion_of(*world, id);
+    EXPECT_TRUE(std::isfinite(now.position_m.x) && std::isfinite(now.position_m.y));
+    EXPECT_GT(now.position_m.x, kFixed ? 600.0F : 4.4e7F);
 }
 
 /// Upright it falls freely, wherever its middle is, and does not turn.

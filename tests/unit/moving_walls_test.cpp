@@ -80,5 +80,27 @@ TEST(MovingWalls, ABodyIsMetWhereverItIsOnTheWay) {
     EXPECT_EQ(moving.body_on_way(scene, {9.5F, 20.7F}, {16.5F, 20.7F}), kNoBody);
 }
 
+/// Seen from a plate that slides through the tank in one step, from far above, particles come from
+/// as far below: there is nothing to be looked up.
+TEST(MovingWalls, NobodyIsLookedForFarOutsideTheTank) {
+    constexpr float kSpeed = 1990.0F;
+    WorldDef def = tank_def(16, 16, 600, 1, 4);
+    def.gravity_mps2 = {0.0F, 0.0F};
+    def.max_substeps = 1;
+    TestWorld<float> world(def);
+    const Ring ring = rectangle(0.05F, 2.0F);
+    BodyDef plate = body_of(ring, {0.157F, 0.16F + kSpeed});
+    plate.motion.velocity_mps = {0.0F, -kSpeed};
+    const BodyId id = put_moving(*world, plate);
+    measure::Random random(1);
+    for (int k = 0; k < 600; ++k) {
+        const Vec2f at{random.uniform(0.0F, 0.31F), random.uniform(0.0F, 0.31F)};
+        expect_ok(world->add_particle(at, {0.0F, 0.8F * kCell}));
+    }
+    EXPECT_EQ(world->step(1.0F).substeps, 1);
+    EXPECT_NEAR(motion_of(*world, id).position_m.y, 0.16F, 0.01F);
+    EXPECT_TRUE(all_inside(*world));
+}
+
 }  // namespace
 }  // namespace weir
