@@ -167,6 +167,29 @@ TYPED_TEST(HeldBody, ALightWheelTurnsWithTheStream) {
     }
 }
 
+/// Along its rail it falls freely, across it not at all, and it does not turn.
+TYPED_TEST(HeldBody, RailsBearWhatIsAcross) {
+    for (const bool along_x : {true, false}) {
+        WorldDef def = held_def();
+        def.gravity_mps2 = {2.0F, -3.0F};
+        TestWorld<TypeParam> world{def};
+        BodyDef body = body_of(kTriangle, {0.2F, 0.4F}, 0.3F);
+        body.hold = along_x ? Hold::rail_x : Hold::rail_y;
+        const BodyId id = put_free(*world, body);
+        const Motion start = motion_of(*world, id);
+        double t = 0.0;
+        for (int k = 0; k < 60; ++k) {
+            t += static_cast<double>(world->step(kDt).dt_s);
+        }
+        const Motion now = motion_of(*world, id);
+        const double fallen = 0.5 * t * t;
+        EXPECT_NEAR(now.position_m.x - start.position_m.x, along_x ? 2.0 * fallen : 0.0, 2e-3);
+        EXPECT_NEAR(now.position_m.y - start.position_m.y, along_x ? 0.0 : -3.0 * fallen, 2e-3);
+        EXPECT_EQ(now.angle_rad, start.angle_rad);
+        EXPECT_EQ(now.spin_radps, 0.0F);
+    }
+}
+
 /// One end of a seesaw goes down under a crate, which does not go through it; the crate's push along
 /// the plank's own axis finds nothing that yields.
 TYPED_TEST(HeldBody, ACrateTiltsASeesaw) {
