@@ -100,10 +100,18 @@ void use(World<Real>& world, Dice& dice) {
     EXPECT_TRUE(all_inside(world));
 }
 
-/// Two more kinds: one stores a window only, in one regions sleep.
+/// Three more kinds: one stores a window only, in one regions sleep, in one are free bodies.
 constexpr std::int32_t kWindowKind = kBusyKinds;
 constexpr std::int32_t kRegionsKind = kBusyKinds + 1;
-constexpr std::int32_t kKinds = kBusyKinds + 2;
+constexpr std::int32_t kFreeKind = kBusyKinds + 2;
+constexpr std::int32_t kKinds = kBusyKinds + 3;
+
+template <class Real>
+bool is_borne(std::int32_t kind) {
+    const bool only_roomy = kind == kWindowKind || kind == kFreeKind;
+    return kind < kBusyKinds ? busy_kind_is_borne<Real>(kind)
+                             : !only_roomy || !std::is_same_v<Real, SmallFixed>;
+}
 
 WorldDef small_def(std::int32_t kind) {
     WorldDef def = busy_def(kind);
@@ -118,6 +126,7 @@ WorldDef small_def(std::int32_t kind) {
         def.sleep.speed_mps = 0.05F;
         def.sleep.after_s = 0.2F;
     }
+    def.capacity.two_way = kind == kFreeKind;
     def.capacity.particles = 60;
     def.max_substeps = 2;
     def.pressure_sweeps = 2;
@@ -140,6 +149,21 @@ void fall_asleep(World<Real>& world) {
     EXPECT_GT(report.particles_asleep, 0);
 }
 
+/// A raft, a flap and a slide.
+template <class Real>
+void put_free_bodies(World<Real>& world) {
+    const Ring raft = rectangle(0.06F, 0.04F);
+    BodyDef def = body_of(raft, {0.05F, 0.05F}, 0.1F);
+    def.density_ratio = 0.6F;
+    put_free(world, def);
+    def = body_of(kTriangle, {0.12F, 0.1F}, 0.3F);
+    def.hold = Hold::hinge;
+    put_free(world, def);
+    def = body_of(kSquare4cm, {0.25F, 0.1F}, -0.4F);
+    def.hold = Hold::rail_x;
+    put_free(world, def);
+}
+
 /// Of a world that has lived a while.
 template <class Real>
 Bytes saved(World<Real>& world, const WorldDef& def, Dice& dice) {
@@ -148,6 +172,9 @@ Bytes saved(World<Real>& world, const WorldDef& def, Dice& dice) {
         EXPECT_EQ(world.let_regions_sleep(), Status::ok);
         fall_asleep(world);
     } else {
+        if (def.capacity.two_way) {
+            put_free_bodies(world);
+        }
         live(world, dice, 25);
     }
     Bytes bytes(snapshot_bytes<Real>(def.capacity));
@@ -232,7 +259,7 @@ TEST(SnapshotFuzz, NothingGetsPast) {
         restored += attack<float>(kind, times / kKinds / 2, 1);
         restored += attack<double>(kind, times / kKinds / 4, 2);
         restored += attack<Fixed>(kind, times / kKinds / 4, 3);
-        if (kind != kWindowKind && (kind >= kBusyKinds || busy_kind_is_borne<SmallFixed>(kind))) {
+        if (is_borne<SmallFixed>(kind)) {
             restored += attack<SmallFixed>(kind, times / kKinds / 4, 4);
         }
     }
