@@ -124,6 +124,9 @@ Stale go_through(SnapshotReader& reader, Pass pass, const Layout& plan, WorldSta
                    : body.room > 0 || body.leapt) {
             reader.refuse();
         }
+        if (body.kind == BodyKind::moving && !state.def.capacity.moving_bodies) {
+            reader.refuse();
+        }
         Body<Real>& known = table.body[slot];
         same = pass == Pass::compare && looks_like(body, known);
         body.first_vertex = same ? known.first_vertex : places;
@@ -167,6 +170,9 @@ void redraw(Simulation<Real>& simulation, const Stale* picture) {
         if (table.body[slot].kind != BodyKind::free) {
             ++table.used;
             place(table, table.body[slot]);
+        }
+        if (table.load != nullptr && table.body[slot].kind == BodyKind::fixed) {
+            table.load[slot].inverse_mass = Face<Real>(0);  // whatever a snapshot says
         }
     }
     if constexpr (kHasFreeBodies<Real>) {

@@ -51,6 +51,22 @@ TEST(SnapshotNumbers, PushesOfBodiesAreNumbers) {
     EXPECT_EQ(restored(world, def), Status::snapshot_damaged);
 }
 
+/// What stands still answers no push, and where no body may move none does.
+TEST(SnapshotNumbers, StaticBodiesStayStatic) {
+    WorldDef def = small_def();
+    def.capacity.two_way = true;
+    def.capacity.moving_bodies = false;
+    TestWorld<float> world(def);
+    const BodyId id = put_static(*world, body_of(kSquare4cm, {0.1F, 0.1F}));
+    BodyTable<float>& table = state_of(world).simulation.bodies;
+    table.load[id.slot].inverse_mass = 1.0F;
+    EXPECT_EQ(restored(world, def), Status::ok);
+    EXPECT_FALSE(table.load[id.slot].is_free_or_led());
+    EXPECT_EQ(state_of(world).simulation.free_bodies, nullptr);
+    table.body[id.slot].kind = BodyKind::moving;
+    EXPECT_EQ(restored(world, def), Status::snapshot_damaged);
+}
+
 /// Incompressible liquid knows no sound.
 TEST(SnapshotNumbers, OnlyElasticLiquidHasASpeedOfSound) {
     WorldDef def = small_def();
