@@ -150,29 +150,35 @@ void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
 }  // namespace
 
 template <bool Seams, class Real>
-void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
-    const GridShape& s = grid.shape;
-    const bool wrap_x = Seams && b.wrap_x;
-    const bool wrap_y = Seams && b.wrap_y;
-    const std::int32_t right = s.nx - 1;
+void fold_u(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* mass, Real* momentum) {
     const std::int32_t top = s.ny - 1;
-    if (wrap_y) {
-        move_ghosts(grid.mass_u, s, row, top, true);
-        move_ghosts(grid.momentum_u(), s, row, top, true);
+    if (Seams && b.wrap_y) {
+        move_ghosts(mass, s, row, top, true);
+        move_ghosts(momentum, s, row, top, true);
     } else {
-        fold_along(grid.mass_u, grid.momentum_u(), row(s, 0), row(s, -1), b.bottom, Real(1));
-        fold_along(grid.mass_u, grid.momentum_u(), row(s, top), row(s, s.ny), b.top, Real(-1));
+        fold_along(mass, momentum, row(s, 0), row(s, -1), b.bottom, Real(1));
+        fold_along(mass, momentum, row(s, top), row(s, s.ny), b.top, Real(-1));
     }
-    if (wrap_x) {
-        move_ghosts(grid.mass_v, s, column, right, true);
-        move_ghosts(grid.momentum_v(), s, column, right, true);
+    fold_across(mass, momentum, column(s, 0), column(s, s.nx), Seams && b.wrap_x);
+}
+
+template <bool Seams, class Real>
+void fold_v(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* mass, Real* momentum) {
+    const std::int32_t right = s.nx - 1;
+    if (Seams && b.wrap_x) {
+        move_ghosts(mass, s, column, right, true);
+        move_ghosts(momentum, s, column, right, true);
     } else {
-        fold_along(grid.mass_v, grid.momentum_v(), column(s, 0), column(s, -1), b.left, Real(-1));
-        fold_along(grid.mass_v, grid.momentum_v(), column(s, right), column(s, s.nx), b.right,
-                   Real(1));
+        fold_along(mass, momentum, column(s, 0), column(s, -1), b.left, Real(-1));
+        fold_along(mass, momentum, column(s, right), column(s, s.nx), b.right, Real(1));
     }
-    fold_across(grid.mass_u, grid.momentum_u(), column(s, 0), column(s, s.nx), wrap_x);
-    fold_across(grid.mass_v, grid.momentum_v(), row(s, 0), row(s, s.ny), wrap_y);
+    fold_across(mass, momentum, row(s, 0), row(s, s.ny), Seams && b.wrap_y);
+}
+
+template <bool Seams, class Real>
+void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
+    fold_u<Seams>(b, grid.shape, grid.mass_u, grid.momentum_u());
+    fold_v<Seams>(b, grid.shape, grid.mass_v, grid.momentum_v());
 }
 
 template <class Real>
@@ -245,6 +251,13 @@ void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* l
     template void close_walls(const Borders<Real>&, Vec2<Real>, const LevelOf<Real>*,    \
                               const Real*, StaggeredGrid<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
+
+#define WEIR_INSTANTIATE(Real)                                                              \
+    template void fold_u<true>(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, \
+                               Real*);                                                     \
+    template void fold_v<true>(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, Real*);
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 }  // namespace weir

@@ -33,6 +33,14 @@ bool any_wall_drags(const Borders<Real>& borders) {
 template <bool Seams, class Real>
 void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
 
+/// The same of one component.
+template <bool Seams, class Real>
+void fold_u(const Borders<Real>& borders, const GridShape& shape, VelocityOf<Real>* mass,
+            Real* momentum);
+template <bool Seams, class Real>
+void fold_v(const Borders<Real>& borders, const GridShape& shape, VelocityOf<Real>* mass,
+            Real* momentum);
+
 /// The same for a pair of face fields without momentum.
 template <class Real>
 void fold_counts(const Borders<Real>& borders, const GridShape& shape,

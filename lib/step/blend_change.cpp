@@ -173,6 +173,38 @@ void sharpen_rows(const Borders<Real>& borders, const Part& rows, const Sharpeni
     });
 }
 
+/// Both components where liquid is all around, the others as they are.
+template <class Real>
+void sharpen(const Domain<Real>& domain, VelocityOf<Real>* sharp_u, VelocityOf<Real>* sharp_v,
+             Work work) {
+    const Borders<Real>& borders = domain.borders;
+    const ThinWalls<Real>* thin = domain.walls.thin;
+    const LevelOf<Real>* level = domain.fields.level;
+    StaggeredGrid<Real>& grid = domain.grid;
+    const GridShape& s = grid.shape;
+    const Sharpening<Real> of_u{s, thin, level, 1, grid.mass_u, sharp_u};
+    const Sharpening<Real> of_v{s, thin, level, s.stride, grid.mass_v, sharp_v};
+    if constexpr (kHasLanes<Real>) {
+        const std::int32_t cost = 2 * (s.nx + 2);
+        work.share(work.take(s.ny + 2, cost), cost, 1, [&](const Part& rows, std::int32_t) {
+            of_u.rows_in_lanes(borders.wrap_x ? 0 : 1, 0, rows);
+            of_v.rows_in_lanes(0, borders.wrap_y ? 0 : 1, rows);
+        });
+    } else {
+        work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1,
+                   [&](const Part& rows, std::int32_t) {
+                       copy_rows(s, rows, grid.mass_u, sharp_u);
+                       copy_rows(s, rows, grid.mass_v, sharp_v);
+                   });
+        work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
+            sharpen_rows<Real>(borders, rows, of_u, of_v);
+        });
+    }
+    if (work.once(s.border())) {
+        extend_velocity(borders, s, sharp_u, sharp_v);
+    }
+}
+
 /// before = (now − before) + pic_ratio · sharp, for both components.
 template <class Real>
 void blend(const Part& faces, Real pic_ratio, const VelocityOf<Real>* sharp_u,
@@ -198,38 +230,22 @@ void blend(const Part& faces, Real pic_ratio, const VelocityOf<Real>* sharp_u,
 }  // namespace
 
 template <class Real>
-void blend_change(const Domain<Real>& domain, Real flip_ratio, Work work) {
+void blend_change(const Domain<Real>& domain, Real flip_ratio, bool centred, Work work) {
     if constexpr (Stored<Real>::coarse) {
         blend_packed(domain, flip_ratio, work);
         return;
     }
-    const Borders<Real>& borders = domain.borders;
-    const ThinWalls<Real>* thin = domain.walls.thin;
     PressureFields<Real>& fields = domain.fields;
     StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
-    const Sharpening<Real> of_u{s, thin, fields.level, 1, grid.mass_u, sharp_u};
-    const Sharpening<Real> of_v{s, thin, fields.level, s.stride, grid.mass_v, sharp_v};
-    if constexpr (kHasLanes<Real>) {
-        const std::int32_t cost = 2 * (s.nx + 2);
-        work.share(work.take(s.ny + 2, cost), cost, 1, [&](const Part& rows, std::int32_t) {
-            of_u.rows_in_lanes(borders.wrap_x ? 0 : 1, 0, rows);
-            of_v.rows_in_lanes(0, borders.wrap_y ? 0 : 1, rows);
-        });
+    if (!centred) {
+        sharpen(domain, sharp_u, sharp_v, work);
     } else {
-        work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1,
-                   [&](const Part& rows, std::int32_t) {
-                       copy_rows(s, rows, grid.mass_u, sharp_u);
-                       copy_rows(s, rows, grid.mass_v, sharp_v);
-                   });
-        work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
-            sharpen_rows<Real>(borders, rows, of_u, of_v);
-        });
-    }
-    if (work.once(s.border())) {
-        extend_velocity(borders, s, sharp_u, sharp_v);
+        const Part copied = work.take(s.ny + 2, s.nx + 2);
+        copy_rows(s, copied, grid.mass_u, sharp_u);
+        copy_rows(s, copied, grid.mass_v, sharp_v);
     }
     work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1, [&](const Part& rows, std::int32_t) {
         for_each_run(s, rows, [&](const Part& faces) {
@@ -238,7 +254,8 @@ void blend_change(const Domain<Real>& domain, Real flip_ratio, Work work) {
     });
 }
 
-#define WEIR_INSTANTIATE(Real) template void blend_change(const Domain<Real>&, Real, Work);
+#define WEIR_INSTANTIATE(Real) \
+    template void blend_change(const Domain<Real>&, Real, bool, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -280,8 +280,10 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     update_grid(simulation, domain, plan, work);
     if (plan.viscosity > Real(0)) {
         Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
-        simulation.viscosity->diffuse(domain, plan.viscosity * dt_s, settings.fall_in(dt_s), tank,
-                                      work);
+        const Vec2<Real> fall = settings.fall_in(dt_s);
+        simulation.viscosity->centre(domain, simulation.particles, settings.second_density, fall,
+                                     work);
+        simulation.viscosity->diffuse(domain, plan.viscosity * dt_s, fall, tank, work);
     }
     clock.charge(Stage::grid_update);
 
@@ -300,7 +302,7 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     clock.charge(Stage::pressure);
 
     quiet_leaning(simulation, plan, work);
-    blend_change(domain, settings.flip_ratio, work);
+    blend_change(domain, settings.flip_ratio, plan.viscosity > Real(0), work);
     bend_paths(domain, dt_s, work);
     // In Fixed drift ends by itself: what does not make a last digit of a place is none.
     if (settings.volume_gain > Real(0) && !(Stored<Real>::coarse && plan.settling)) {

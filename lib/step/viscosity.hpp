@@ -1,6 +1,7 @@
 // Stage: grid update, only if there is viscosity. Reads velocities and levels; writes velocities.
 #pragma once
 
+#include "fluid/particles.hpp"
 #include "pressure/domain.hpp"
 #include "weir/features.hpp"
 
@@ -17,6 +18,10 @@ namespace weir {
 /// Order: none (reads only the velocities before). Cost: about 30 operations a face.
 template <class Real>
 struct detail::Viscosity {
+    /// Faces' velocities are to be those of their middles: where walls without slip take particles
+    /// from one side (step/no_slip.hpp), and of all (step/centre_velocity.hpp).
+    void (*centre)(const Domain<Real>& domain, const Particles<Real>& particles,
+                   Real second_density, Vec2<Real> fall, Work work);
     void (*diffuse)(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
                     Impulse<Real>* tank, Work work);
     const StickingWalls<Real>* sticking;  ///< null where there is no room for bodies
