@@ -55,7 +55,7 @@ struct Sloping {
     /// Of a face: what was scattered, and what its particles give besides.
     void centre(std::int32_t face, bool again) const {
         const Real all = mass[face];
-        if (!(all > Real(0)) || is_beside_wall(face)) {
+        if (!(all > Real(0)) || !is_within(face) || is_beside_wall(face)) {
             return;
         }
         Real faster = Real(momentum[face]) / all;
@@ -70,6 +70,13 @@ struct Sloping {
     }
 
 private:
+    /// Liquid on both sides.
+    bool is_within(std::int32_t face) const {
+        const LevelOf<Real>* const level = domain.fields.level;
+        const std::int32_t before = is_u ? 1 : shape().stride;
+        return level[face] > LevelOf<Real>(0) && level[face - before] > LevelOf<Real>(0);
+    }
+
     bool is_beside_wall(std::int32_t face) const {
         const Walls<Real>& walls = domain.walls;
         if (!walls.active) {

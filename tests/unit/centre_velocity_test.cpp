@@ -39,6 +39,7 @@ struct Scattered {
         grid = {shape, u.data(), v.data(), mass_u.data(), mass_v.data()};
         fields.divergence = scratch[0].data();
         fields.inverse_diagonal = scratch[1].data();
+        level.assign(level.size(), 1.0);
         fields.level = level.data();
         std::mt19937 random(3);
         std::uniform_real_distribution<double> place(low, high);
@@ -99,6 +100,19 @@ TEST(CentreVelocity, GivesNoMomentum) {
         const auto face = static_cast<std::size_t>(faces.shape.index(i, 8));
         EXPECT_NEAR(faces.u[face] - faces.mass_u[face], kFall.x, 1.0e-12);
         EXPECT_NEAR(faces.v[face] - faces.mass_v[face], kFall.y, 1.0e-12);
+    }
+}
+
+TEST(CentreVelocity, StaysAsScatteredAtTheSurface) {
+    Scattered faces(0.0, kCells, linear);
+    faces.level[static_cast<std::size_t>(faces.shape.index(8, 8))] = -0.5;
+    const std::vector<double> scattered = faces.u;
+    faces.pass(false);
+    faces.pass(true);
+    for (const int i : {8, 9}) {
+        const auto face = static_cast<std::size_t>(faces.shape.index(i, 8));
+        EXPECT_EQ(faces.u[face], scattered[face]);
+        EXPECT_NE(faces.u[face + 2], scattered[face + 2]);
     }
 }
 
