@@ -96,18 +96,20 @@ struct DimpleTask {
     std::uint32_t (*shifting)(const DimpleTask& task, std::int32_t c, std::uint32_t asked);
 };
 
-/// Which cells are air and have a liquid neighbour; `all_around`: nothing else.
+/// Which cells are air and have a liquid neighbour; `all_around`: nothing else. What lies beyond
+/// the tank is not told yet, and after a restore may be no number, nor then is the largest of four.
 template <class L>
 inline auto beside_liquid(const float* level, std::int32_t stride, std::int32_t c,
                           bool all_around) {
+    const auto zero = L::all(0.0F);
     const auto left = L::load(level + c - 1);
     const auto right = L::load(level + c + 1);
     const auto lower = L::load(level + c - stride);
     const auto upper = L::load(level + c + stride);
-    const auto highest =
-        all_around ? L::minimum(L::minimum(left, right), L::minimum(lower, upper))
-                   : L::maximum(L::maximum(left, right), L::maximum(lower, upper));
-    return (L::load(level + c) <= L::all(0.0F)) & (highest > L::all(0.0F));
+    const auto liquid =
+        all_around ? L::minimum(L::minimum(left, right), L::minimum(lower, upper)) > zero
+                   : ((left > zero) | (right > zero)) | ((lower > zero) | (upper > zero));
+    return (L::load(level + c) <= zero) & liquid;
 }
 
 /// Which of the cells asked for liquid surrounds.
