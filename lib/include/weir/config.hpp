@@ -194,7 +194,8 @@ struct WorldDef {
     float sound_speed_mps = 0.0F;
 
     /// Kinematic shear viscosity, m²/s; 0 (not computed) … 1e6 cells²/s. Water has 1e-6, which no
-    /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps.
+    /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps, any of it
+    /// up to four times a step but in SmallFixed.
     float viscosity_m2ps = 0.0F;
 
     /// Surface tension over density, m³/s²; 0 (not computed) … 1e12 cells³/s², in Fixed
