@@ -150,35 +150,28 @@ void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
 }  // namespace
 
 template <bool Seams, class Real>
-void fold_u(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* mass, Real* momentum) {
-    const std::int32_t top = s.ny - 1;
-    if (Seams && b.wrap_y) {
-        move_ghosts(mass, s, row, top, true);
-        move_ghosts(momentum, s, row, top, true);
+void fold_component(const Borders<Real>& b, const GridShape& s, bool is_u, VelocityOf<Real>* mass,
+                    Real* momentum) {
+    Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
+    Line (*const across)(const GridShape&, std::int32_t) = is_u ? column : row;
+    const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
+    const Real sense = Real(is_u ? 1 : -1);
+    if (Seams && (is_u ? b.wrap_y : b.wrap_x)) {
+        move_ghosts(mass, s, along, last, true);
+        move_ghosts(momentum, s, along, last, true);
     } else {
-        fold_along(mass, momentum, row(s, 0), row(s, -1), b.bottom, Real(1));
-        fold_along(mass, momentum, row(s, top), row(s, s.ny), b.top, Real(-1));
+        fold_along(mass, momentum, along(s, 0), along(s, -1), is_u ? b.bottom : b.left, sense);
+        fold_along(mass, momentum, along(s, last), along(s, last + 1), is_u ? b.top : b.right,
+                   -sense);
     }
-    fold_across(mass, momentum, column(s, 0), column(s, s.nx), Seams && b.wrap_x);
-}
-
-template <bool Seams, class Real>
-void fold_v(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* mass, Real* momentum) {
-    const std::int32_t right = s.nx - 1;
-    if (Seams && b.wrap_x) {
-        move_ghosts(mass, s, column, right, true);
-        move_ghosts(momentum, s, column, right, true);
-    } else {
-        fold_along(mass, momentum, column(s, 0), column(s, -1), b.left, Real(-1));
-        fold_along(mass, momentum, column(s, right), column(s, s.nx), b.right, Real(1));
-    }
-    fold_across(mass, momentum, row(s, 0), row(s, s.ny), Seams && b.wrap_y);
+    fold_across(mass, momentum, across(s, 0), across(s, is_u ? s.nx : s.ny),
+                Seams && (is_u ? b.wrap_x : b.wrap_y));
 }
 
 template <bool Seams, class Real>
 void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
-    fold_u<Seams>(b, grid.shape, grid.mass_u, grid.momentum_u());
-    fold_v<Seams>(b, grid.shape, grid.mass_v, grid.momentum_v());
+    fold_component<Seams>(b, grid.shape, true, grid.mass_u, grid.momentum_u());
+    fold_component<Seams>(b, grid.shape, false, grid.mass_v, grid.momentum_v());
 }
 
 template <class Real>
@@ -253,10 +246,9 @@ void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* l
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
-#define WEIR_INSTANTIATE(Real)                                                              \
-    template void fold_u<true>(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, \
-                               Real*);                                                     \
-    template void fold_v<true>(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, Real*);
+#define WEIR_INSTANTIATE(Real)                                                        \
+    template void fold_component<true>(const Borders<Real>&, const GridShape&, bool, \
+                                       VelocityOf<Real>*, Real*);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -33,13 +33,10 @@ bool any_wall_drags(const Borders<Real>& borders) {
 template <bool Seams, class Real>
 void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
 
-/// The same of one component.
+/// The same of one component: of u, or of v.
 template <bool Seams, class Real>
-void fold_u(const Borders<Real>& borders, const GridShape& shape, VelocityOf<Real>* mass,
-            Real* momentum);
-template <bool Seams, class Real>
-void fold_v(const Borders<Real>& borders, const GridShape& shape, VelocityOf<Real>* mass,
-            Real* momentum);
+void fold_component(const Borders<Real>& borders, const GridShape& shape, bool is_u,
+                    VelocityOf<Real>* mass, Real* momentum);
 
 /// The same for a pair of face fields without momentum.
 template <class Real>

@@ -173,7 +173,7 @@ void sharpen_rows(const Borders<Real>& borders, const Part& rows, const Sharpeni
     });
 }
 
-/// Both components where liquid is all around, the others as they are.
+/// Both components where liquid is all around; plain loops leave other faces as they were copied.
 template <class Real>
 void sharpen(const Domain<Real>& domain, VelocityOf<Real>* sharp_u, VelocityOf<Real>* sharp_v,
              Work work) {
@@ -191,11 +191,6 @@ void sharpen(const Domain<Real>& domain, VelocityOf<Real>* sharp_u, VelocityOf<R
             of_v.rows_in_lanes(0, borders.wrap_y ? 0 : 1, rows);
         });
     } else {
-        work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1,
-                   [&](const Part& rows, std::int32_t) {
-                       copy_rows(s, rows, grid.mass_u, sharp_u);
-                       copy_rows(s, rows, grid.mass_v, sharp_v);
-                   });
         work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
             sharpen_rows<Real>(borders, rows, of_u, of_v);
         });
@@ -240,12 +235,15 @@ void blend_change(const Domain<Real>& domain, Real flip_ratio, bool centred, Wor
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
+    if (centred || !kHasLanes<Real>) {  // lanes copy on the way
+        work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1,
+                   [&](const Part& rows, std::int32_t) {
+                       copy_rows(s, rows, grid.mass_u, sharp_u);
+                       copy_rows(s, rows, grid.mass_v, sharp_v);
+                   });
+    }
     if (!centred) {
         sharpen(domain, sharp_u, sharp_v, work);
-    } else {
-        const Part copied = work.take(s.ny + 2, s.nx + 2);
-        copy_rows(s, copied, grid.mass_u, sharp_u);
-        copy_rows(s, copied, grid.mass_v, sharp_v);
     }
     work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1, [&](const Part& rows, std::int32_t) {
         for_each_run(s, rows, [&](const Part& faces) {

@@ -48,8 +48,7 @@ struct Sloping {
         Borders<Real> still = domain.borders;
         still.bottom.conveyor = still.top.conveyor = Real(0);
         still.left.conveyor = still.right.conveyor = Real(0);
-        const auto fold = is_u ? fold_u<true, Real> : fold_v<true, Real>;
-        fold(still, shape(), mass, momentum);
+        fold_component<true>(still, shape(), is_u, mass, momentum);
     }
 
     /// Of a face: what was scattered, and what its particles give besides.
@@ -70,11 +69,12 @@ struct Sloping {
     }
 
 private:
+    FaceAxis<Real> axis() const { return {shape(), domain.walls, is_u}; }
+
     /// Liquid on both sides.
     bool is_within(std::int32_t face) const {
         const LevelOf<Real>* const level = domain.fields.level;
-        const std::int32_t before = is_u ? 1 : shape().stride;
-        return level[face] > LevelOf<Real>(0) && level[face - before] > LevelOf<Real>(0);
+        return level[face] > LevelOf<Real>(0) && level[face - axis().before()] > LevelOf<Real>(0);
     }
 
     bool is_beside_wall(std::int32_t face) const {
@@ -82,20 +82,20 @@ private:
         if (!walls.active) {
             return false;
         }
-        const FaceAxis<Real> axis{shape(), walls, is_u};
+        const std::int32_t before = face - axis().before();
         if (walls.thin != nullptr &&
-            ((walls.thin->mark[face] | walls.thin->mark[face - axis.before()]) & kTouching) != 0) {
+            ((walls.thin->mark[face] | walls.thin->mark[before]) & kTouching) != 0) {
             return true;
         }
-        return !(axis.open()[face] > ShareOf<Real>(0)) ||
-               (walls.sticking != nullptr && axis.distance(face) < Real(1) &&
-                walls.sticking->body(axis, face) != kNoBody);
+        return !(axis().open()[face] > ShareOf<Real>(0)) ||
+               (walls.sticking != nullptr && axis().distance(face) < Real(1) &&
+                walls.sticking->body(axis(), face) != kNoBody);
     }
 };
 
 template <class Real>
-void centre_component(const Sloping<Real>& faces, const Particles<Real>& particles,
-                      Real second_density, bool again, Work work) {
+void go_over(const Sloping<Real>& faces, const Particles<Real>& particles, Real second_density,
+             bool again, Work work) {
     const GridShape& s = faces.shape();
     const Part cleared = work.take(s.ny + 2, s.nx + 2);
     clear_rows(s, cleared, faces.mass);
@@ -127,10 +127,8 @@ void centre_velocity(const Domain<Real>& domain, const Particles<Real>& particle
                      Real second_density, Vec2<Real> fall, bool again, Work work) {
     VelocityOf<Real>* const mass = domain.fields.divergence;
     VelocityOf<Real>* const momentum = domain.fields.inverse_diagonal;
-    centre_component<Real>({domain, true, fall.x, mass, momentum}, particles, second_density,
-                           again, work);
-    centre_component<Real>({domain, false, fall.y, mass, momentum}, particles, second_density,
-                           again, work);
+    go_over<Real>({domain, true, fall.x, mass, momentum}, particles, second_density, again, work);
+    go_over<Real>({domain, false, fall.y, mass, momentum}, particles, second_density, again, work);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                        \

@@ -18,9 +18,9 @@ namespace weir {
 /// cancels with what the gather does to a particle: `blend_change` then sharpens nothing.
 ///
 /// After `grid_update`, which has given `fall`, ghost lines of the velocity before it extended. Of
-/// that one slopes are taken, and it goes first; the velocity now follows in the second pass. So do
-/// faces beside walls that liquid sticks to (step/no_slip.hpp) and beside thin ones; packed worlds
-/// do without. The fields' divergence and inverse diagonal are the scratch.
+/// that one slopes are taken, and it goes first; the velocity now follows in the second pass. Faces
+/// beside walls that liquid sticks to (step/no_slip.hpp) and beside thin ones stay as they are,
+/// too; packed worlds do without. The fields' divergence and inverse diagonal are the scratch.
 /// Order: by particle, then by node. Cost of a pass: 8 weights and 16 sums a particle.
 template <class Real>
 void centre_velocity(const Domain<Real>& domain, const Particles<Real>& particles,
