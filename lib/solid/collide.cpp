@@ -249,7 +249,7 @@ bool any_near_thin(const GridShape& s, const ThinWalls<float>& thin, const Vec2<
     return is_open_around(task.shape, task.cell_case, ways, count);
 }
 
-/// A block without thin walls, all of whose cells are stored. Most particles are clearly outside.
+/// A block without thin walls. Most particles are clearly outside.
 void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
                       std::int32_t count) {
     const GridShape& s = scene.shape;
@@ -305,8 +305,7 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
     const GridShape& s = scene.shape;
     const Walls<Real>& walls = scene.walls;
     const Vec2<Real>* position = scene.particles.position + first;
-    const bool one_by_one = walls.thin != nullptr || flight.beyond ||
-                            (flight.far && !all_stored(walls));
+    const bool one_by_one = walls.thin != nullptr || flight.beyond;
     for (std::int32_t n = count; n > 0;) {
         n = one_by_one   ? n - 1
             : flight.far ? last_past_wall(s, walls.cell_case, flight.before, position, n)
@@ -340,8 +339,7 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
             const Vec2<float>* position = particles.position + first;
-            if ((!flight.far || all_stored(walls)) && !flight.beyond &&
-                maximum(shape.stride, shape.ny) < 0x8000 &&
+            if (!flight.beyond && maximum(shape.stride, shape.ny) < 0x8000 &&
                 (walls.thin == nullptr ||
                  (!flight.far && !any_near_thin(shape, *walls.thin, position, count)))) {
                 collide_in_lanes(scene, flight, first, count);

@@ -27,7 +27,8 @@ struct Flight {
     bool far = false;           ///< one of them moved further than kLongWay along an axis
     Seconds<Real> dt_s{};       ///< for which bodies moved
     bool mark_removed = false;  ///< who is removed stays, marked, until `Particles::remove_marked`
-    /// They are where no picture of the solids is stored. Who is inside there stays inside.
+    /// They are where no picture of the solids is stored: others' ways all lie where one is. Who is
+    /// inside there stays inside.
     bool beyond = false;
     const BodyTable<Real>* bodies = nullptr;  ///< whose outlines tell sides of what is thin
 };

@@ -6,6 +6,7 @@
 #include "solid/collide.hpp"
 #include "step/free_words.hpp"
 #include "step/grid_to_particle.hpp"
+#include "step/occupied.hpp"
 #include "step/simulation.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thin_transfer.hpp"
@@ -17,6 +18,7 @@ namespace weir {
 /// stable no longer. The plan of substeps aims at `cfl`, which is at most as much.
 template <class Real>
 inline constexpr Real kLongestWay = Real(2);
+static_assert(kLongestWay<float> + 1.0F < kMargin, "or a way leads past what a window stores");
 
 /// What a particle's velocity can be kept as, cells/s.
 template <class Real>
