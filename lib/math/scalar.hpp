@@ -190,22 +190,26 @@ constexpr SmallFixed ratio_of(std::int32_t part, std::int32_t whole) {
     return SmallFixed::of_raw(((part << 16) + whole / 2) / whole);
 }
 
-/// Comparing the exponent bits survives every compiler flag, unlike x == x. __builtin: a
-/// freestanding std::memcpy is a call.
+/// What has the bits of another that is as long. __builtin: a freestanding std::memcpy is a call.
+template <class To, class From>
+inline To of_bits(From from) {
+    static_assert(sizeof(To) == sizeof(From), "or some are lost");
+    To to{};
+    WEIR_COPY_BYTES(&to, &from, sizeof to);
+    return to;
+}
+
+/// Comparing the exponent bits survives every compiler flag, unlike x == x.
 inline bool is_finite(float value) {
-    std::uint32_t bits = 0;
-    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
-    return (bits & 0x7F800000U) != 0x7F800000U;
+    return (of_bits<std::uint32_t>(value) & 0x7F800000U) != 0x7F800000U;
 }
 inline bool is_finite(double value) {
-    std::uint64_t bits = 0;
-    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
-    return (bits & 0x7FF0000000000000ULL) != 0x7FF0000000000000ULL;
+    return (of_bits<std::uint64_t>(value) & 0x7FF0000000000000ULL) != 0x7FF0000000000000ULL;
 }
 
 /// Numbers that compare as the values do: as the magnitudes, or as values that are not NaN do with
 /// bounds that are not negative. Whole numbers where comparing floats takes another instruction to
-/// fetch the answer; NaN is larger than all numbers.
+/// fetch the answer. Of magnitudes NaN is larger than all numbers.
 template <class Real>
 inline Real magnitude_key(Real value) {
     return absolute(value);
@@ -218,27 +222,12 @@ template <class Real>
 inline Real bound_key(Real value) {
     return value;
 }
-inline std::uint32_t magnitude_key(float value) {
-    std::uint32_t bits = 0;
-    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
-    return bits << 1U;
-}
-inline float magnitude_of_key(std::uint32_t key) {
-    const std::uint32_t bits = key >> 1U;
-    float value = 0.0F;
-    WEIR_COPY_BYTES(&value, &bits, sizeof value);
-    return value;
-}
-inline std::int32_t bound_key(float value) {
-    std::int32_t bits = 0;
-    WEIR_COPY_BYTES(&bits, &value, sizeof bits);
-    return bits;
-}
-inline float of_bound_key(std::int32_t key) {
-    float value = 0.0F;
-    WEIR_COPY_BYTES(&value, &key, sizeof value);
-    return value;
-}
+inline std::uint32_t magnitude_key(float value) { return of_bits<std::uint32_t>(value) << 1U; }
+inline std::uint64_t magnitude_key(double value) { return of_bits<std::uint64_t>(value) << 1U; }
+inline float magnitude_of_key(std::uint32_t key) { return of_bits<float>(key >> 1U); }
+inline double magnitude_of_key(std::uint64_t key) { return of_bits<double>(key >> 1U); }
+inline std::int32_t bound_key(float value) { return of_bits<std::int32_t>(value); }
+inline float of_bound_key(std::int32_t key) { return of_bits<float>(key); }
 
 template <class Real>
 inline bool is_zero(Real value) {

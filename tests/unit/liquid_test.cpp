@@ -155,21 +155,26 @@ TEST(Transfer, UniformVelocityIsReturnedExactly) {
     }
 }
 
-TEST(Transfer, NonFiniteParticlesAreRefusedAndFastOnesSlowed) {
-    Bench<float> bench(8, 8);
+template <class Real>
+void refuse_and_slow() {
+    Bench<Real> bench(8, 8);
     bench.lattice(2, 2, 6, 6, 2);
-    bench.w[0] = {1.0e6F, 0};
-    Particles<float> particles = bench.particles();
-    const TransferResult<float> result =
-        grid_to_particle(bench.grid, {0.01F, 1.0F, 200.0F}, particles);
-    EXPECT_EQ(result.slowed, 1);
-    EXPECT_EQ(bench.w[0].x, 200.0F);
-    bench.w[1] = {std::numeric_limits<float>::quiet_NaN(), 1.0F};
-    bench.w[2] = {0.0F, std::numeric_limits<float>::infinity()};
+    bench.w[0] = {Real(1.0e6), 0};
+    Particles<Real> particles = bench.particles();
+    const Transfer<Real> transfer{Real(0.01), Real(1), Real(200)};
+    EXPECT_EQ(grid_to_particle(bench.grid, transfer, particles).slowed, 1);
+    EXPECT_EQ(bench.w[0].x, Real(200));
+    bench.w[1] = {std::numeric_limits<Real>::quiet_NaN(), Real(1)};
+    bench.w[2] = {Real(0), std::numeric_limits<Real>::infinity()};
     bench.w[0] = {};
-    EXPECT_EQ(grid_to_particle(bench.grid, {0.01F, 1.0F, 200.0F}, particles).reset, 2);
-    EXPECT_EQ(bench.w[1].x, 0.0F);
-    EXPECT_EQ(bench.w[2].y, 0.0F);
+    EXPECT_EQ(grid_to_particle(bench.grid, transfer, particles).reset, 2);
+    EXPECT_EQ(bench.w[1].x, Real(0));
+    EXPECT_EQ(bench.w[2].y, Real(0));
+}
+
+TEST(Transfer, NonFiniteParticlesAreRefusedAndFastOnesSlowed) {
+    refuse_and_slow<float>();
+    refuse_and_slow<double>();
 }
 
 TEST(Density, AFullLatticeShowsOne) {
