@@ -47,17 +47,7 @@ void double_masses(VelocityOf<SmallFixed>* mass, SmallFixed* momentum, const Lin
     }
 }
 
-/// Faces on a wall or on the seam: their other half lies beyond.
-template <class Real>
-void fold_across(Real* field, const Line& low, const Line& high, bool wrap) {
-    if (wrap) {
-        add(field, low, high);
-        copy(field, high, low);
-    } else {
-        add(field, low, low);
-        add(field, high, high);
-    }
-}
+/// Faces on a wall or on the seam, as one field's.
 template <class Mass, class Real>
 void fold_across(Mass* mass, Real* momentum, const Line& low, const Line& high, bool wrap) {
     if constexpr (Stored<Real>::coarse) {
@@ -184,18 +174,24 @@ void fold_counts(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* o
 }
 
 template <class Real>
+void extend_component(const Borders<Real>& b, const GridShape& s, bool is_u,
+                      VelocityOf<Real>* field) {
+    extend_cells(b, s, field);
+    if (is_u ? b.wrap_y : b.wrap_x) {
+        return;
+    }
+    Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
+    const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
+    const Real sense = Real(is_u ? 1 : -1);
+    mirror_along(field, along(s, -1), along(s, 0), is_u ? b.bottom : b.left, sense);
+    mirror_along(field, along(s, last + 1), along(s, last), is_u ? b.top : b.right, -sense);
+}
+
+template <class Real>
 void extend_velocity(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* u,
                      VelocityOf<Real>* v) {
-    extend_cells(b, s, u);
-    extend_cells(b, s, v);
-    if (!b.wrap_x) {
-        mirror_along(v, column(s, -1), column(s, 0), b.left, Real(-1));
-        mirror_along(v, column(s, s.nx), column(s, s.nx - 1), b.right, Real(1));
-    }
-    if (!b.wrap_y) {
-        mirror_along(u, row(s, -1), row(s, 0), b.bottom, Real(1));
-        mirror_along(u, row(s, s.ny), row(s, s.ny - 1), b.top, Real(-1));
-    }
+    extend_component(b, s, true, u);
+    extend_component(b, s, false, v);
 }
 
 /// `off`: what of the fall leads from the wall. By itself: four walls share it.
@@ -247,8 +243,8 @@ WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
 #define WEIR_INSTANTIATE(Real)                                                        \
-    template void fold_component<true>(const Borders<Real>&, const GridShape&, bool, \
-                                       VelocityOf<Real>*, Real*);
+    template void extend_component(const Borders<Real>&, const GridShape&, bool, \
+                                   VelocityOf<Real>*);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -43,7 +43,12 @@ template <class Real>
 void fold_counts(const Borders<Real>& borders, const GridShape& shape,
                  VelocityOf<Real>* on_u, VelocityOf<Real>* on_v);
 
-/// Before a gather: ghost rows of a velocity take what they mirror or repeat.
+/// Ghost rows of one component of a velocity take what they mirror or repeat.
+template <class Real>
+void extend_component(const Borders<Real>& borders, const GridShape& shape, bool is_u,
+                      VelocityOf<Real>* field);
+
+/// The same of both, as before a gather.
 template <class Real>
 void extend_velocity(const Borders<Real>& borders, const GridShape& shape,
                      VelocityOf<Real>* u, VelocityOf<Real>* v);

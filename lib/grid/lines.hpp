@@ -36,13 +36,18 @@ template <class Field>
     }
 }
 
+template <class Field>
+void clear(Field* field, const Line& line) {
+    for (std::int32_t k = 0; k < line.count; ++k) {
+        field[line.first + k * line.step] = Field(0);
+    }
+}
+
 /// Adds to the first line, and empties the other.
 template <class Field>
 void move(Field* field, const Line& to, const Line& from) {
     add(field, to, from);
-    for (std::int32_t k = 0; k < from.count; ++k) {
-        field[from.first + k * from.step] = Field(0);
-    }
+    clear(field, from);
 }
 
 /// Moves ghosts onto the line before them or, across a seam, onto the tank's other side.
@@ -52,6 +57,18 @@ template <class Field>
                                    std::int32_t last, bool seam) {
     move(field, line(s, seam ? last : 0), line(s, -1));
     move(field, line(s, seam ? 0 : last), line(s, last + 1));
+}
+
+/// Faces on a wall or on the seam: their other half lies beyond.
+template <class Field>
+void fold_across(Field* field, const Line& low, const Line& high, bool wrap) {
+    if (wrap) {
+        add(field, low, high);
+        copy(field, high, low);
+    } else {
+        add(field, low, low);
+        add(field, high, high);
+    }
 }
 
 }  // namespace weir

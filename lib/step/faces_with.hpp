@@ -5,6 +5,7 @@
 #include "step/bend_lanes.hpp"
 #include "step/extrapolate_lanes.hpp"
 #include "step/face_lanes.hpp"
+#include "step/mass_matrix_lanes.hpp"
 #include "step/mirror_lanes.hpp"
 #include "step/transfer_kernels.hpp"
 #include "step/wide_faces.hpp"
@@ -63,7 +64,8 @@ struct FacesWith {
 
     static constexpr WideFaces kLoops{velocity, sharpen, blend,  bend, extrapolate,
                                       faces_to_mirror<EightLanes>,
-                                      find,     mirror,  unpack, pack};
+                                      find,     mirror,  unpack, pack,
+                                      share_edges<EightLanes>, mass_matrix_faces<EightLanes>};
 };
 
 #endif

@@ -277,12 +277,14 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     const Settings<Real>& settings = simulation.settings;
     const detail::TwoWay<Real>* two_way = simulation.two_way;
     find_surface(simulation, domain, plan, work);
+    if (!Stored<Real>::coarse && plan.viscosity > Real(0)) {
+        simulation.viscosity->solve_mass_matrix(domain, simulation.particles,
+                                                settings.second_density, work);
+    }
     update_grid(simulation, domain, plan, work);
     if (plan.viscosity > Real(0)) {
         Impulse<Real>* tank = two_way != nullptr ? &tank_received(simulation.bodies) : nullptr;
         const Vec2<Real> fall = settings.fall_in(dt_s);
-        simulation.viscosity->centre(domain, simulation.particles, settings.second_density, fall,
-                                     work);
         simulation.viscosity->diffuse(domain, plan.viscosity * dt_s, fall, tank, work);
     }
     clock.charge(Stage::grid_update);

@@ -2,7 +2,7 @@
 
 #include "grid/diffuse.hpp"
 #include "solid/face_axis.hpp"
-#include "step/centre_velocity.hpp"
+#include "step/mass_matrix.hpp"
 #include "step/no_slip.hpp"
 
 namespace weir {
@@ -64,24 +64,6 @@ void let_images_fall(const Borders<Real>& b, const GridShape& s, Vec2<Real> fall
 }
 
 template <bool Solids, class Real>
-void centre_faces(const Domain<Real>& domain, [[maybe_unused]] const Particles<Real>& particles,
-                  [[maybe_unused]] Real second_density, [[maybe_unused]] Vec2<Real> fall,
-                  Work work) {
-    if (Solids && domain.walls.sticking != nullptr) {
-        centre_at_walls(domain, work);
-    }
-    if constexpr (!Stored<Real>::coarse) {
-        StaggeredGrid<Real>& grid = domain.grid;
-        for (std::int32_t pass = 0; pass < 2; ++pass) {
-            if (work.once(grid.shape.border())) {
-                extend_velocity(domain.borders, grid.shape, grid.mass_u, grid.mass_v);
-            }
-            centre_velocity(domain, particles, second_density, fall, pass > 0, work);
-        }
-    }
-}
-
-template <bool Solids, class Real>
 void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Impulse<Real>* tank,
                    Work work) {
     const Borders<Real>& borders = domain.borders;
@@ -90,6 +72,9 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
     StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     const bool sticking = Solids && walls.sticking != nullptr;
+    if (sticking) {
+        centre_at_walls(domain, work);
+    }
     if (work.once(2 * s.border())) {
         extend_velocity(borders, s, grid.u, grid.v);
         let_images_fall(borders, s, fall, grid);
@@ -117,6 +102,16 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
     }
 }
 
+/// Of SmallFixed there is none to name.
+template <class Real>
+constexpr auto mass_matrix() -> decltype(detail::Viscosity<Real>::solve_mass_matrix) {
+    if constexpr (Stored<Real>::coarse) {
+        return nullptr;
+    } else {
+        return solve_mass_matrix<Real>;
+    }
+}
+
 template <class Real>
 std::uint16_t sticking_to(const FaceAxis<Real>& axis, std::int32_t face) {
     return axis.sticking(face);
@@ -132,7 +127,7 @@ Vec2<Real> velocity_of(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real
 template <bool Solids, class Real>
 const detail::Viscosity<Real>& detail::viscosity() {
     static constexpr StickingWalls<Real> kSticking{sticking_to<Real>, velocity_of<Real>};
-    static constexpr Viscosity<Real> kStage{centre_faces<Solids, Real>, diffuse_faces<Solids, Real>,
+    static constexpr Viscosity<Real> kStage{mass_matrix<Real>(), diffuse_faces<Solids, Real>,
                                             Solids ? &kSticking : nullptr};
     return kStage;
 }

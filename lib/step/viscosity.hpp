@@ -18,10 +18,10 @@ namespace weir {
 /// Order: none (reads only the velocities before). Cost: about 30 operations a face.
 template <class Real>
 struct detail::Viscosity {
-    /// Faces' velocities are to be those of their middles: where walls without slip take particles
-    /// from one side (step/no_slip.hpp), and of all (step/centre_velocity.hpp).
-    void (*centre)(const Domain<Real>& domain, const Particles<Real>& particles,
-                   Real second_density, Vec2<Real> fall, Work work);
+    /// Faces' velocities are to be those of their middles (step/mass_matrix.hpp). Before the grid
+    /// update; null in packed worlds.
+    void (*solve_mass_matrix)(const Domain<Real>& domain, const Particles<Real>& particles,
+                              Real second_density, Work work);
     void (*diffuse)(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
                     Impulse<Real>* tank, Work work);
     const StickingWalls<Real>* sticking;  ///< null where there is no room for bodies

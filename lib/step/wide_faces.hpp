@@ -7,11 +7,17 @@ namespace weir {
 
 struct BendTask;
 struct ExtrapolateTask;
+struct EdgeShares;
 struct FacesToMirror;
+struct MassMatrixTask;
+struct MatrixUnits;
 struct MirrorChanges;
 struct MirrorFaces;
 struct MirrorTask;
 struct Mirrors;
+template <class Real>
+struct FlowRows;
+enum class MassMatrixStep;
 
 /// As the loops in `..._lanes.hpp` that have their names, with as many lanes as possible: where a
 /// group does not fit in, with fewer, but for four.
@@ -35,6 +41,10 @@ struct WideFaces {
                                  float* first, float* second);
     std::int32_t (*pack_pairs)(const float* first, const float* second, std::int32_t k,
                                std::int32_t end, float* pairs);
+    void (*share_edges)(bool on_u, std::int32_t stride, MatrixUnits units,
+                        const float* position, std::int32_t count, EdgeShares& shares);
+    std::int32_t (*mass_matrix_faces)(const MassMatrixTask& task, MassMatrixStep step,
+                                      FlowRows<float> rows, std::int32_t face, std::int32_t end);
 };
 extern const WideFaces faces_by_eight;
 extern const WideFaces faces_by_sixteen;

@@ -1,0 +1,29 @@
+// Stage: grid update, only if there is viscosity. Reads particles' places, masses and levels of the
+// faces; writes momentum.
+#pragma once
+
+#include "fluid/particles.hpp"
+#include "pressure/domain.hpp"
+
+namespace weir {
+
+/// Momentum over mass is the flow at the mean place of a face's particles, and smoothed. Faces of
+/// which particles interpolate what they carry, Σ_j M_ij v_j = Σ_p m_p w_i v_p, know it at their
+/// own place, and unsmoothed: M_ij = Σ_p m_p w_i w_j is the consistent mass matrix (Burgess, Sulsky
+/// & Brackbill 1992, J. Comput. Phys. 103, eq. 30), of which the faces' masses are the row sums.
+/// Turns momentum into mass times such a velocity, by Jacobi's iteration from what the faces'
+/// mean places and the flow's slope tell, which is all but that in flow that does not bend.
+///
+/// Faces at the surface stay as they are, or waves would swing by another period; so do those
+/// beside walls that liquid sticks to (step/no_slip.hpp) and beside thin ones. Momentum is kept but
+/// there and beside walls. Packed worlds do without.
+///
+/// After particle-to-grid and `surface_level`, before `grid_update`. The fields' divergence,
+/// inverse diagonal and coarse correction are the scratch.
+/// Order: by particle, then by node. Cost: 4 shares a particle, 60 operations a face, and that
+/// for both components.
+template <class Real>
+void solve_mass_matrix(const Domain<Real>& domain, const Particles<Real>& particles,
+                       Real second_density, Work work = {});
+
+}  // namespace weir
