@@ -137,8 +137,7 @@ void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
     }
 }
 
-}  // namespace
-
+/// Of u, or of v.
 template <bool Seams, class Real>
 void fold_component(const Borders<Real>& b, const GridShape& s, bool is_u, VelocityOf<Real>* mass,
                     Real* momentum) {
@@ -157,6 +156,8 @@ void fold_component(const Borders<Real>& b, const GridShape& s, bool is_u, Veloc
     fold_across(mass, momentum, across(s, 0), across(s, is_u ? s.nx : s.ny),
                 Seams && (is_u ? b.wrap_x : b.wrap_y));
 }
+
+}  // namespace
 
 template <bool Seams, class Real>
 void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
@@ -242,7 +243,7 @@ void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* l
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 
-#define WEIR_INSTANTIATE(Real)                                                        \
+#define WEIR_INSTANTIATE(Real)                                                   \
     template void extend_component(const Borders<Real>&, const GridShape&, bool, \
                                    VelocityOf<Real>*);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)

@@ -33,11 +33,6 @@ bool any_wall_drags(const Borders<Real>& borders) {
 template <bool Seams, class Real>
 void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
 
-/// The same of one component: of u, or of v.
-template <bool Seams, class Real>
-void fold_component(const Borders<Real>& borders, const GridShape& shape, bool is_u,
-                    VelocityOf<Real>* mass, Real* momentum);
-
 /// The same for a pair of face fields without momentum.
 template <class Real>
 void fold_counts(const Borders<Real>& borders, const GridShape& shape,

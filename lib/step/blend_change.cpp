@@ -225,7 +225,7 @@ void blend(const Part& faces, Real pic_ratio, const VelocityOf<Real>* sharp_u,
 }  // namespace
 
 template <class Real>
-void blend_change(const Domain<Real>& domain, Real flip_ratio, bool centred, Work work) {
+void blend_change(const Domain<Real>& domain, Real flip_ratio, bool unsmoothed, Work work) {
     if constexpr (Stored<Real>::coarse) {
         blend_packed(domain, flip_ratio, work);
         return;
@@ -235,14 +235,14 @@ void blend_change(const Domain<Real>& domain, Real flip_ratio, bool centred, Wor
     const GridShape& s = grid.shape;
     VelocityOf<Real>* sharp_u = fields.divergence;
     VelocityOf<Real>* sharp_v = fields.inverse_diagonal;
-    if (centred || !kHasLanes<Real>) {  // lanes copy on the way
+    if (unsmoothed || !kHasLanes<Real>) {  // lanes copy on the way
         work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1,
                    [&](const Part& rows, std::int32_t) {
                        copy_rows(s, rows, grid.mass_u, sharp_u);
                        copy_rows(s, rows, grid.mass_v, sharp_v);
                    });
     }
-    if (!centred) {
+    if (!unsmoothed) {
         sharpen(domain, sharp_u, sharp_v, work);
     }
     work.share(work.take(s.ny + 2, s.nx + 2), s.nx + 2, 1, [&](const Part& rows, std::int32_t) {

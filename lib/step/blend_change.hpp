@@ -11,11 +11,11 @@ namespace weir {
 ///     v' = flip · v + I(change),  change = u − u_before + (1 − flip) ũ,
 /// one gather instead of two. ũ is the velocity before, sharpened by what a scatter and a gather
 /// smooth away, so that the share of PIC damps the noise between particles and not the flow.
-/// Beside thin walls nothing is smoothed across, nor sharpened. `centred`: the scatter smoothed
-/// nothing (step/centre_velocity.hpp), and ũ is the velocity before as it is.
+/// Beside thin walls nothing is smoothed across, nor sharpened. `unsmoothed`: the scatter did
+/// not (step/mass_matrix.hpp), and ũ is the velocity before as it is.
 /// ũ is left in the fields' divergence (of u) and inverse diagonal.
 template <class Real>
-void blend_change(const Domain<Real>& domain, Real flip_ratio, bool centred = false,
+void blend_change(const Domain<Real>& domain, Real flip_ratio, bool unsmoothed = false,
                   Work work = {});
 
 }  // namespace weir

@@ -10,7 +10,7 @@ namespace weir {
 /// Momentum over mass is the flow at the mean place of a face's particles, and smoothed. Faces of
 /// which particles interpolate what they carry, Σ_j M_ij v_j = Σ_p m_p w_i v_p, know it at their
 /// own place, and unsmoothed: M_ij = Σ_p m_p w_i w_j is the consistent mass matrix (Burgess, Sulsky
-/// & Brackbill 1992, J. Comput. Phys. 103, eq. 30), of which the faces' masses are the row sums.
+/// & Brackbill 1992, J. Comput. Phys. 103), of which the faces' masses are the row sums.
 /// Turns momentum into mass times such a velocity, by Jacobi's iteration from what the faces'
 /// mean places and the flow's slope tell, which is all but that in flow that does not bend.
 ///
@@ -20,7 +20,7 @@ namespace weir {
 ///
 /// After particle-to-grid and `surface_level`, before `grid_update`. The fields' divergence,
 /// inverse diagonal and coarse correction are the scratch.
-/// Order: by particle, then by node. Cost: 4 shares a particle, 60 operations a face, and that
+/// Order: by particle, then by node. Cost: 5 shares a particle, 60 operations a face, and that
 /// for both components.
 template <class Real>
 void solve_mass_matrix(const Domain<Real>& domain, const Particles<Real>& particles,
