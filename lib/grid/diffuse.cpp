@@ -1,5 +1,7 @@
 #include "grid/diffuse.hpp"
 
+#include "grid/diffuse_lanes.hpp"
+
 namespace weir {
 
 template <class Real>
@@ -10,11 +12,12 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
     // The face before the one on the seam has cells that lie two beyond it: its image has not.
     const std::int32_t period = share.back * (along_x ? s.nx : s.ny);
     for (std::int32_t j = maximum(first_j, rows.first); j < rows.end; ++j) {
-        for (std::int32_t i = first_i; i < s.nx; ++i) {
-            const std::int32_t face = s.index(i, j);
+        const std::int32_t row = s.index(0, j);
+        const auto one = [&](std::int32_t i) {
+            const std::int32_t face = row + i;
             const Real own = share.at(face);
             if (!(own > Real(0))) {
-                continue;
+                return;
             }
             const Real here = field[face];
             const bool on_seam = (along_x ? i : j) == 0;
@@ -27,6 +30,19 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
             const Real sum = (pull(face - 1) + pull(face + 1)) +
                              (pull(face - s.stride) + pull(face + s.stride));
             out[face] = changed<Real>(field[face], here + amount * sum, from);
+        };
+        std::int32_t i = first_i;
+        if constexpr (kHasLanes<Real>) {
+            if (along_x && i == 0) {
+                one(i++);
+            }
+            if (along_x || j > 0) {
+                i = diffuse_faces<FourLanes>(share, s.stride, amount, field, row + i, row + s.nx,
+                                             out) - row;
+            }
+        }
+        for (; i < s.nx; ++i) {
+            one(i);
         }
     }
 }
