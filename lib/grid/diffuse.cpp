@@ -37,8 +37,7 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
                 one(i++);
             }
             if (along_x || j > 0) {
-                i = diffuse_faces<FourLanes>(share, s.stride, amount, field, row + i, row + s.nx,
-                                             out) - row;
+                i = diffuse_lanes(share, s.stride, amount, field, row + i, row + s.nx, out) - row;
             }
         }
         for (; i < s.nx; ++i) {

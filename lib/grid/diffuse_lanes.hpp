@@ -9,8 +9,8 @@ namespace weir {
 #if WEIR_HAS_LANES
 
 /// As `FaceShare::at`.
-template <class L>
-inline auto shares_at(const FaceShare<float>& share, std::int32_t face) {
+inline Lanes shares_at(const FaceShare<float>& share, std::int32_t face) {
+    using L = FourLanes;
     const auto zero = L::all(0.0F);
     const auto before = L::load(share.density + face - share.back);
     const auto after = L::load(share.density + face);
@@ -23,19 +23,19 @@ inline auto shares_at(const FaceShare<float>& share, std::int32_t face) {
 
 /// Faces `face`, `face` + 1 … none of which is on a seam, as long as enough are left before `end`;
 /// returns the next one to do.
-template <class L>
-inline std::int32_t diffuse_faces(const FaceShare<float>& share, std::int32_t stride, float amount,
+inline std::int32_t diffuse_lanes(const FaceShare<float>& share, std::int32_t stride, float amount,
                                   const float* field, std::int32_t face, std::int32_t end,
                                   float* out) {
+    using L = FourLanes;
     for (; face + L::kLanes <= end; face += L::kLanes) {
-        const auto own = shares_at<L>(share, face);
+        const auto own = shares_at(share, face);
         const auto holds = own > L::all(0.0F);
         if (!L::any_true(holds)) {
             continue;
         }
         const auto here = L::load(field + face);
         const auto pull = [&](std::int32_t neighbour) {
-            const auto other = shares_at<L>(share, neighbour);
+            const auto other = shares_at(share, neighbour);
             const auto difference = L::load(field + neighbour) - here;
             return other < own ? difference * (other / own) : difference;
         };
