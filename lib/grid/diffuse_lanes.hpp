@@ -18,7 +18,7 @@ inline Lanes shares_at(const FaceShare<float>& share, std::int32_t face) {
     if (share.open != nullptr) {
         full = full * L::load(share.open + face);
     }
-    return (before > zero) & (after > zero) ? full : zero;
+    return ((before > zero) & (after > zero)) ? full : zero;
 }
 
 /// Faces `face`, `face` + 1 … none of which is on a seam, as long as enough are left before `end`;
