@@ -37,12 +37,18 @@ struct Component {
     std::int32_t first_i() const { return is_u && !domain.borders.wrap_x ? 1 : 0; }
     std::int32_t first_j() const { return is_u || domain.borders.wrap_y ? 0 : 1; }
 
-    static void give(Edge& edge, std::int32_t units) {
-        edge = static_cast<Edge>(minimum(edge + units, kMost));
+    /// Whether the first and the last face along the component's own axis are one; else: walls.
+    bool has_seam() const { return is_u ? domain.borders.wrap_x : domain.borders.wrap_y; }
+    /// Faces across that axis; the last ones are n-th.
+    Line faces_across(std::int32_t n) const {
+        return is_u ? column(shape(), n) : row(shape(), n);
     }
+    std::int32_t last_across() const { return is_u ? shape().nx : shape().ny; }
 
-    static void give_across(Diagonal& diagonal, std::int32_t units) {
-        diagonal = static_cast<Diagonal>(minimum(diagonal + units, kMostAcross));
+    template <class Count>
+    static void give(Count& count, std::int32_t units) {
+        constexpr std::int32_t most = sizeof(Count) == sizeof(Edge) ? kMost : kMostAcross;
+        count = static_cast<Count>(minimum(count + units, most));
     }
 
     void scatter(Vec2<Real> x, Real density) const {
@@ -59,7 +65,7 @@ struct Component {
         give(right[at.base + stride], whole(along_x * at.fy));
         give(up[at.base], whole(along_y * left));
         give(up[at.base + 1], whole(along_y * at.fx));
-        give_across(across[at.base], whole((Real(kUnits.diagonal) * density) * (both_x * both_y)));
+        give(across[at.base], whole((Real(kUnits.diagonal) * density) * (both_x * both_y)));
     }
 
 #if WEIR_HAS_LANES
@@ -77,7 +83,7 @@ struct Component {
                 give(right[face + stride], shares.far[2 * n]);
                 give(up[face], shares.near[2 * n + 1]);
                 give(up[face + 1], shares.far[2 * n + 1]);
-                give_across(across[face], shares.across[2 * n]);
+                give(across[face], shares.across[2 * n]);
             }
         }
     }
@@ -88,21 +94,19 @@ struct Component {
         const GridShape& s = shape();
         const Borders<Real>& b = domain.borders;
         Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
-        Line (*const beside)(const GridShape&, std::int32_t) = is_u ? column : row;
         Edge* const ahead = is_u ? right : up;  // across the face's cells
         Edge* const aside = is_u ? up : right;
         const bool wrap = is_u ? b.wrap_y : b.wrap_x;
         const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
-        const std::int32_t end = is_u ? s.nx : s.ny;
+        const std::int32_t end = last_across();
         move_ghosts(ahead, s, along, last, wrap);
         fold_across(aside, along(s, -1), along(s, last), wrap);
         fold_across(across, along(s, -1), along(s, last), wrap);
-        const bool seam = is_u ? b.wrap_x : b.wrap_y;
-        fold_across(aside, beside(s, 0), beside(s, end), seam);
-        if (seam) {
-            copy(aside, beside(s, -1), beside(s, end - 1));
-            copy(ahead, beside(s, -1), beside(s, end - 1));
-            copy(across, beside(s, -1), beside(s, end - 1));
+        fold_across(aside, faces_across(0), faces_across(end), has_seam());
+        if (has_seam()) {
+            copy(aside, faces_across(-1), faces_across(end - 1));
+            copy(ahead, faces_across(-1), faces_across(end - 1));
+            copy(across, faces_across(-1), faces_across(end - 1));
         }
     }
 
@@ -118,11 +122,10 @@ struct Component {
 
     /// Ghosts of the flow, and what is on walls.
     void extend() const {
-        const GridShape& s = shape();
-        extend_component(domain.borders, s, is_u, flow);
-        if (!(is_u ? domain.borders.wrap_x : domain.borders.wrap_y)) {
-            clear(flow, is_u ? column(s, 0) : row(s, 0));
-            clear(flow, is_u ? column(s, s.nx) : row(s, s.ny));
+        extend_component(domain.borders, shape(), is_u, flow);
+        if (!has_seam()) {
+            clear(flow, faces_across(0));
+            clear(flow, faces_across(last_across()));
         }
     }
 
@@ -251,9 +254,7 @@ void step_row(const Component<Real>& of, MassMatrixStep step, std::int32_t j,
 template <class Real>
 void iterate(const Component<Real>& of, MassMatrixStep step, Work work) {
     const GridShape& s = of.shape();
-    const auto kept = [&](std::int32_t j) {
-        return of.kept + (j & 1) * (s.nx + 2) + 1;
-    };
+    const auto kept = [&](std::int32_t j) { return of.kept + (j & 1) * (s.nx + 2) + 1; };
     const auto keep = [&](std::int32_t j) {
         std::memcpy(kept(j) - 1, of.flow + s.index(-1, j),
                     static_cast<std::size_t>(s.nx + 2) * sizeof(Real));
@@ -287,10 +288,8 @@ void solve(const Component<Real>& of, const Particles<Real>& particles, Real sec
                            {here - s.stride, here, here + s.stride});
         }
     });
-    const bool seam = of.is_u ? of.domain.borders.wrap_x : of.domain.borders.wrap_y;
-    if (work.once(s.border()) && seam) {
-        copy(of.momentum, of.is_u ? column(s, s.nx) : row(s, s.ny),
-             of.is_u ? column(s, 0) : row(s, 0));
+    if (work.once(s.border()) && of.has_seam()) {
+        copy(of.momentum, of.faces_across(of.last_across()), of.faces_across(0));
     }
 }
 

@@ -6,8 +6,8 @@
 namespace weir {
 
 struct BendTask;
-struct ExtrapolateTask;
 struct EdgeShares;
+struct ExtrapolateTask;
 struct FacesToMirror;
 struct MassMatrixTask;
 struct MatrixUnits;

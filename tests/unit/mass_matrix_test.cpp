@@ -17,6 +17,7 @@ namespace weir {
 namespace {
 
 constexpr int kCells = 16;
+constexpr int kHalf = kCells / 2;
 constexpr double kBend = 0.8;  // ∂²u/∂y²
 
 using Places = std::vector<Vec2<double>>;
@@ -170,7 +171,7 @@ TEST(MassMatrix, SeesNoSeam) {
     const Places w = carried(x, linear);
     Places moved;
     for (const Vec2<double> at : x) {
-        moved.push_back({std::fmod(at.x + kCells / 2, kCells), std::fmod(at.y + kCells / 2, kCells)});
+        moved.push_back({std::fmod(at.x + kHalf, kCells), std::fmod(at.y + kHalf, kCells)});
     }
     Borders<double> seams;
     seams.wrap_x = seams.wrap_y = true;
@@ -181,7 +182,7 @@ TEST(MassMatrix, SeesNoSeam) {
     for (int j = 0; j < kCells; ++j) {
         for (int i = 0; i < kCells; ++i) {
             const Vec2<double> a = here.velocity(i, j);
-            const Vec2<double> b = there.velocity((i + kCells / 2) % kCells, (j + kCells / 2) % kCells);
+            const Vec2<double> b = there.velocity((i + kHalf) % kCells, (j + kHalf) % kCells);
             EXPECT_NEAR(a.x, b.x, 1.0e-12) << i << ", " << j;
             EXPECT_NEAR(a.y, b.y, 1.0e-12) << i << ", " << j;
         }
@@ -194,7 +195,6 @@ TEST(MassMatrix, SeesNoSeam) {
 
 /// Beyond a wall are images: half a tank gives what a whole one does that holds both.
 TEST(MassMatrix, SeesImagesBeyondWalls) {
-    constexpr int kHalf = kCells / 2;
     for (const bool no_slip : {false, true}) {
         const Places x = fill(0.0, kCells, kHalf);
         const Places w = carried(x, linear);

@@ -195,7 +195,7 @@ struct WorldDef {
 
     /// Kinematic shear viscosity, m²/s; 0 (not computed) … 1e6 cells²/s. Water has 1e-6, which no
     /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps, any of it
-    /// up to four times a step but in SmallFixed.
+    /// twice a step's instructions in float.
     float viscosity_m2ps = 0.0F;
 
     /// Surface tension over density, m³/s²; 0 (not computed) … 1e12 cells³/s², in Fixed
