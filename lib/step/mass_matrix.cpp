@@ -24,6 +24,7 @@ template <class Real>
 struct Component {
     const Domain<Real>& domain;
     bool is_u;
+    bool to_surface;
     const VelocityOf<Real>* mass;
     Real* momentum;
     Edge* right;             ///< from a face to the next one along x
@@ -130,11 +131,16 @@ struct Component {
     }
 
     void step_face(MassMatrixStep step, std::int32_t face, const FlowRows<Real>& rows) const {
-        if (!is_solved(face)) {
+        const LevelOf<Real>* const level = domain.fields.level;
+        const bool here = level[face] > LevelOf<Real>(0);
+        const bool before = level[face - axis().before()] > LevelOf<Real>(0);
+        const bool deep = here && before;
+        if (!(mass[face] > VelocityOf<Real>(0) && (deep || (to_surface && (here || before))) &&
+              !is_beside_wall(face))) {
             return;
         }
-        const Real more = step == MassMatrixStep::to_middle ? to_middle(face, rows)
-                                                            : excess(face, rows);
+        const Real more = deep && step != MassMatrixStep::to_middle ? excess(face, rows)
+                                                                    : to_middle(face, rows);
         const Real sum = momentum[face] + more;
         if (step == MassMatrixStep::finish) {
             momentum[face] = sum;
@@ -145,13 +151,17 @@ struct Component {
 
 private:
     /// From the mean place of a face's particles to its own, by the slope between the faces beside
-    /// it, times its mass.
+    /// it, times its mass. What no particle joins to it has no say.
     Real to_middle(std::int32_t face, const FlowRows<Real>& rows) const {
-        const auto half = [](std::int32_t units) {
-            return static_cast<Real>(units) * Real(0.5 / kUnits.edge);
+        const auto along = [](Real before, Real here, Real after, Edge behind, Edge ahead) {
+            const Real twice = behind > 0 && ahead > 0 ? after - before
+                               : ahead > 0             ? (after - here) + (after - here)
+                                                       : (here - before) + (here - before);
+            return (static_cast<Real>(behind - ahead) * Real(0.5 / kUnits.edge)) * twice;
         };
-        return half(right[face - 1] - right[face]) * (rows.here[1] - rows.here[-1]) +
-               half(up[face - shape().stride] - up[face]) * (rows.above[0] - rows.below[0]);
+        return along(rows.here[-1], rows.here[0], rows.here[1], right[face - 1], right[face]) +
+               along(rows.below[0], rows.here[0], rows.above[0], up[face - shape().stride],
+                     up[face]);
     }
 
     /// What a face has beyond what its particles interpolate, times its mass.
@@ -180,13 +190,6 @@ private:
             (diagonals(-s) * ((ahead + lower) - (here[0] - below[1])) +
              diagonals(-s - 1) * ((behind + lower) - (here[0] - below[-1])));
         return edges - corners;
-    }
-
-    /// Liquid on both sides, and no wall that has a say.
-    bool is_solved(std::int32_t face) const {
-        const LevelOf<Real>* const level = domain.fields.level;
-        return mass[face] > VelocityOf<Real>(0) && level[face] > LevelOf<Real>(0) &&
-               level[face - axis().before()] > LevelOf<Real>(0) && !is_beside_wall(face);
     }
 
     bool is_beside_wall(std::int32_t face) const {
@@ -241,7 +244,8 @@ void step_row(const Component<Real>& of, MassMatrixStep step, std::int32_t j,
     if constexpr (kHasLanes<Real>) {
         if (!of.domain.walls.active) {
             i = mass_matrix_lanes({of.right, of.up, of.across, s.stride, of.axis().before(),
-                                   of.domain.fields.level, of.mass, of.momentum, of.flow, kUnits},
+                                   of.domain.fields.level, of.mass, of.momentum, of.flow, of.to_surface,
+                                   kUnits},
                                   step, rows.from(i), row + i, row + s.nx) - row;
         }
     }
@@ -293,11 +297,9 @@ void solve(const Component<Real>& of, const Particles<Real>& particles, Real sec
     }
 }
 
-}  // namespace
-
 template <class Real>
-void solve_mass_matrix(const Domain<Real>& domain, const Particles<Real>& particles,
-                       Real second_density, Work work) {
+void solve_both(const Domain<Real>& domain, const Particles<Real>& particles,
+                Real second_density, bool to_surface, Work work) {
     const StaggeredGrid<Real>& grid = domain.grid;
     const GridShape& s = grid.shape;
     const std::int32_t first = s.index(-1, -1);
@@ -309,16 +311,24 @@ void solve_mass_matrix(const Domain<Real>& domain, const Particles<Real>& partic
     Diagonal* const across = reinterpret_cast<Diagonal*>(kept + 2 * (s.nx + 2)) - first;
     VelocityOf<Real>* const flow = domain.fields.inverse_diagonal;
     const bool mixed = grid.inverse_density_u != nullptr;  // then the mass stands there
-    solve<Real>({domain, true, mixed ? grid.inverse_density_u : grid.mass_u, grid.momentum_u(),
-                 right, up, across, flow, kept},
+    solve<Real>({domain, true, to_surface, mixed ? grid.inverse_density_u : grid.mass_u,
+                 grid.momentum_u(), right, up, across, flow, kept},
                 particles, second_density, work);
-    solve<Real>({domain, false, mixed ? grid.inverse_density_v : grid.mass_v, grid.momentum_v(),
-                 right, up, across, flow, kept},
+    solve<Real>({domain, false, to_surface, mixed ? grid.inverse_density_v : grid.mass_v,
+                 grid.momentum_v(), right, up, across, flow, kept},
                 particles, second_density, work);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                            \
-    template void solve_mass_matrix(const Domain<Real>&, const Particles<Real>&, Real, Work);
+}  // namespace
+
+template <class Real>
+const detail::MassMatrix<Real>& detail::mass_matrix() {
+    static constexpr MassMatrix<Real> kStage{solve_both<Real>};
+    return kStage;
+}
+
+#define WEIR_INSTANTIATE(Real) \
+    template const detail::MassMatrix<Real>& detail::mass_matrix<Real>();
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -1,9 +1,8 @@
-// Stage: grid update, only if there is viscosity. Reads particles' places, masses and levels of the
-// faces; writes momentum.
+// Stage: grid update, only if there is viscosity, or no weight. Reads particles' places, masses and
+// levels of the faces; writes momentum.
 #pragma once
 
-#include "fluid/particles.hpp"
-#include "pressure/domain.hpp"
+#include "step/time_step_limit.hpp"
 
 namespace weir {
 
@@ -14,16 +13,26 @@ namespace weir {
 /// Turns momentum into mass times such a velocity, by Jacobi's iteration from what the faces'
 /// mean places and the flow's slope tell, which is all but that in flow that does not bend.
 ///
-/// Faces at the surface stay as they are, or waves would swing by another period; so do those
-/// beside walls that liquid sticks to (step/no_slip.hpp) and beside thin ones. Momentum is kept but
-/// there and beside walls. Packed worlds do without.
+/// Faces at the surface stay as they are where anything pulls at it, or waves would swing by
+/// another period; `to_surface`: they get what the slope beside them tells. Those beside walls that
+/// liquid sticks to (step/no_slip.hpp) and beside thin ones stay. Momentum is kept but there, at
+/// the surface and beside walls. Packed worlds do without.
 ///
 /// After particle-to-grid and `surface_level`, before `grid_update`. The fields' divergence,
 /// inverse diagonal and coarse correction are the scratch.
 /// Order: by particle, then by node. Cost: 5 shares a particle, 60 operations a face, and that
 /// for both components.
 template <class Real>
-void solve_mass_matrix(const Domain<Real>& domain, const Particles<Real>& particles,
-                       Real second_density, Work work = {});
+struct detail::MassMatrix {
+    void (*solve)(const Domain<Real>& domain, const Particles<Real>& particles,
+                  Real second_density, bool to_surface, Work work);
+};
+
+/// Whether a substep asks for it.
+template <class Real>
+bool interpolates(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan) {
+    return simulation.mass_matrix != nullptr &&
+           (plan.viscosity > Real(0) || simulation.settings.is_weightless());
+}
 
 }  // namespace weir

@@ -51,6 +51,7 @@ struct MassMatrixTask {
     const float* mass;
     float* momentum;
     float* flow;
+    bool to_surface;
     MatrixUnits units;
 };
 
@@ -64,11 +65,18 @@ struct MassMatrixLanes {
     static Floats scaled(Ints units, float by) { return L::floats(units) * L::all(by); }
 
     Floats to_middle(std::int32_t face, const FlowRows<float>& rows) const {
-        const float half = 0.5F / static_cast<float>(task.units.edge);
-        const Ints along_x = L::shorts(task.right + face - 1) - L::shorts(task.right + face);
-        const Ints along_y = L::shorts(task.up + face - task.stride) - L::shorts(task.up + face);
-        return scaled(along_x, half) * (L::load(rows.here + 1) - L::load(rows.here - 1)) +
-               scaled(along_y, half) * (L::load(rows.above) - L::load(rows.below));
+        const Floats here = L::load(rows.here);
+        const auto along = [&](Floats before, Floats after, Ints behind, Ints ahead) {
+            const Floats back = here - before;
+            const Floats on = after - here;
+            const Floats one_sided = ahead > 0 ? on + on : back + back;
+            const Floats twice = (behind > 0) & (ahead > 0) ? after - before : one_sided;
+            return scaled(behind - ahead, 0.5F / static_cast<float>(task.units.edge)) * twice;
+        };
+        return along(L::load(rows.here - 1), L::load(rows.here + 1),
+                     L::shorts(task.right + face - 1), L::shorts(task.right + face)) +
+               along(L::load(rows.below), L::load(rows.above),
+                     L::shorts(task.up + face - task.stride), L::shorts(task.up + face));
     }
 
     Floats excess(std::int32_t face, const FlowRows<float>& rows) const {
@@ -108,11 +116,15 @@ inline std::int32_t mass_matrix_faces(const MassMatrixTask& task, MassMatrixStep
     const auto zero = L::all(0.0F);
     for (; face + L::kLanes <= end; face += L::kLanes) {
         const auto m = L::load(task.mass + face);
-        const auto solved = (m > zero) & (L::load(task.level + face) > zero) &
-                            (L::load(task.level + face - task.back) > zero);
+        const auto wet = L::load(task.level + face) > zero;
+        const auto wet_before = L::load(task.level + face - task.back) > zero;
+        const auto deep = wet & wet_before;
+        const auto solved = (m > zero) & (task.to_surface ? wet | wet_before : deep);
         if (L::any_true(solved)) {
             const auto more = step == MassMatrixStep::to_middle ? lanes.to_middle(face, rows)
-                                                                : lanes.excess(face, rows);
+                              : L::any_true(solved & ~deep)
+                                  ? (deep ? lanes.excess(face, rows) : lanes.to_middle(face, rows))
+                                  : lanes.excess(face, rows);
             const auto momentum = L::load(task.momentum + face);
             const auto sum = momentum + more;
             if (step == MassMatrixStep::finish) {

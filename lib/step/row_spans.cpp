@@ -1,5 +1,7 @@
 #include "step/row_spans.hpp"
 
+#include "step/mass_matrix.hpp"
+
 namespace weir {
 
 #if WEIR_PARALLEL && WEIR_HAS_LANES
@@ -91,7 +93,8 @@ bool all_know(const Simulation<float>& simulation, const SubstepPlan<float>& pla
                        simulation.layers.walls.thin == nullptr && fields.elasticity == nullptr &&
                        fields.second_liquid == nullptr;
     return plain && !settings.borders.wrap_x && !settings.borders.wrap_y &&
-           plan.viscosity == 0.0F && settings.surface_tension == 0.0F;
+           plan.viscosity == 0.0F && settings.surface_tension == 0.0F &&
+           !interpolates(simulation, plan);
 }
 
 /// Around what was liquid in the last substep, which worked on that part. What is no longer worked

@@ -20,6 +20,10 @@ struct Settings {
     std::int16_t sweeps = 6;
     std::int16_t max_substeps = 16;
 
+    /// Whether nothing pulls at the liquid, neither as a whole nor at its surface.
+    bool is_weightless() const {
+        return gravity.x == Real(0) && gravity.y == Real(0) && surface_tension == Real(0);
+    }
     /// What gravity makes of a velocity in so long.
     Vec2<Real> fall_in(Seconds<Real> dt_s) const { return dt_s * gravity; }
     /// By how much a step of so long presses more from a cell to the next, along the stronger axis.

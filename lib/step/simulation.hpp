@@ -43,8 +43,9 @@ struct Look<Real, true> {
 /// Packed worlds have none.
 template <class Real>
 inline constexpr bool kHasFreeBodies = !Stored<Real>::shares_momentum;
+/// A pointer to what they do without.
 template <class Real, class T>
-using OfFreeBodies = std::conditional_t<kHasFreeBodies<Real>, T*, Never<T>>;
+using OfRoomy = std::conditional_t<kHasFreeBodies<Real>, T*, Never<T>>;
 
 template <class Real>
 struct Simulation {
@@ -58,9 +59,9 @@ struct Simulation {
     Layers<Real> layers;
     Seconds<Real> walls_behind_s{};  ///< moving bodies were held for so long in the last step
     Seconds<Real> walls_moved_s{};   ///< and moved on for so long in this substep
-    WEIR_NO_UNIQUE_ADDRESS OfFreeBodies<Real, const FreeBodyStages<Real>> free_bodies =
+    WEIR_NO_UNIQUE_ADDRESS OfRoomy<Real, const FreeBodyStages<Real>> free_bodies =
         nullptr;  ///< null: there was none yet
-    WEIR_NO_UNIQUE_ADDRESS OfFreeBodies<Real, Real> body_diagonal = nullptr;  ///< a cell field
+    WEIR_NO_UNIQUE_ADDRESS OfRoomy<Real, Real> body_diagonal = nullptr;  ///< a cell field
     Contacts<Real> contacts;
     std::int32_t gathered = 0;  ///< particles to be moved in this substep
     WEIR_NO_UNIQUE_ADDRESS Fall<Real> fall;  ///< empty where velocities are no units
@@ -71,6 +72,7 @@ struct Simulation {
     const Stages<Real>* stages = nullptr;
     Regions<Real>* regions = nullptr;  ///< null: the world sleeps as a whole (step/regions.hpp)
     // Null: the definition does without.
+    WEIR_NO_UNIQUE_ADDRESS OfRoomy<Real, const detail::MassMatrix<Real>> mass_matrix = nullptr;
     const detail::RowOrder<Real>* row_order = nullptr;
     const detail::Tension<Real>* tension = nullptr;
     const detail::TwoWay<Real>* two_way = nullptr;

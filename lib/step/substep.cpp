@@ -13,6 +13,7 @@
 #include "step/fly_beyond.hpp"
 #include "step/gather.hpp"
 #include "step/grid_update.hpp"
+#include "step/mass_matrix.hpp"
 #include "step/momentum_ledger.hpp"
 #include "step/occupied.hpp"
 #include "step/part_met.hpp"
@@ -277,9 +278,10 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     const Settings<Real>& settings = simulation.settings;
     const detail::TwoWay<Real>* two_way = simulation.two_way;
     find_surface(simulation, domain, plan, work);
-    if (!Stored<Real>::coarse && plan.viscosity > Real(0)) {
-        simulation.viscosity->solve_mass_matrix(domain, simulation.particles,
-                                                settings.second_density, work);
+    const bool interpolated = interpolates(simulation, plan);
+    if (interpolated) {
+        simulation.mass_matrix->solve(domain, simulation.particles, settings.second_density,
+                                      settings.is_weightless(), work);
     }
     update_grid(simulation, domain, plan, work);
     if (plan.viscosity > Real(0)) {
@@ -304,7 +306,7 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     clock.charge(Stage::pressure);
 
     quiet_leaning(simulation, plan, work);
-    blend_change(domain, settings.flip_ratio, plan.viscosity > Real(0), work);
+    blend_change(domain, settings.flip_ratio, interpolated, work);
     bend_paths(domain, dt_s, work);
     // In Fixed drift ends by itself: what does not make a last digit of a place is none.
     if (settings.volume_gain > Real(0) && !(Stored<Real>::coarse && plan.settling)) {

@@ -2,7 +2,6 @@
 
 #include "grid/diffuse.hpp"
 #include "solid/face_axis.hpp"
-#include "step/mass_matrix.hpp"
 #include "step/no_slip.hpp"
 
 namespace weir {
@@ -102,16 +101,6 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
     }
 }
 
-/// Of SmallFixed there is none to name.
-template <class Real>
-constexpr auto mass_matrix() -> decltype(detail::Viscosity<Real>::solve_mass_matrix) {
-    if constexpr (Stored<Real>::coarse) {
-        return nullptr;
-    } else {
-        return solve_mass_matrix<Real>;
-    }
-}
-
 template <class Real>
 std::uint16_t sticking_to(const FaceAxis<Real>& axis, std::int32_t face) {
     return axis.sticking(face);
@@ -127,8 +116,7 @@ Vec2<Real> velocity_of(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real
 template <bool Solids, class Real>
 const detail::Viscosity<Real>& detail::viscosity() {
     static constexpr StickingWalls<Real> kSticking{sticking_to<Real>, velocity_of<Real>};
-    static constexpr Viscosity<Real> kStage{mass_matrix<Real>(), diffuse_faces<Solids, Real>,
-                                            Solids ? &kSticking : nullptr};
+    static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>, Solids ? &kSticking : nullptr};
     return kStage;
 }
 

@@ -1,7 +1,6 @@
 // Stage: grid update, only if there is viscosity. Reads velocities and levels; writes velocities.
 #pragma once
 
-#include "fluid/particles.hpp"
 #include "pressure/domain.hpp"
 #include "weir/features.hpp"
 
@@ -18,10 +17,6 @@ namespace weir {
 /// Order: none (reads only the velocities before). Cost: about 30 operations a face.
 template <class Real>
 struct detail::Viscosity {
-    /// Faces' velocities are to be those of their middles (step/mass_matrix.hpp). Before the grid
-    /// update; null in packed worlds.
-    void (*solve_mass_matrix)(const Domain<Real>& domain, const Particles<Real>& particles,
-                              Real second_density, Work work);
     void (*diffuse)(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
                     Impulse<Real>* tank, Work work);
     const StickingWalls<Real>* sticking;  ///< null where there is no room for bodies

@@ -93,7 +93,8 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     [[maybe_unused]] auto& [settings, particles, grid, occupied, window, pressure_fields,
                             bodies, layers, walls_behind, walls_moved, free_bodies, body_diagonal,
                             contacts, gathered, fall, look, extent, max_speed, ticks, stages,
-                            regions, row_order, tension, two_way, viscosity] = simulation;
+                            regions, mass_matrix, row_order, tension, two_way, viscosity] =
+        simulation;
     [[maybe_unused]] auto& [pressure, divergence, inverse_diagonal, density, level, coarse,
                             on_surface, leaps, drift_turn, quiet_turn, room_turns, crowded,
                             settling, inlets, last_dt, change, sound_speed, cell_weight,

@@ -281,6 +281,7 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     simulation.pressure.leaps =
         simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F;
     state_->rest = features.rest;
+    simulation.mass_matrix = features.mass_matrix;
     simulation.row_order = features.row_order;
     simulation.tension = features.tension;
     simulation.two_way = features.two_way;

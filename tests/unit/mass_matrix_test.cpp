@@ -1,4 +1,4 @@
-// Velocities that particles interpolate: what viscosity works on.
+// Velocities that particles interpolate: what viscosity works on, and what nothing pulls at.
 #include "step/mass_matrix.hpp"
 
 #include <gtest/gtest.h>
@@ -81,8 +81,13 @@ struct Faces {
         return converted;
     }
 
-    void solve() {
-        solve_mass_matrix<Real>({grid, fields, borders, walls}, particles, Real(1));
+    void solve(bool to_surface = false) {
+        detail::mass_matrix<Real>().solve({grid, fields, borders, walls}, particles, Real(1),
+                                          to_surface, {});
+    }
+    /// Cells from that row on have no liquid.
+    void dry_from(int row) {
+        std::fill(level.begin() + shape.index(-1, row), level.end(), Real(-0.5));
     }
     Vec2<double> velocity(int i, int j) const {
         const auto face = static_cast<std::size_t>(shape.index(i, j));
@@ -165,6 +170,30 @@ TEST(MassMatrix, LeavesTheSurfaceAsScattered) {
     }
 }
 
+/// Of faces at the surface by the slope on that side on which there are particles.
+TEST(MassMatrix, OrKnowsTheFlowThereToo) {
+    constexpr int kSurface = 8;
+    const Places x = fill(0.0, kCells, kSurface + 0.25);
+    const auto largest_error = [&](bool solved, bool to_surface) {
+        Faces<double> faces(x, carried(x, linear));
+        faces.dry_from(kSurface);
+        if (solved) {
+            faces.solve(to_surface);
+        }
+        double largest = 0.0;
+        for (int i = 3; i < kCells - 3; ++i) {
+            const Vec2<double> middle{i + 0.5, double(kSurface)};
+            largest = std::fmax(largest, std::fabs(faces.velocity(i, kSurface).y -
+                                                   linear(middle).y));
+        }
+        return largest;
+    };
+    const double scattered = largest_error(false, false);
+    EXPECT_GT(scattered, 0.3);
+    EXPECT_EQ(largest_error(true, false), scattered);
+    EXPECT_LT(largest_error(true, true), 0.4 * scattered);
+}
+
 /// What is moved by half a tank with two seams gives the same, as far away.
 TEST(MassMatrix, SeesNoSeam) {
     const Places x = fill(0.0, kCells, kCells);
@@ -223,21 +252,24 @@ TEST(MassMatrix, SeesImagesBeyondWalls) {
 
 /// Solids that close no face, and the names of liquids, make loops plain.
 TEST(MassMatrix, LanesHaveThePlainLoopsBits) {
-    const Places x = fill(0.0, kCells, kCells);
+    const Places x = fill(0.0, kCells, 11.25);
     const Places w = carried(x, bent);
-    Faces<float> lanes(x, w);
-    Faces<float> plain(x, w);
-    lanes.level[static_cast<std::size_t>(lanes.shape.index(5, 9))] = -0.5F;
-    plain.level = lanes.level;
-    std::vector<float> open(plain.u.size(), 1.0F);
-    std::vector<Liquid> kind(x.size(), Liquid::first);
-    plain.walls.active = true;
-    plain.walls.open_u = plain.walls.open_v = open.data();
-    plain.particles.kind = kind.data();
-    lanes.solve();
-    plain.solve();
-    EXPECT_EQ(lanes.u, plain.u);
-    EXPECT_EQ(lanes.v, plain.v);
+    for (const bool to_surface : {false, true}) {
+        Faces<float> lanes(x, w);
+        Faces<float> plain(x, w);
+        lanes.dry_from(11);
+        lanes.level[static_cast<std::size_t>(lanes.shape.index(5, 9))] = -0.5F;
+        plain.level = lanes.level;
+        std::vector<float> open(plain.u.size(), 1.0F);
+        std::vector<Liquid> kind(x.size(), Liquid::first);
+        plain.walls.active = true;
+        plain.walls.open_u = plain.walls.open_v = open.data();
+        plain.particles.kind = kind.data();
+        lanes.solve(to_surface);
+        plain.solve(to_surface);
+        EXPECT_EQ(lanes.u, plain.u);
+        EXPECT_EQ(lanes.v, plain.v);
+    }
 }
 
 /// Edges and diagonals of more particles than there is room for count as many, and no fewer.

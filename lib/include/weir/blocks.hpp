@@ -110,7 +110,7 @@ inline constexpr std::size_t kWorldStateBytes =
     (sizeof(Real) == 4
         ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 944 : 912) + (std::is_same_v<Real, Fixed> ? 16 : 0)
                               : 1312) +
-              (std::is_same_v<Real, SmallFixed> ? 0 : 80)
+              (std::is_same_v<Real, SmallFixed> ? 0 : 72 + 2 * sizeof(void*))
         : 1680);
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;

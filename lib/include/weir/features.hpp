@@ -28,6 +28,8 @@ struct Blows;
 template <class Real>
 struct Elasticity;
 template <class Real>
+struct MassMatrix;
+template <class Real>
 struct Rest;
 template <class Real>
 struct RowOrder;
@@ -47,6 +49,8 @@ template <bool Told, bool Felt, class Real>
 const Blows<Real>& blows();
 template <class Real>
 const Elasticity<Real>& elasticity();
+template <class Real>
+const MassMatrix<Real>& mass_matrix();
 template <class Real>
 const RowOrder<Real>& row_order();
 /// `Solids`, here and below: there is room for bodies.
@@ -70,6 +74,7 @@ struct Features {
     const Stages<Real>* stages = nullptr;  ///< never null; for bodies only if there is room for any
     const Blows<Real>* blows = nullptr;
     const Elasticity<Real>* elasticity = nullptr;
+    const MassMatrix<Real>* mass_matrix = nullptr;
     const Rest<Real>* rest = nullptr;
     const RowOrder<Real>* row_order = nullptr;
     const SecondLiquid<Real>* second_liquid = nullptr;
@@ -78,6 +83,13 @@ struct Features {
     const TwoWay<Real>* two_way = nullptr;
     const Viscosity<Real>* viscosity = nullptr;
 };
+
+/// Liquid that rubs on itself, and liquid that nothing pulls at.
+WEIR_ALWAYS_INLINE bool wants_mass_matrix(const WorldDef& def) {
+    const bool pulled = def.gravity_mps2.x != 0.0F || def.gravity_mps2.y != 0.0F ||
+                        def.surface_tension_m3ps2 > 0.0F;
+    return def.viscosity_m2ps > 0.0F || !pulled;
+}
 
 /// A stage that also meets bodies has a second table where there is no room for any.
 template <class Real>
@@ -99,6 +111,11 @@ WEIR_ALWAYS_INLINE Features<Real> features_of(const WorldDef& def) {
     }
     if (def.pressure == Pressure::equation_of_state) {
         features.elasticity = &elasticity<Real>();
+    }
+    if constexpr (!Stored<Real>::shares_momentum) {  // packed worlds do without
+        if (wants_mass_matrix(def)) {
+            features.mass_matrix = &mass_matrix<Real>();
+        }
     }
     if (def.keep_sorted) {
         features.row_order = &row_order<Real>();
