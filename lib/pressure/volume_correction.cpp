@@ -112,10 +112,8 @@ void correct(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall, std::
     if constexpr (Solids) {
         find_excess_beside_walls(s, walls, held, fields, work);
     }
-    if constexpr (std::is_floating_point<Real>::value) {  // Fixed's last digits mix enough
-        if (sticks_to_tank(borders)) {
-            smooth_excess<Solids>(borders, walls, s, fields, work);
-        }
+    if (sticks_to_tank(borders)) {
+        smooth_excess<Solids>(borders, walls, s, fields, work);
     }
     if (work.once(s.border())) {
         extend_cells(borders, s, fields.divergence);
