@@ -7,10 +7,12 @@ namespace weir {
 namespace {
 
 /// Ghost mass and momentum along a wall, onto the line before it. Without slip the image moves
-/// against the liquid, seen from the wall. `sense`: the axis along which the conveyor runs.
-template <class Mass, class Real>
+/// against the liquid, seen from the wall. `sense`: the axis along which the conveyor runs. `Odd`,
+/// here and below: borders may be other than slippery walls.
+template <bool Odd, class Mass, class Real>
 void fold_along(Mass* mass, Real* momentum, const Line& inside, const Line& ghost,
                 const SurfaceLaw<Real>& wall, Real sense) {
+    const bool sticks = Odd && wall.no_slip;
     const Real slide = sense * wall.conveyor;
     const std::int32_t end = inside.first + inside.count * inside.step;
     std::int32_t from = ghost.first;
@@ -19,7 +21,7 @@ void fold_along(Mass* mass, Real* momentum, const Line& inside, const Line& ghos
             if (mass[from].raw == 0) {
                 continue;  // nor has it momentum
             }
-            if (!wall.no_slip) {
+            if (!sticks) {
                 mass[to].raw = short_of(mass[to].raw + mass[from].raw);
                 momentum[to] += momentum[from];
                 mass[from].raw = 0;
@@ -27,8 +29,7 @@ void fold_along(Mass* mass, Real* momentum, const Line& inside, const Line& ghos
                 continue;
             }
         }
-        const Real image =
-            wall.no_slip ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
+        const Real image = sticks ? (slide + slide) * mass[from] - momentum[from] : momentum[from];
         mass[to] += mass[from];
         momentum[to] += image;
         mass[from] = Mass(0);
@@ -123,10 +124,10 @@ template <class Real>
     });
 }
 
-template <class Velocity, class Real>
+template <bool Odd, class Velocity, class Real>
 void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
                   const SurfaceLaw<Real>& wall, Real sense) {
-    if (!wall.no_slip) {
+    if (!Odd || !wall.no_slip) {
         copy(velocity, ghost, inside);
         return;
     }
@@ -138,31 +139,52 @@ void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
 }
 
 /// Of u, or of v.
-template <bool Seams, class Real>
+template <bool Odd, class Real>
 void fold_component(const Borders<Real>& b, const GridShape& s, bool is_u, VelocityOf<Real>* mass,
                     Real* momentum) {
     Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
     Line (*const across)(const GridShape&, std::int32_t) = is_u ? column : row;
     const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
     const Real sense = Real(is_u ? 1 : -1);
-    if (Seams && (is_u ? b.wrap_y : b.wrap_x)) {
+    if (Odd && (is_u ? b.wrap_y : b.wrap_x)) {
         move_ghosts(mass, s, along, last, true);
         move_ghosts(momentum, s, along, last, true);
     } else {
-        fold_along(mass, momentum, along(s, 0), along(s, -1), is_u ? b.bottom : b.left, sense);
-        fold_along(mass, momentum, along(s, last), along(s, last + 1), is_u ? b.top : b.right,
-                   -sense);
+        fold_along<Odd>(mass, momentum, along(s, 0), along(s, -1), is_u ? b.bottom : b.left,
+                        sense);
+        fold_along<Odd>(mass, momentum, along(s, last), along(s, last + 1),
+                        is_u ? b.top : b.right, -sense);
     }
     fold_across(mass, momentum, across(s, 0), across(s, is_u ? s.nx : s.ny),
-                Seams && (is_u ? b.wrap_x : b.wrap_y));
+                Odd && (is_u ? b.wrap_x : b.wrap_y));
+}
+
+template <bool Odd, class Real>
+void extend_one(const Borders<Real>& b, const GridShape& s, bool is_u, VelocityOf<Real>* field) {
+    extend_cells<Odd>(b, s, field);
+    if (Odd && (is_u ? b.wrap_y : b.wrap_x)) {
+        return;
+    }
+    Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
+    const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
+    const Real sense = Real(is_u ? 1 : -1);
+    mirror_along<Odd>(field, along(s, -1), along(s, 0), is_u ? b.bottom : b.left, sense);
+    mirror_along<Odd>(field, along(s, last + 1), along(s, last), is_u ? b.top : b.right, -sense);
 }
 
 }  // namespace
 
-template <bool Seams, class Real>
+template <class Real>
+const detail::OddBorders<Real>& detail::odd_borders() {
+    static constexpr OddBorders<Real> kBorders{fold_component<true, Real>, extend_one<true, Real>};
+    return kBorders;
+}
+
+template <class Real>
 void fold_borders(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
-    fold_component<Seams>(b, grid.shape, true, grid.mass_u, grid.momentum_u());
-    fold_component<Seams>(b, grid.shape, false, grid.mass_v, grid.momentum_v());
+    const auto fold = b.odd != nullptr ? b.odd->fold_component : fold_component<false, Real>;
+    fold(b, grid.shape, true, grid.mass_u, grid.momentum_u());
+    fold(b, grid.shape, false, grid.mass_v, grid.momentum_v());
 }
 
 template <class Real>
@@ -177,15 +199,8 @@ void fold_counts(const Borders<Real>& b, const GridShape& s, VelocityOf<Real>* o
 template <class Real>
 void extend_component(const Borders<Real>& b, const GridShape& s, bool is_u,
                       VelocityOf<Real>* field) {
-    extend_cells(b, s, field);
-    if (is_u ? b.wrap_y : b.wrap_x) {
-        return;
-    }
-    Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
-    const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
-    const Real sense = Real(is_u ? 1 : -1);
-    mirror_along(field, along(s, -1), along(s, 0), is_u ? b.bottom : b.left, sense);
-    mirror_along(field, along(s, last + 1), along(s, last), is_u ? b.top : b.right, -sense);
+    const auto extend = b.odd != nullptr ? b.odd->extend_component : extend_one<false, Real>;
+    extend(b, s, is_u, field);
 }
 
 template <class Real>
@@ -232,8 +247,8 @@ void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* l
 }
 
 #define WEIR_INSTANTIATE(Real)                                                           \
-    template void fold_borders<true>(const Borders<Real>&, StaggeredGrid<Real>&);        \
-    template void fold_borders<false>(const Borders<Real>&, StaggeredGrid<Real>&);       \
+    template const detail::OddBorders<Real>& detail::odd_borders<Real>();                \
+    template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);              \
     template void fold_counts(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, \
                               VelocityOf<Real>*);                                        \
     template void extend_velocity(const Borders<Real>&, const GridShape&,                \

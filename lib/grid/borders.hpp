@@ -3,6 +3,7 @@
 
 #include "grid/lines.hpp"
 #include "grid/surface_law.hpp"
+#include "weir/features.hpp"
 
 namespace weir {
 
@@ -16,6 +17,7 @@ struct Borders {
     SurfaceLaw<Real> right;   ///< along y
     SurfaceLaw<Real> top;     ///< against x
     SurfaceLaw<Real> left;    ///< against y
+    const detail::OddBorders<Real>* odd = nullptr;  ///< null: four slippery walls
 };
 
 /// Whether a wall drags viscous liquid along.
@@ -28,9 +30,17 @@ bool any_wall_drags(const Borders<Real>& borders) {
            drags(borders.left);
 }
 
+/// Of u, or of v, in tanks that have a seam, or viscous liquid that may stick to a wall.
+template <class Real>
+struct detail::OddBorders {
+    void (*fold_component)(const Borders<Real>& borders, const GridShape& shape, bool is_u,
+                           VelocityOf<Real>* mass, Real* momentum);
+    void (*extend_component)(const Borders<Real>& borders, const GridShape& shape, bool is_u,
+                             VelocityOf<Real>* field);
+};
+
 /// After the scatter: ghost rows are folded back onto the rows that they mirror or repeat.
-/// `Seams`: there may be some.
-template <bool Seams, class Real>
+template <class Real>
 void fold_borders(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
 
 /// The same for a pair of face fields without momentum.

@@ -183,19 +183,19 @@ struct StaggeredGrid {
     /// Of the whole tank's numbering, the entry that arrays begin with: 0, or that of the window
     /// which is stored. Pointers stand so far before their arrays.
     std::int32_t origin = 0;
+#if WEIR_PARALLEL
+    /// Whether densities tell of the particles as they are now, but for one substep's way.
+    bool knows_rows = false;
+    bool whole_rows = true;  ///< the last substep worked on
+    RowSpan* row_spans = nullptr;  ///< of the tank's rows; null: whole rows are worked on
+    /// Room that is free during the scatter, for loops that threads share. Empty: they do not.
+    ArrayView<Real> spans = {};
+#endif
     /// A field as room for one and the one behind it, side by side.
     Real* as_pairs(VelocityOf<Real>* field) const { return field - origin; }
     /// Room for two fields, free during both transfers, and a promise that mass_u stands behind u
     /// and mass_v behind v: loops in lanes keep two numbers a face side by side. Null: plain loops.
     Real* pairs = nullptr;
-#if WEIR_PARALLEL
-    /// Room that is free during the scatter, for loops that threads share. Empty: they do not.
-    ArrayView<Real> spans = {};
-    RowSpan* row_spans = nullptr;  ///< of the tank's rows; null: whole rows are worked on
-    /// Whether densities tell of the particles as they are now, but for one substep's way.
-    bool knows_rows = false;
-    bool whole_rows = true;  ///< the last substep worked on
-#endif
 };
 
 /// Nobody knows any more where in their rows particles are.

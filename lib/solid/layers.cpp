@@ -234,8 +234,7 @@ void show_thin_walls(Layers<Real>& layers) {
     layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
 }
 
-}  // namespace
-
+/// Empties both layers: no solid anywhere.
 template <class Real>
 void clear_layers(Layers<Real>& layers) {
     Walls<Real>& walls = layers.walls;
@@ -252,6 +251,8 @@ void clear_layers(Layers<Real>& layers) {
     std::memset(walls.near + first_near_word(part), 0,
                 static_cast<std::size_t>(near_words(part) * part.ny) * sizeof walls.near[0]);
 }
+
+}  // namespace
 
 template <class Real>
 bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slot) {
@@ -383,7 +384,6 @@ void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
 }
 
 #define WEIR_INSTANTIATE(Real)                                                        \
-    template void clear_layers(Layers<Real>&);                                        \
     template bool keep_thin_edges(Layers<Real>&, BodyTable<Real>&, std::int32_t);     \
     template std::int32_t draw_static(Layers<Real>&, BodyTable<Real>&, std::int32_t); \
     template void forget_drawn(Layers<Real>&, BodyTable<Real>&);                      \

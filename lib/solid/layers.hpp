@@ -22,10 +22,6 @@ struct Layers {
     VelocityOf<Real>* scratch = nullptr;  ///< a cell field that is free between steps
 };
 
-/// Empties both layers: no solid anywhere.
-template <class Real>
-void clear_layers(Layers<Real>& layers);
-
 /// Finds what of a new body is thinner than a cell. False: there is no room for it. Of a free body
 /// nothing is kept: the liquid would not push such walls back.
 template <class Real>

@@ -244,8 +244,8 @@ void step_row(const Component<Real>& of, MassMatrixStep step, std::int32_t j,
     if constexpr (kHasLanes<Real>) {
         if (!of.domain.walls.active) {
             i = mass_matrix_lanes({of.right, of.up, of.across, s.stride, of.axis().before(),
-                                   of.domain.fields.level, of.mass, of.momentum, of.flow, of.to_surface,
-                                   kUnits},
+                                   of.domain.fields.level, of.mass, of.momentum, of.flow,
+                                   of.to_surface, kUnits},
                                   step, rows.from(i), row + i, row + s.nx) - row;
         }
     }

@@ -70,7 +70,8 @@ struct MassMatrixLanes {
             const Floats back = here - before;
             const Floats on = after - here;
             const Floats one_sided = ahead > 0 ? on + on : back + back;
-            const Floats twice = (behind > 0) & (ahead > 0) ? after - before : one_sided;
+            const Ints both = (behind > 0) & (ahead > 0);
+            const Floats twice = both ? after - before : one_sided;
             return scaled(behind - ahead, 0.5F / static_cast<float>(task.units.edge)) * twice;
         };
         return along(L::load(rows.here - 1), L::load(rows.here + 1),

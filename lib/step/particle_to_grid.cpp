@@ -46,7 +46,7 @@ std::int32_t scatter_two_liquids(const Particles<Real>& particles, const Borders
         StaggeredGrid<Real> by_mass = grid;
         by_mass.mass_u = grid.inverse_density_u;
         by_mass.mass_v = grid.inverse_density_v;
-        fold_borders<true>(borders, by_mass);
+        fold_borders(borders, by_mass);
         fold_counts(borders, shape, grid.mass_u, grid.mass_v);
     }
     return full;
@@ -96,7 +96,7 @@ std::int32_t scatter_one_liquid(const Particles<Real>& particles, StaggeredGrid<
 
 }  // namespace
 
-template <class Real, bool Seams>
+template <class Real>
 std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
                               Real second_density, StaggeredGrid<Real>& grid,
                               const ThinWalls<Real>* thin, Work work) {
@@ -114,19 +114,16 @@ std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Re
     }
     const std::int32_t crowded = in_lanes ? 0 : scatter_one_liquid(particles, grid, thin, work);
     if (work.once(grid.shape.border())) {
-        fold_borders<Seams>(borders, grid);
+        fold_borders(borders, grid);
     }
     return crowded;
 }
 
-#define WEIR_INSTANTIATE_WITH(Real, Seams)                                            \
-    template std::int32_t particle_to_grid<Real, Seams>(                              \
-        const Particles<Real>&, const Borders<Real>&, Real, StaggeredGrid<Real>&,     \
+#define WEIR_INSTANTIATE(Real)                                                    \
+    template std::int32_t particle_to_grid(                                       \
+        const Particles<Real>&, const Borders<Real>&, Real, StaggeredGrid<Real>&, \
         const ThinWalls<Real>*, Work);
-#define WEIR_INSTANTIATE(Real) \
-    WEIR_INSTANTIATE_WITH(Real, true) WEIR_INSTANTIATE_WITH(Real, false)
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
-#undef WEIR_INSTANTIATE_WITH
 
 }  // namespace weir

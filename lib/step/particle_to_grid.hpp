@@ -14,8 +14,7 @@ namespace weir {
 /// worlds run the plain loops.
 /// @return how often a particle found no room on faces that are full; 0 but in fixed point.
 /// Order: by particle, then by node. Cost: 8 weights and 16 sums a particle; two liquids: 24.
-/// `Seams`: whether the tank may have some: one with room for bodies has none.
-template <class Real, bool Seams = true>
+template <class Real>
 std::int32_t particle_to_grid(const Particles<Real>& particles, const Borders<Real>& borders,
                               Real second_density, StaggeredGrid<Real>& grid,
                               const ThinWalls<Real>* thin = nullptr, Work work = {});

@@ -337,7 +337,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (Solids && two_way != nullptr) {
         two_way->accelerate_bodies(simulation, dt_s, work);
     }
-    report.particles_crowded += particle_to_grid<Real, !Solids>(
+    report.particles_crowded += particle_to_grid<Real>(
         simulation.particles, settings.borders, settings.second_density, simulation.grid,
         simulation.layers.walls.thin, work);
     clock.charge(Stage::particle_to_grid);

@@ -23,7 +23,7 @@ struct Stages {
     std::int32_t (*draw_moved)(Layers<Real>& layers, BodyTable<Real>& table);
     /// The most nodes that this can be in a substep (solid/layers.hpp).
     std::int32_t (*most_moved)(const Layers<Real>& layers, const BodyTable<Real>& table);
-    /// Draws all bodies: another part of the tank is stored.
+    /// Draws all bodies, if any: the world is new, or another part of the tank is stored.
     std::int32_t (*draw_stored)(Layers<Real>& layers, const BodyTable<Real>& table);
     EmptySlivers<Real> empty_slivers;
     /// At the end of a step, if bodies can move; the next one if there are any.

@@ -116,7 +116,8 @@ Vec2<Real> velocity_of(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real
 template <bool Solids, class Real>
 const detail::Viscosity<Real>& detail::viscosity() {
     static constexpr StickingWalls<Real> kSticking{sticking_to<Real>, velocity_of<Real>};
-    static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>, Solids ? &kSticking : nullptr};
+    static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>,
+                                            Solids ? &kSticking : nullptr};
     return kStage;
 }
 

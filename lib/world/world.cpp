@@ -277,6 +277,7 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
     state_->unit_exponent = static_cast<std::int8_t>(unit);
     Simulation<Real>& simulation = state_->simulation;
     simulation.settings = settings_of(*state_);
+    simulation.settings.borders.odd = features.odd_borders;
     carve(Carver(memory, plan), def.capacity, simulation.settings.borders, simulation);
     simulation.pressure.leaps =
         simulation.grid.inverse_density_u == nullptr || def.second_density_ratio == 1.0F;
@@ -312,9 +313,7 @@ Status World<Real>::init_with(const detail::Features<Real>& features, const Worl
         simulation.layers.walls.particle_mass[1] =
             share * static_cast<Face<Real>>(def.second_density_ratio);
     }
-    if (def.capacity.bodies > 0) {
-        clear_layers(simulation.layers);
-    }
+    simulation.stages->draw_stored(simulation.layers, simulation.bodies);
     return Status::ok;
 }
 

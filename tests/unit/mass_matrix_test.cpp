@@ -69,7 +69,7 @@ struct Faces {
         fields.level = level.data();
         const auto count = static_cast<std::int32_t>(x.size());
         particles = {x.data(), w.data(), count, count};
-        particle_to_grid<Real, true>(particles, borders, Real(1), grid, nullptr);
+        particle_to_grid<Real>(particles, borders, Real(1), grid, nullptr);
     }
     Faces(const Faces&) = delete;
 
@@ -204,6 +204,7 @@ TEST(MassMatrix, SeesNoSeam) {
     }
     Borders<double> seams;
     seams.wrap_x = seams.wrap_y = true;
+    seams.odd = &detail::odd_borders<double>();
     Faces<double> here(x, w, kCells, seams);
     Faces<double> there(moved, w, kCells, seams);
     here.solve();
@@ -228,6 +229,7 @@ TEST(MassMatrix, SeesImagesBeyondWalls) {
         const Places x = fill(0.0, kCells, kHalf);
         const Places w = carried(x, linear);
         Borders<double> sides;
+        sides.odd = &detail::odd_borders<double>();
         sides.top.no_slip = no_slip;
         Faces<double> half(x, w, kHalf, sides);
         Places all = x;

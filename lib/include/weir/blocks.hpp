@@ -108,8 +108,8 @@ template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     kEmptyMemberBytes +
     (sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 944 : 912) + (std::is_same_v<Real, Fixed> ? 16 : 0)
-                              : 1312) +
+        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 944 : 912) : 1312) +
+              (std::is_same_v<Real, Fixed> ? 16 : 0) +
               (std::is_same_v<Real, SmallFixed> ? 0 : 72 + 2 * sizeof(void*))
         : 1680);
 template <class Real>

@@ -30,6 +30,8 @@ struct Elasticity;
 template <class Real>
 struct MassMatrix;
 template <class Real>
+struct OddBorders;
+template <class Real>
 struct Rest;
 template <class Real>
 struct RowOrder;
@@ -51,6 +53,8 @@ template <class Real>
 const Elasticity<Real>& elasticity();
 template <class Real>
 const MassMatrix<Real>& mass_matrix();
+template <class Real>
+const OddBorders<Real>& odd_borders();
 template <class Real>
 const RowOrder<Real>& row_order();
 /// `Solids`, here and below: there is room for bodies.
@@ -75,6 +79,7 @@ struct Features {
     const Blows<Real>* blows = nullptr;
     const Elasticity<Real>* elasticity = nullptr;
     const MassMatrix<Real>* mass_matrix = nullptr;
+    const OddBorders<Real>* odd_borders = nullptr;
     const Rest<Real>* rest = nullptr;
     const RowOrder<Real>* row_order = nullptr;
     const SecondLiquid<Real>* second_liquid = nullptr;
@@ -119,6 +124,9 @@ WEIR_ALWAYS_INLINE Features<Real> features_of(const WorldDef& def) {
     }
     if (def.keep_sorted) {
         features.row_order = &row_order<Real>();
+    }
+    if (def.periodic_x || def.periodic_y || def.viscosity_m2ps > 0.0F) {
+        features.odd_borders = &odd_borders<Real>();
     }
     if (room.second_liquid) {
         features.second_liquid =
