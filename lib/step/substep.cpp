@@ -280,8 +280,9 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     find_surface(simulation, domain, plan, work);
     const bool interpolated = interpolates(simulation, plan);
     if (interpolated) {
+        const bool to_surface = !(plan.viscosity > Real(0));
         simulation.mass_matrix->solve(domain, simulation.particles, settings.second_density,
-                                      settings.is_weightless(), work);
+                                      to_surface, work);
     }
     update_grid(simulation, domain, plan, work);
     if (plan.viscosity > Real(0)) {

@@ -148,6 +148,8 @@ struct WorldDef {
 
     float cell_m = 0.02F;               ///< edge of a cell, m; 1e-6 … 1e3
     /// Each part at most kMaxGravity: more is refused here, and limited in `World::set_gravity`.
+    /// Worlds defined without any, nor surface tension, take 1.7 times a step's instructions in
+    /// float while there is none, and err less than half as much.
     Vec2f gravity_mps2{0.0F, -9.81F};
 
     /// What nothing is meant to be faster than along an axis, m/s; 0: 255 cells/s, or as many as
