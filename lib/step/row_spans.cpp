@@ -93,8 +93,7 @@ bool all_know(const Simulation<float>& simulation, const SubstepPlan<float>& pla
                        simulation.layers.walls.thin == nullptr && fields.elasticity == nullptr &&
                        fields.second_liquid == nullptr;
     return plain && !settings.borders.wrap_x && !settings.borders.wrap_y &&
-           plan.viscosity == 0.0F && settings.surface_tension == 0.0F &&
-           !interpolates(simulation, plan);
+           settings.surface_tension == 0.0F && !interpolates(simulation, plan);
 }
 
 /// Around what was liquid in the last substep, which worked on that part. What is no longer worked
