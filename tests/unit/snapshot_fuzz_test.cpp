@@ -227,7 +227,7 @@ void make_absurd(std::int32_t kind) {
     Dice dice(7);
     const Bytes snapshot = saved(*world, def, dice);
     std::int64_t refused = 0;
-    const std::size_t stride = kSanitized && wanted() == nullptr ? 12 : 4;
+    const std::size_t stride = kSanitized && wanted() == nullptr ? 28 : 4;
     for (std::size_t at = kHeadBytes; at + 4 <= snapshot.size() - kChecksumBytes; at += stride) {
         Bytes bytes = snapshot;
         set_word(bytes, at, 0x5368D4A5U);  // 1e12F, and as a double's upper word 1e93

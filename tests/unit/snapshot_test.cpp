@@ -99,7 +99,7 @@ void expect_goes_on_alike(std::int32_t kind, std::uint64_t seed) {
 
 TEST(Snapshot, RestoredWorldGoesOnWithTheSameBits) {
     for (std::int32_t kind = 0; kind < kBusyKinds; ++kind) {
-        for (std::uint64_t seed = kSanitized ? 10 : 1; seed <= 12; ++seed) {
+        for (std::uint64_t seed = kSanitized ? 12 : 1; seed <= 12; ++seed) {
             expect_goes_on_alike<float>(kind, seed);
         }
         expect_goes_on_alike<double>(kind, 13);
