@@ -52,6 +52,9 @@ inline constexpr Real kSettling = Real(Stored<Real>::coarse ? 0.25 : 1.0 / 256.0
 
 /// Substeps from one in which leaning surfaces are quieted to the next.
 inline constexpr std::uint8_t kQuietEvery = 4;
+inline void next_turn(std::uint8_t& turn) {
+    turn = static_cast<std::uint8_t>((turn + 1) % kQuietEvery);
+}
 
 /// A solve starts from so many times the last pressure at most.
 template <class Real>

@@ -255,7 +255,7 @@ void quiet_surface(const StaggeredGrid<Real>& grid, PressureFields<Real>& fields
         fields.cell_weight > Real(0) && !fields.on_surface && !(fields.sound_speed > Real(0));
     std::uint8_t& turn = fields.quiet_turn;
     if (work.once(1)) {
-        turn = static_cast<std::uint8_t>((turn + 1) % kQuietEvery);
+        next_turn(turn);
     }
     if (!(asked && turn % kQuietEvery == 0) && !work.foreseeing()) {
         return;

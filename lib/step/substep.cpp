@@ -84,7 +84,9 @@ Real most_owed(const Simulation<Real>& simulation, const SubstepPlan<Real>& plan
 template <class Real>
 void update_grid(Simulation<Real>& simulation, const Domain<Real>& domain,
                  const SubstepPlan<Real>& plan, Work work) {
-    const Vec2<Real> exact = simulation.settings.fall_in(plan.dt_s);
+    const bool in_turn = plan.viscosity > Real(0) && !plan.settling;
+    const Vec2<Real> exact = fall_in(plan.dt_s, simulation.settings.gravity, in_turn,
+                                     simulation.pressure.quiet_turn);
     const Real most = most_owed(simulation, plan);
     // Only beside solids does it matter who is reached: without any 0 is exact in fixed point, too.
     // Not by whether they are within reach: what creeps by a last digit would tell.
@@ -125,12 +127,18 @@ void fill_borders(const Domain<Real>& domain, Vec2<Real> fall, Work work) {
     }
 }
 
-/// Worlds with thin walls do without, and liquid that is being led to rest.
+/// Worlds with thin walls do without, and liquid that is being led to rest. Whoever rounds in turns
+/// wants another turn all the same.
 template <class Real>
 void quiet_leaning(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work work) {
-    if (simulation.layers.walls.thin == nullptr && !plan.settling) {
+    if (plan.settling) {
+        return;
+    }
+    if (simulation.layers.walls.thin == nullptr) {
         quiet_surface(simulation.grid, simulation.pressure, simulation.settings.gravity,
                       simulation.particles, work);
+    } else if (work.once(1)) {
+        next_turn(simulation.pressure.quiet_turn);
     }
 }
 
