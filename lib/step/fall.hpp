@@ -9,9 +9,9 @@
 
 namespace weir {
 
-/// dt · gravity to the nearest unit; or, in one substep after another, from an eighth of a unit on,
-/// three, five, seven. What gravity gives is all that drives a viscous flow: two fifths of a unit in
-/// 2,000 too little is a flow that is as much too slow.
+/// dt · gravity to the nearest unit; or, one substep after another, from an eighth of a unit on,
+/// three, five, seven. What gravity gives is all that drives a viscous flow: two fifths of a unit
+/// in 2,000 too little is a flow that is as much too slow.
 template <class Real>
 Vec2<Real> fall_in(Seconds<Real> dt_s, Vec2<Real> gravity, [[maybe_unused]] bool in_turn,
                    [[maybe_unused]] std::uint32_t turn) {
