@@ -27,6 +27,8 @@ void require(Status status) {
 struct Scene {
     WorldDef def;
     Box water{{0.0F, 0.0F}, {48 * kCell, 16 * kCell}};
+    bool falls = false;   ///< by gravity, which its definition is without, until it is measured
+    bool weighs = false;  ///< and then, too
     float drop_m = 0.0F;  ///< how far to the right and up a drop starts; 0: there is none
     BodyDef body;
     Vec2f places[3];
@@ -114,6 +116,11 @@ Scene scene_of(const char* name, Way way) {
         scene.drop_m = (way == Way::absent ? 32 : 120) * kCell;
     } else if (is("viscosity") && way == Way::used) {
         scene.def.viscosity_m2ps = 1.0e-4F;
+    } else if (is("weightless")) {
+        scene.water = {{0.0F, 0.0F}, {24 * kCell, 32 * kCell}};
+        scene.falls = way != Way::absent;
+        scene.weighs = way == Way::skipped;
+        def.gravity_mps2 = scene.falls ? Vec2f{} : def.gravity_mps2;
     } else if (is("tension") && way == Way::used) {
         scene.def.surface_tension_m3ps2 = 7.3e-5F;
     } else if (is("second_liquid") && way == Way::used) {
@@ -231,8 +238,14 @@ Run run(const Case& which, Way way) {
         const float right = 4.0F * scene.drop_m;
         require(world.fill({{right, scene.drop_m}, {right + 2 * kCell, scene.drop_m + 2 * kCell}}));
     }
+    if (scene.falls) {
+        require(world.set_gravity(WorldDef().gravity_mps2));
+    }
     for (int step = 0; step < (scene.settle ? 150 : 10); ++step) {
         world.step(kDt);
+    }
+    if (scene.falls && !scene.weighs) {
+        require(world.set_gravity({}));
     }
     Run result;
     const auto start = std::chrono::steady_clock::now();

@@ -25,6 +25,7 @@ inline constexpr Case kCases[] = {
     {"rectangle", "bodies turning in a tank 16 times as large", {true, true, false}},
     {"columns", "the empty width of rows: a drop that is far away", {true, true, false}},
     {"viscosity", "0", {false, true, true}},
+    {"weightless", "gravity in a world that is defined without", {true, true, true}},
     {"tension", "0", {false, true, true}},
     {"second_liquid", "no room for it", {false, true, true}},
     {"domain", "4096 x 4096 cells, of which those around the same water are stored", {true, true, true}},
