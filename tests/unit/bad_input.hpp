@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -47,7 +46,7 @@ struct Fixture {
 
 struct Row {
     const char* name;
-    std::function<Status(Fixture&)> call;
+    Status (*call)(Fixture&);
     Status expected;
 };
 

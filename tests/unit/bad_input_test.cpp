@@ -1,7 +1,6 @@
 // Every way to be refused, in tables: after a refusal nothing has changed, and the world goes on as
 // one that never got the bad call. `init` has its own file.
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "bad_input.hpp"
@@ -23,7 +22,7 @@ Status add_holed(Fixture& f, const Ring& hole) {
 }
 
 /// Both ways to add a body must agree on a changed definition.
-Status add_changed(Fixture& f, const std::function<void(BodyDef&)>& change) {
+Status add_changed(Fixture& f, void (*change)(BodyDef&)) {
     BodyDef def = body_of(kTriangle, {0.16F, 0.16F});
     change(def);
     BodyId id;
@@ -34,7 +33,7 @@ Status add_changed(Fixture& f, const std::function<void(BodyDef&)>& change) {
     return fixed;
 }
 
-Status move_changed(Fixture& f, const std::function<void(Motion&)>& change) {
+Status move_changed(Fixture& f, void (*change)(Motion&)) {
     Motion motion;
     motion.position_m = {0.1F, 0.2F};
     change(motion);

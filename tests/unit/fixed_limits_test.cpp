@@ -19,44 +19,39 @@ Status init(const WorldDef& def) {
     return world.init(def, memory.data(), memory.size());
 }
 
-template <class Real, class Change>
-std::function<Status(Fixture&)> init_of(Change change) {
-    return [change](Fixture&) {
-        WorldDef def = small_def();
-        change(def);
-        return init<Real>(def);
-    };
+template <class Real>
+Status init_changed(void (*change)(WorldDef&)) {
+    WorldDef def = small_def();
+    change(def);
+    return init<Real>(def);
 }
+
+#define CHANGED_INIT(Real, field, value) \
+    [](Fixture&) { return init_changed<Real>([](WorldDef& def) { def.field = value; }); }
 
 }  // namespace
 
 const std::vector<Row>& fixed_rows() {
     static const std::vector<Row> rows = {
-        {"wider than Fixed", init_of<Fixed>([](WorldDef& d) { d.capacity.cells_x = 257; }),
+        {"wider than Fixed", CHANGED_INIT(Fixed, capacity.cells_x, 257),
          Status::cells_out_of_range},
-        {"taller than SmallFixed",
-         init_of<SmallFixed>([](WorldDef& d) { d.capacity.cells_y = 256; }),
+        {"taller than SmallFixed", CHANGED_INIT(SmallFixed, capacity.cells_y, 256),
          Status::cells_out_of_range},
-        {"gravity beyond Fixed", init_of<Fixed>([](WorldDef& d) { d.gravity_mps2.x = 601.0F; }),
+        {"gravity beyond Fixed", CHANGED_INIT(Fixed, gravity_mps2.x, 601.0F),
          Status::gravity_out_of_range},
-        {"top speed NaN", init_of<SmallFixed>([](WorldDef& d) { d.top_speed_mps = kNan; }),
+        {"top speed NaN", CHANGED_INIT(SmallFixed, top_speed_mps, kNan),
          Status::top_speed_out_of_range},
-        {"top speed below 0", init_of<float>([](WorldDef& d) { d.top_speed_mps = -0.1F; }),
+        {"top speed below 0", CHANGED_INIT(float, top_speed_mps, -0.1F),
          Status::top_speed_out_of_range},
-        {"top speed beyond SmallFixed",
-         init_of<SmallFixed>([](WorldDef& d) { d.top_speed_mps = 41.0F; }),
+        {"top speed beyond SmallFixed", CHANGED_INIT(SmallFixed, top_speed_mps, 41.0F),
          Status::top_speed_out_of_range},
-        {"gravity beyond a low top speed",
-         init_of<SmallFixed>([](WorldDef& d) { d.top_speed_mps = 0.3F; }),
+        {"gravity beyond a low top speed", CHANGED_INIT(SmallFixed, top_speed_mps, 0.3F),
          Status::gravity_out_of_range},
-        {"tension beyond Fixed",
-         init_of<Fixed>([](WorldDef& d) { d.surface_tension_m3ps2 = 0.25F; }),
+        {"tension beyond Fixed", CHANGED_INIT(Fixed, surface_tension_m3ps2, 0.25F),
          Status::surface_tension_out_of_range},
-        {"more bodies than SmallFixed",
-         init_of<SmallFixed>([](WorldDef& d) { d.capacity.bodies = 256; }),
+        {"more bodies than SmallFixed", CHANGED_INIT(SmallFixed, capacity.bodies, 256),
          Status::body_capacity_out_of_range},
-        {"two liquids in SmallFixed",
-         init_of<SmallFixed>([](WorldDef& d) { d.capacity.second_liquid = true; }),
+        {"two liquids in SmallFixed", CHANGED_INIT(SmallFixed, capacity.second_liquid, true),
          Status::small_fixed_has_one_liquid},
         {"moving where only static ones are",
          [](Fixture&) {
@@ -67,14 +62,11 @@ const std::vector<Row>& fixed_rows() {
              return world->add_moving_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id);
          },
          Status::no_moving_bodies},
-        {"thin walls in SmallFixed",
-         init_of<SmallFixed>([](WorldDef& d) { d.capacity.wall_edges = 1; }),
+        {"thin walls in SmallFixed", CHANGED_INIT(SmallFixed, capacity.wall_edges, 1),
          Status::small_fixed_has_no_thin_walls},
-        {"window in SmallFixed",
-         init_of<SmallFixed>([](WorldDef& d) { d.capacity.window_cells = 100; }),
+        {"window in SmallFixed", CHANGED_INIT(SmallFixed, capacity.window_cells, 100),
          Status::small_fixed_has_no_window},
-        {"tension in SmallFixed",
-         init_of<SmallFixed>([](WorldDef& d) { d.surface_tension_m3ps2 = 1.0e-5F; }),
+        {"tension in SmallFixed", CHANGED_INIT(SmallFixed, surface_tension_m3ps2, 1.0e-5F),
          Status::small_fixed_has_no_tension},
     };
     return rows;
