@@ -45,7 +45,7 @@ template <class Real>
 inline constexpr bool kHasFreeBodies = !Stored<Real>::shares_momentum;
 /// A pointer to what they do without.
 template <class Real, class T>
-using OfRoomy = std::conditional_t<kHasFreeBodies<Real>, T*, Never<T>>;
+using OfRoomy = std::conditional_t<Stored<Real>::shares_momentum, Never<T>, T*>;
 
 template <class Real>
 struct Simulation {

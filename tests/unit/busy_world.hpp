@@ -11,7 +11,7 @@ namespace weir {
 
 using Dice = measure::Random;
 
-inline constexpr std::int32_t kBusyKinds = 9;
+inline constexpr std::int32_t kBusyKinds = 10;
 
 /// One definition for each way in which worlds differ, 0 … kBusyKinds − 1.
 inline WorldDef busy_def(std::int32_t kind) {
@@ -52,6 +52,7 @@ inline WorldDef busy_def(std::int32_t kind) {
             def.volume_gain = 0.0F;
             break;
         case 8: def.capacity.wall_edges = 500; break;
+        case 9: def.gravity_mps2 = {}; break;
         default: break;
     }
     return def;
@@ -171,6 +172,7 @@ void disturb(World<Real>& world, Dice& dice) {
                       Status::ok);
             break;
         }
+        case 9: EXPECT_EQ(world.set_gravity({}), Status::ok); break;
         default: break;
     }
 }
