@@ -52,6 +52,7 @@ inline constexpr Real kSettling = Real(Stored<Real>::coarse ? 0.25 : 1.0 / 256.0
 
 /// Substeps from one in which leaning surfaces are quieted to the next.
 inline constexpr std::uint8_t kQuietEvery = 4;
+/// Whoever rounds in turns goes by the same count.
 inline void next_turn(std::uint8_t& turn) {
     turn = static_cast<std::uint8_t>((turn + 1) % kQuietEvery);
 }

@@ -9,12 +9,12 @@
 
 namespace weir {
 
-/// dt · gravity to the nearest unit; or, one substep after another, from an eighth of a unit on,
-/// three, five, seven. What gravity gives is all that drives a viscous flow: two fifths of a unit
+/// dt · gravity; in `Fixed` not to the nearest unit, but rounded up from an eighth of one on, three,
+/// five, seven in turn. What gravity gives is all that drives a viscous flow: two fifths of a unit
 /// in 2,000 too little is a flow that is as much too slow.
 template <class Real>
-Vec2<Real> fall_in(Seconds<Real> dt_s, Vec2<Real> gravity, [[maybe_unused]] bool in_turn,
-                   [[maybe_unused]] std::uint32_t turn) {
+Vec2<Real> fall_in_turn(Seconds<Real> dt_s, Vec2<Real> gravity,
+                        [[maybe_unused]] std::uint32_t turn) {
     if constexpr (std::is_same<Real, Fixed>::value) {
         const auto along = [&](Fixed part) {
             constexpr int kShift = Seconds<Fixed>::fraction;
@@ -25,11 +25,10 @@ Vec2<Real> fall_in(Seconds<Real> dt_s, Vec2<Real> gravity, [[maybe_unused]] bool
                 fixed::saturate((fixed::wide_product(dt_s.raw, size) + upwards) >> kShift);
             return Fixed::of_raw(part.raw < 0 ? -units : units);
         };
-        if (in_turn) {
-            return {along(gravity.x), along(gravity.y)};
-        }
+        return {along(gravity.x), along(gravity.y)};
+    } else {  // packed velocities are owed what is less than a unit, by Fall
+        return dt_s * gravity;
     }
-    return dt_s * gravity;
 }
 
 template <class Real, bool Units = Stored<Real>::coarse>

@@ -85,8 +85,10 @@ template <class Real>
 void update_grid(Simulation<Real>& simulation, const Domain<Real>& domain,
                  const SubstepPlan<Real>& plan, Work work) {
     const bool in_turn = plan.viscosity > Real(0) && !plan.settling;
-    const Vec2<Real> exact = fall_in(plan.dt_s, simulation.settings.gravity, in_turn,
-                                     simulation.pressure.quiet_turn);
+    const Settings<Real>& settings = simulation.settings;
+    const Vec2<Real> exact = in_turn ? fall_in_turn<Real>(plan.dt_s, settings.gravity,
+                                                          simulation.pressure.quiet_turn)
+                                     : settings.fall_in(plan.dt_s);
     const Real most = most_owed(simulation, plan);
     // Only beside solids does it matter who is reached: without any 0 is exact in fixed point, too.
     // Not by whether they are within reach: what creeps by a last digit would tell.
