@@ -9,9 +9,9 @@
 
 namespace weir {
 
-/// dt · gravity; in `Fixed` not to the nearest unit, but rounded up from an eighth of one on, three,
-/// five, seven in turn. What gravity gives is all that drives a viscous flow: two fifths of a unit
-/// in 2,000 too little is a flow that is as much too slow.
+/// dt · gravity; in `Fixed` not to the nearest unit, but rounded up from an eighth of one on,
+/// three, five, seven in turn. What gravity gives is all that drives a viscous flow: two fifths of
+/// a unit in 2,000 too little is a flow that is as much too slow.
 template <class Real>
 Vec2<Real> fall_in_turn(Seconds<Real> dt_s, Vec2<Real> gravity,
                         [[maybe_unused]] std::uint32_t turn) {
