@@ -77,9 +77,7 @@ TEST(ForceBalance, CoveredWallsReceiveNothing) {
 
 /// Still water lifts a body in the middle of what it displaces, wherever the body's own origin is,
 /// and whatever another one takes that shares its cells.
-template <class Real>
-class Buoyancy : public testing::Test {};
-TYPED_TEST_SUITE(Buoyancy, EveryScalar, );
+WEIR_SUITE(Buoyancy, EveryScalar);
 
 TYPED_TEST(Buoyancy, LiftsInTheMiddle) {
     WorldDef def = tank_def(32, 24, 3072, 2, 8);

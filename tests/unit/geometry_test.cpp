@@ -8,11 +8,11 @@
 #include <cstring>
 #include <limits>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/signed_distance.hpp"
+#include "test_world.hpp"
 #include "weir/config.hpp"
 
 namespace weir {
@@ -190,18 +190,8 @@ TEST(CheckPolygon, EveryFiniteFloatGetsAnAnswer) {
     }
 }
 
-/// Names typed tests after their arithmetic.
-struct RealName {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(float) ? "float" : "double";
-    }
-};
-
-template <class Real>
-class GeometryTest : public testing::Test {};
 using Reals = testing::Types<float, double>;
-TYPED_TEST_SUITE(GeometryTest, Reals, RealName);
+WEIR_SUITE(GeometryTest, Reals);
 
 template <class Real>
 Vec2<Real> point_of(double x, double y) {

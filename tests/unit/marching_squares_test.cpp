@@ -7,8 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <string>
 #include <vector>
+
+#include "test_world.hpp"
 
 namespace weir {
 namespace {
@@ -79,18 +80,8 @@ void expect_line(const ContourLine<Real>& found, const Line& wanted) {
     expect_near(found.normal, wanted.normal);
 }
 
-/// Names typed tests after their arithmetic.
-struct RealName {
-    template <class Real>
-    static std::string GetName(int) {
-        return sizeof(Real) == sizeof(float) ? "float" : "double";
-    }
-};
-
-template <class Real>
-class MarchingSquares : public testing::Test {};
 using Reals = testing::Types<float, double>;
-TYPED_TEST_SUITE(MarchingSquares, Reals, RealName);
+WEIR_SUITE(MarchingSquares, Reals);
 
 TYPED_TEST(MarchingSquares, SixteenCases) {
     for (int which = 0; which < 16; ++which) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include "measure/tank_def.hpp"
@@ -19,11 +21,22 @@ using measure::tank_def;
 using EveryScalar = testing::Types<float, double, Fixed, SmallFixed>;
 using RoomyScalars = testing::Types<float, double, Fixed>;
 
+/// Names typed tests after their arithmetic.
+struct ScalarName {
+    template <class Real>
+    static std::string GetName(int) {
+        return std::is_same<Real, float>::value    ? "float"
+               : std::is_same<Real, double>::value ? "double"
+               : std::is_same<Real, Fixed>::value  ? "Fixed"
+                                                   : "SmallFixed";
+    }
+};
+
 /// Tests that are run in each arithmetic of a list.
 #define WEIR_SUITE(Suite, Scalars)         \
     template <class Real>                  \
     class Suite : public testing::Test {}; \
-    TYPED_TEST_SUITE(Suite, Scalars, )
+    TYPED_TEST_SUITE(Suite, Scalars, ScalarName)
 
 /// Sanitizers look at what memory is touched and how, in ten times the time: where lives are compared
 /// to the bit, which others do, they get fewer.
