@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "step/settings.hpp"
 #include "test_world.hpp"
 #include "weir/storage.hpp"
 
@@ -65,6 +66,9 @@ TEST(Fall, InFourTurnsIsExactToAnEighthOfAUnit) {
             sum += fall.x.raw;
         }
         EXPECT_LE(std::fabs(sum / 4 - exact), 0.125) << gravity;
+        Settings<Fixed> settings{};
+        settings.gravity = pull;
+        EXPECT_LE(std::fabs(settings.fall_in(dt).x.raw - exact), 0.5) << gravity;
     }
 }
 
