@@ -11,6 +11,11 @@ namespace {
 constexpr std::int32_t kMostEdges = 12;
 constexpr std::int32_t kMostCrossings = 4;
 
+/// Rows of a face's kernel are summed between heights at most so far apart, and where edges begin
+/// and end: among these what is seen of a row changes smoothly.
+constexpr std::int32_t kBands = 4;
+constexpr std::int32_t kMostHeights = kBands + 24;
+
 /// Whether an edge crosses the way between two neighbouring centres. Which edge of a polyline
 /// crosses the line through them is decided by comparing coordinates, where by the centres' sides
 /// of the edge, once a centre: neighbours never disagree.
@@ -119,13 +124,16 @@ Real hat_integral(Real x) {
                         : Real(1) - kHalf * ((Real(1) - in) * (Real(1) - in));
 }
 
-/// Places of a row, seen from the face, where an edge crosses it; in order.
-template <class Real>
-struct Crossings {
-    Real at[kMostCrossings + 2];
+/// Places along an axis, seen from the face, in order. What there is no room for is left out.
+template <class Real, std::int32_t kMost>
+struct Places {
+    Real at[kMost];
     std::int32_t count = 0;
 
     void add(Real x) {
+        if (count == kMost) {
+            return;
+        }
         std::int32_t place = count++;
         for (; place > 0 && x < at[place - 1]; --place) {
             at[place] = at[place - 1];
@@ -137,13 +145,13 @@ struct Crossings {
 /// Share of a row of the face's kernel that the face sees.
 template <class Real>
 Real seen_of_row(const Edges<Real>& edges, Vec2<Real> face, Real y, Real left, Real right) {
-    Crossings<Real> crossings;
+    Places<Real, kMostCrossings + 2> crossings;
     crossings.add(left);
     crossings.add(right);
     for (std::int32_t k = 0; k < edges.count; ++k) {
         const Vec2<Real> a = edges.a[k];
         const Vec2<Real> b = edges.b[k];
-        if ((a.y < y) == (b.y < y) || crossings.count == kMostCrossings + 2) {
+        if ((a.y < y) == (b.y < y)) {
             continue;
         }
         const Real x = (a.x - face.x) + (y - a.y) / (b.y - a.y) * (b.x - a.x);
@@ -165,11 +173,45 @@ Real seen_of_row(const Edges<Real>& edges, Vec2<Real> face, Real y, Real left, R
     return seen / (hat_integral(right) - hat_integral(left));
 }
 
+/// Heights between which the rows of a face's kernel are summed: those where what is seen of a row
+/// jumps, or begins to change, are where edges end and where they come into the kernel.
+template <class Real>
+struct Heights : Places<Real, kMostHeights> {
+    Heights(const Edges<Real>& edges, Vec2<Real> face, Real left, Real right, Real tank_height) {
+        const auto add = [&](Real y) {
+            if (Real(-1) < y && y < Real(1)) {
+                this->add(y);
+            }
+        };
+        const auto add_all = [&](Real y) { // with its images beyond the tank's floor and ceiling
+            add(y - face.y);
+            add(Real(0) - y - face.y);
+            add((tank_height - face.y) + (tank_height - y));
+        };
+        for (std::int32_t band = 0; band <= kBands; ++band) {
+            this->add(static_cast<Real>(2 * band - kBands) / static_cast<Real>(kBands));
+        }
+        add(Real(0) - face.y);
+        add(tank_height - face.y);
+        for (std::int32_t k = 0; k < edges.count; ++k) {
+            const Vec2<Real> a = edges.a[k];
+            const Vec2<Real> b = edges.b[k];
+            add_all(a.y);
+            add_all(b.y);
+            const Real sides[] = {face.x + left, face.x + right};
+            for (const Real side : sides) {
+                if ((a.x < side) != (b.x < side)) {
+                    add_all(a.y + (side - a.x) / (b.x - a.x) * (b.y - a.y));
+                }
+            }
+        }
+    }
+};
+
 /// Share of the mass that a face would get in a full tank which gets there past thin walls. Beyond
 /// the tank's own walls liquid and walls are mirrored.
 template <class Real>
 Real seen_share(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> face) {
-    constexpr std::int32_t kRows = 8;
     const Edges<Real> edges = edges_around(thin, s, face);
     if (edges.count == 0) {
         return Real(1);
@@ -177,13 +219,20 @@ Real seen_share(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> face
     const Real height = static_cast<Real>(s.ny);
     const Real left = maximum(Real(-1), Real(0) - face.x);
     const Real right = minimum(Real(1), static_cast<Real>(s.nx) - face.x);
+    const Heights<Real> heights(edges, face, left, right, height);
+    constexpr Real kHalf = Real(0.5);
+    const Real gauss = Real(0.57735027);  // two places, exact for cubics
     Real sum = Real(0);
-    for (std::int32_t row = 0; row < kRows; ++row) {
-        const Real offset = static_cast<Real>(2 * row + 1 - kRows) / static_cast<Real>(kRows);
-        Real y = absolute(face.y + offset);
-        y = y > height ? height + height - y : y;
-        const Real weight = (Real(1) - absolute(offset)) / static_cast<Real>(kRows / 2);
-        sum += weight * seen_of_row(edges, face, y, left, right);
+    for (std::int32_t k = 0; k + 1 < heights.count; ++k) {
+        const Real middle = kHalf * (heights.at[k] + heights.at[k + 1]);
+        const Real half = kHalf * (heights.at[k + 1] - heights.at[k]);
+        const Real offsets[] = {middle - gauss * half, middle + gauss * half};
+        for (const Real offset : offsets) {
+            Real y = absolute(face.y + offset);
+            y = y > height ? height + height - y : y;
+            const Real weight = half * (Real(1) - absolute(offset));
+            sum += weight * seen_of_row(edges, face, y, left, right);
+        }
     }
     return sum;
 }

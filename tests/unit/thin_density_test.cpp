@@ -1,0 +1,115 @@
+// What a full cell shows beside a wall of no thickness.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/random.hpp"
+#include "solid/thin_walls.hpp"
+#include "world_inside.hpp"
+
+namespace weir {
+namespace {
+
+constexpr std::int32_t kCells = 16;
+constexpr float kCell = 1.0F / 64.0F;
+
+/// A straight wall through all of the tank: what is above is n · x > at, cells.
+struct Wall {
+    Vec2<double> normal;
+    double at;
+
+    double height(Vec2<double> x) const { return dot(normal, x) - at; }
+    Vec2f end(double along) const {
+        const Vec2<double> x = at * normal + along * Vec2<double>{normal.y, -normal.x};
+        return kCell * Vec2f{static_cast<float>(x.x), static_cast<float>(x.y)};
+    }
+};
+
+/// Share of a face's kernel, a hat along each axis, on the face's own side of a wall, by strips.
+double seen(const Wall& wall, Vec2<double> face) {
+    constexpr int kStrips = 40;
+    const double side = wall.height(face) > 0.0 ? 1.0 : -1.0;
+    double sum = 0.0;
+    for (int k = 0; k < kStrips * kStrips; ++k) {
+        const Vec2<double> way{(k % kStrips + 0.5) * 2.0 / kStrips - 1.0,
+                               (k / kStrips + 0.5) * 2.0 / kStrips - 1.0};
+        // Of a strip that the wall passes, about as much as is on this side.
+        const double open = 0.5 + side * wall.height(face + way) * kStrips / 2.0;
+        sum += std::clamp(open, 0.0, 1.0) * (1.0 - std::fabs(way.x)) * (1.0 - std::fabs(way.y));
+    }
+    return sum * 4.0 / (kStrips * kStrips);
+}
+
+/// Mean of those of a cell's faces that its centre sees.
+double full_density(const Wall& wall, std::int32_t i, std::int32_t j) {
+    const Vec2<double> centre{i + 0.5, j + 0.5};
+    double sum = 0.0;
+    for (const Vec2<double> way :
+         {Vec2<double>{-0.5, 0}, Vec2<double>{0.5, 0}, Vec2<double>{0, -0.5}, Vec2<double>{0, 0.5}}) {
+        const Vec2<double> face = centre + way;
+        sum += (wall.height(face) > 0.0) == (wall.height(centre) > 0.0) ? seen(wall, face) : 0.0;
+    }
+    return 0.25 * sum;
+}
+
+struct Errors {
+    double worst = 0.0;
+    double mean = 0.0;
+};
+
+/// Of all cells within two of the wall whose neighbours the tank's own walls leave alone.
+template <class Real>
+Errors errors_beside(const Wall& wall) {
+    WorldDef def = tank_def(kCells, kCells, 16, 1, 2);
+    def.capacity.wall_edges = 400;
+    def.cell_m = kCell;
+    TestWorld<Real> world(def);
+    const Ring ring{wall.end(-24.0), wall.end(24.0)};
+    BodyDef line = body_of(ring, {0, 0});
+    line.open = true;
+    put_static(*world, line);
+    world->step(1.0F / 60.0F);
+    const Layers<Real>& layers = state_of(world).simulation.layers;
+    Errors errors;
+    int cells = 0;
+    for (std::int32_t j = 2; j < kCells - 2; ++j) {
+        for (std::int32_t i = 2; i < kCells - 2; ++i) {
+            const double height = wall.height({i + 0.5, j + 0.5});
+            if (std::fabs(height) > 2.0 || std::fabs(height) < 1e-3) {
+                continue;
+            }
+            const Real full = layers.walls.full_density[layers.shape.index(i, j)];
+            const double error = static_cast<double>(full) - full_density(wall, i, j);
+            errors.worst = std::max(errors.worst, std::fabs(error));
+            errors.mean += error;
+            cells += 1;
+        }
+    }
+    errors.mean /= cells;
+    return errors;
+}
+
+WEIR_SUITE(ThinDensity, RoomyScalars);
+
+TYPED_TEST(ThinDensity, OfAFloorAnywhereInARow) {
+    for (double at = 6.03; at < 7.0; at += 0.09) {
+        EXPECT_LT(errors_beside<TypeParam>({{0.0, 1.0}, at}).worst, 0.002) << at;
+    }
+}
+
+TYPED_TEST(ThinDensity, OfAWallThatLeans) {
+    measure::Random random(3);
+    for (int k = 0; k < 12; ++k) {
+        const double angle = static_cast<double>(random.uniform(0.0F, 6.28F));
+        const Vec2<double> normal{std::cos(angle), std::sin(angle)};
+        const auto off = static_cast<double>(random.uniform(-1.0F, 1.0F));
+        const Wall wall{normal, dot(normal, Vec2<double>{8, 8}) + off};
+        const Errors errors = errors_beside<TypeParam>(wall);
+        EXPECT_LT(errors.worst, 0.006) << angle;
+        EXPECT_LT(std::fabs(errors.mean), 0.001) << angle;
+    }
+}
+
+}  // namespace
+}  // namespace weir
