@@ -99,7 +99,7 @@ private:
 /// Moves a block of particles past thin walls, too. `before`: where they come from.
 template <class Real>
 TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
-                                     const Transfer<Real>& transfer, const ThinWalls<Real>& thin,
+                                     const Transfer<Real>& transfer,
                                      const Vec2<PositionOf<Real>>* before,
                                      Particles<Real>& block) {
     Copies<Vec2<VelocityOf<Real>>, kBlock<Real>> copies;
@@ -108,7 +108,7 @@ TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
     Transfer<Real> again = transfer;
     again.tank = nullptr;  // what hit its walls has been counted
     const TransferResult<Real> beside =
-        gather_past_walls(simulation.grid, again, thin,
+        gather_past_walls(simulation.grid, again, simulation.layers.walls,
                           simulation.settings.fall_in(transfer.dt_s), before, velocity, block);
     moved.far += beside.far;
     moved.max_speed = maximum(moved.max_speed, beside.max_speed);
@@ -142,7 +142,7 @@ void gather_block(Simulation<Real>& simulation, Transfer<Real>& transfer, const 
     }
     Particles<Real> block = particles.part(first, count);
     moved = walls.thin != nullptr
-                ? move_past_walls(simulation, transfer, *walls.thin, before, block)
+                ? move_past_walls(simulation, transfer, before, block)
                 : grid_to_particle(simulation.grid, transfer, block);
     if (clock != nullptr) {
         clock->charge(Stage::grid_to_particle);

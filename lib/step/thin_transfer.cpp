@@ -9,29 +9,108 @@ namespace weir {
 
 namespace {
 
+/// Which faces of a stencil stand in for those that are not `seen`: along the row, else along the
+/// column, else across. At least one is seen.
+struct StandIns {
+    std::uint32_t of[4];
+
+    explicit StandIns(std::uint32_t seen) {
+        for (std::uint32_t node = 0; node < 4; ++node) {
+            const std::uint32_t others[] = {node, node ^ 1U, node ^ 2U, node ^ 3U};
+            std::uint32_t k = 0;
+            while (k < 3 && (seen >> others[k] & 1U) == 0) {
+                ++k;
+            }
+            of[node] = others[k];
+        }
+    }
+};
+
 /// Value and slopes from the four faces of a stencil, `step` numbers apart, of which `seen` tells
-/// those that count. At least one does.
+/// those that count.
 template <class Real>
 Sample<Real> sample_seen(const VelocityOf<Real>* field, std::int32_t step, std::int32_t stride,
                          const Stencil<Real>& at, std::uint32_t seen) {
     const VelocityOf<Real>* p = field + step * at.base;
-    Real face[4] = {Real(p[0]), Real(p[step]), Real(p[step * stride]),
-                    Real(p[step * (stride + 1)])};
-    const Real known[4] = {face[0], face[1], face[2], face[3]};
-    for (std::uint32_t node = 0; node < 4; ++node) {
-        if ((seen >> node & 1U) != 0) {
-            continue;
-        }
-        // Along the row, else along the column, else across.
-        const std::uint32_t others[] = {node ^ 1U, node ^ 2U, node ^ 3U};
-        for (const std::uint32_t other : others) {
-            if ((seen >> other & 1U) != 0) {
-                face[node] = known[other];
-                break;
-            }
-        }
+    const Real known[4] = {Real(p[0]), Real(p[step]), Real(p[step * stride]),
+                           Real(p[step * (stride + 1)])};
+    const StandIns face(seen);
+    return bilinear(known[face.of[0]], known[face.of[1]], known[face.of[2]], known[face.of[3]],
+                    at);
+}
+
+/// From a stencil's place to the one that `sample_seen` tells of.
+template <class Real>
+Vec2<Real> way_to_sample(const Stencil<Real>& at, std::uint32_t seen) {
+    const StandIns face(seen);
+    Real x[4];
+    Real y[4];
+    for (std::int32_t node = 0; node < 4; ++node) {
+        x[node] = Real((face.of[node] & 1U) != 0 ? 1 : 0);
+        y[node] = Real((face.of[node] & 2U) != 0 ? 1 : 0);
     }
-    return bilinear(face[0], face[1], face[2], face[3], at);
+    return {bilinear(x[0], x[1], x[2], x[3], at).value - at.fx,
+            bilinear(y[0], y[1], y[2], y[3], at).value - at.fy};
+}
+
+/// The wall that a particle is next to. No edge stands beside a corner.
+template <class Real>
+struct NextWall {
+    const WallEdge* edge = nullptr;
+    Vec2<Real> normal{};      ///< from the wall to the particle
+    Real distance = Real(2);  ///< what is further does not count
+
+    NextWall(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> x) {
+        const auto i = static_cast<std::int32_t>(x.x);
+        const auto j = static_cast<std::int32_t>(x.y);
+        for_each_wall_edge(thin, s, i - 1, j - 1, i + 1, j + 1, [&](const WallEdge& one) {
+            const Vec2<Real> a = thin.vertex[one.from];
+            const Vec2<Real> b = thin.vertex[one.to];
+            const Product<Real> zero{};
+            if (dot(x - a, b - a) < zero || dot(x - b, a - b) < zero) {
+                return;
+            }
+            const Vec2<Real> left = left_normal(thin, one);
+            const Real height = dot(x - a, left);
+            if (absolute(height) < distance) {
+                distance = absolute(height);
+                normal = height >= Real(0) ? left : Vec2<Real>{} - left;
+                edge = &one;
+            }
+        });
+    }
+};
+
+/// What holds of a velocity's part along a wall's normal nearer to the wall than it was sampled:
+/// it grows with the distance from the wall's own. Without it particles gathered on thin walls.
+template <class Real>
+struct NearWall {
+    Vec2<Real> normal{};
+    Real wall = Real(0);  ///< its own velocity along the normal
+    Real less = Real(0);  ///< share that does not hold
+
+    Vec2<Real> of(Vec2<Real> velocity, Real of_wall) const {
+        const Real through = dot(velocity, normal);
+        return velocity - (less * (through - of_wall)) * normal;
+    }
+};
+
+template <class Real>
+NearWall<Real> near_wall(const Walls<Real>& walls, const GridShape& s, Vec2<Real> x,
+                         Vec2<Real> way_u, Vec2<Real> way_v) {
+    const NextWall<Real> next(*walls.thin, s, x);
+    if (next.edge == nullptr) {
+        return {};
+    }
+    const Vec2<Real> n = next.normal;
+    const Real along_u = dot(way_u, n);
+    const Real along_v = dot(way_v, n);
+    const Real further = n.x * (n.x * along_u) + n.y * (n.y * along_v);
+    if (!(further > Real(0))) {
+        return {};
+    }
+    const Real wall = dot(velocity_at(walls.body[next.edge->slot], x), n);
+    return {n, wall, further / (next.distance + further)};
 }
 
 /// Where velocity and change of a component lie, and how many numbers apart two faces are.
@@ -80,10 +159,11 @@ std::int32_t scatter_past_walls(const Particles<Real>& particles, const ThinWall
 template <class Real>
 TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
                                        const Transfer<Real>& transfer,
-                                       const ThinWalls<Real>& thin, Vec2<Real> fall,
+                                       const Walls<Real>& walls, Vec2<Real> fall,
                                        const Vec2<PositionOf<Real>>* before,
                                        const Vec2<VelocityOf<Real>>* velocity,
                                        Particles<Real>& block) {
+    const ThinWalls<Real>& thin = *walls.thin;
     const GridShape& s = grid.shape;
     const Vec2<Real> size{static_cast<Real>(s.nx), static_cast<Real>(s.ny)};
     Component<Real> on_u{};
@@ -99,28 +179,35 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         if (seen == 0xFFU) {
             continue;
         }
-        Vec2<Real> v = velocity[k];
+        const Vec2<Real> was = velocity[k];
         const Stencil<Real> at_u = stencil_u(s, x);
         const Stencil<Real> at_v = stencil_v(s, x);
         const std::uint32_t seen_u = seen & kAllFour;
         const std::uint32_t seen_v = seen >> 4U;
+        NearWall<Real> near;
+        if (seen_u != 0 && seen_v != 0) {
+            near = near_wall(walls, s, x, way_to_sample(at_u, seen_u), way_to_sample(at_v, seen_v));
+        }
         const Sample<Real> u =
             seen_u != 0 ? sample_seen<Real>(on_u.velocity, on_u.step, s.stride, at_u, seen_u)
-                        : Sample<Real>{v.x + fall.x, Real(0), Real(0)};
+                        : Sample<Real>{was.x + fall.x, Real(0), Real(0)};
         const Sample<Real> w =
             seen_v != 0 ? sample_seen<Real>(on_v.velocity, on_v.step, s.stride, at_v, seen_v)
-                        : Sample<Real>{v.y + fall.y, Real(0), Real(0)};
-        v.x = seen_u != 0
-                  ? transfer.flip_ratio * v.x +
-                        sample_seen<Real>(on_u.change, on_u.step, s.stride, at_u, seen_u).value
-                  : v.x + fall.x;
-        v.y = seen_v != 0
-                  ? transfer.flip_ratio * v.y +
-                        sample_seen<Real>(on_v.change, on_v.step, s.stride, at_v, seen_v).value
-                  : v.y + fall.y;
+                        : Sample<Real>{was.y + fall.y, Real(0), Real(0)};
+        const Real flip = transfer.flip_ratio;
+        const auto change = [&](const Component<Real>& on, const Stencil<Real>& at,
+                                std::uint32_t sees, Real before_it, Real falls) {
+            return sees != 0 ? sample_seen<Real>(on.change, on.step, s.stride, at, sees).value
+                             : (before_it - flip * before_it) + falls;
+        };
+        const Vec2<Real> gains = near.of({change(on_u, at_u, seen_u, was.x, fall.x),
+                                          change(on_v, at_v, seen_v, was.y, fall.y)},
+                                         near.wall - flip * near.wall);
+        Vec2<Real> v = flip * was + gains;
         const Real half_x = Real(0.5) * (u.slope_x * u.value + u.slope_y * w.value);
         const Real half_y = Real(0.5) * (w.slope_x * u.value + w.slope_y * w.value);
-        const Vec2<Real> along{u.value + transfer.dt_s * half_x, w.value + transfer.dt_s * half_y};
+        const Vec2<Real> along = near.of({u.value + transfer.dt_s * half_x,
+                                          w.value + transfer.dt_s * half_y}, near.wall);
         advect(size, {transfer, nullptr}, along, x, v, result);
         block.position[k] = x;
         block.velocity[k] = v;
@@ -219,7 +306,7 @@ void mirror_at_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
     template std::int32_t scatter_past_walls(const Particles<Real>&, const ThinWalls<Real>&, Real, \
                                      StaggeredGrid<Real>&);                                \
     template TransferResult<Real> gather_past_walls(                                       \
-        const StaggeredGrid<Real>&, const Transfer<Real>&, const ThinWalls<Real>&,         \
+        const StaggeredGrid<Real>&, const Transfer<Real>&, const Walls<Real>&,             \
         Vec2<Real>, const Vec2<PositionOf<Real>>*, const Vec2<VelocityOf<Real>>*,          \
         Particles<Real>&);                                                                 \
     template void mirror_at_thin_walls(const Walls<Real>&, const LevelOf<Real>*,           \
