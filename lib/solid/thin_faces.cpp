@@ -275,7 +275,8 @@ const WallEdge* edge_between(const ThinWalls<Real>& thin, Vec2<Real> face, std::
             const Real height =
                 absolute(static_cast<Real>(dot(face - thin.vertex[edge.from],
                                                left_normal(thin, edge))));
-            if (height < least) {
+            if (height < least ||
+                (height == least && nearest != nullptr && goes_before(edge, *nearest))) {
                 least = height;
                 nearest = thin.edge + at;
             }

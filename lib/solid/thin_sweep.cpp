@@ -45,15 +45,13 @@ Vec2<Real> start(const Journey<Real>& journey, std::uint16_t slot) {
                                       : journey.before;
 }
 
-/// Of two walls at the same place always the same one, in whatever order the records stand.
 template <class Real>
 bool comes_first(const Crossing<Real>& crossing, const WallEdge& edge,
                  const Nearest<Real>& nearest) {
     if (nearest.edge == nullptr || crossing.part != nearest.crossing.part) {
         return nearest.edge == nullptr || crossing.part < nearest.crossing.part;
     }
-    return edge.slot != nearest.edge->slot ? edge.slot < nearest.edge->slot
-                                           : edge.from < nearest.edge->from;
+    return goes_before(edge, *nearest.edge);
 }
 
 /// A way that ends short of an edge by less than half of the clearance. What is not moved away from

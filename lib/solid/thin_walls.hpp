@@ -31,6 +31,11 @@ struct WallEdge {
 
 static_assert(sizeof(WallEdge) <= kWallEdgeBytes, "raise kWallEdgeBytes");
 
+/// Of two walls at the same place always the same one answers, in whatever order the records stand.
+inline bool goes_before(const WallEdge& edge, const WallEdge& other) {
+    return edge.slot != other.slot ? edge.slot < other.slot : edge.from < other.from;
+}
+
 /// What a body's thin edges take of the pool.
 template <class Real>
 struct ThinBody {

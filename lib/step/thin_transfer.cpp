@@ -72,8 +72,9 @@ struct NextWall {
             }
             const Vec2<Real> left = left_normal(thin, one);
             const Real height = dot(x - a, left);
-            if (absolute(height) < distance) {
-                distance = absolute(height);
+            const Real far = absolute(height);
+            if (far < distance || (far == distance && edge != nullptr && goes_before(one, *edge))) {
+                distance = far;
                 normal = height >= Real(0) ? left : Vec2<Real>{} - left;
                 edge = &one;
             }
