@@ -26,23 +26,21 @@ struct StandIns {
     }
 };
 
-/// Value and slopes from the four faces of a stencil, `step` numbers apart, of which `seen` tells
-/// those that count.
+/// Value and slopes from the four faces of a stencil, `step` numbers apart, or those that stand in
+/// for them.
 template <class Real>
 Sample<Real> sample_seen(const VelocityOf<Real>* field, std::int32_t step, std::int32_t stride,
-                         const Stencil<Real>& at, std::uint32_t seen) {
+                         const Stencil<Real>& at, const StandIns& face) {
     const VelocityOf<Real>* p = field + step * at.base;
     const Real known[4] = {Real(p[0]), Real(p[step]), Real(p[step * stride]),
                            Real(p[step * (stride + 1)])};
-    const StandIns face(seen);
     return bilinear(known[face.of[0]], known[face.of[1]], known[face.of[2]], known[face.of[3]],
                     at);
 }
 
 /// From a stencil's place to the one that `sample_seen` tells of.
 template <class Real>
-Vec2<Real> way_to_sample(const Stencil<Real>& at, std::uint32_t seen) {
-    const StandIns face(seen);
+Vec2<Real> way_to_sample(const Stencil<Real>& at, const StandIns& face) {
     Real x[4];
     Real y[4];
     for (std::int32_t node = 0; node < 4; ++node) {
@@ -185,24 +183,28 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         const Stencil<Real> at_v = stencil_v(s, x);
         const std::uint32_t seen_u = seen & kAllFour;
         const std::uint32_t seen_v = seen >> 4U;
+        const StandIns faces_u(seen_u);
+        const StandIns faces_v(seen_v);
         NearWall<Real> near;
         if (seen_u != 0 && seen_v != 0) {
-            near = near_wall(walls, s, x, way_to_sample(at_u, seen_u), way_to_sample(at_v, seen_v));
+            near = near_wall(walls, s, x, way_to_sample(at_u, faces_u),
+                             way_to_sample(at_v, faces_v));
         }
         const Sample<Real> u =
-            seen_u != 0 ? sample_seen<Real>(on_u.velocity, on_u.step, s.stride, at_u, seen_u)
+            seen_u != 0 ? sample_seen<Real>(on_u.velocity, on_u.step, s.stride, at_u, faces_u)
                         : Sample<Real>{was.x + fall.x, Real(0), Real(0)};
         const Sample<Real> w =
-            seen_v != 0 ? sample_seen<Real>(on_v.velocity, on_v.step, s.stride, at_v, seen_v)
+            seen_v != 0 ? sample_seen<Real>(on_v.velocity, on_v.step, s.stride, at_v, faces_v)
                         : Sample<Real>{was.y + fall.y, Real(0), Real(0)};
         const Real flip = transfer.flip_ratio;
         const auto change = [&](const Component<Real>& on, const Stencil<Real>& at,
-                                std::uint32_t sees, Real before_it, Real falls) {
-            return sees != 0 ? sample_seen<Real>(on.change, on.step, s.stride, at, sees).value
+                                std::uint32_t sees, const StandIns& faces, Real before_it,
+                                Real falls) {
+            return sees != 0 ? sample_seen<Real>(on.change, on.step, s.stride, at, faces).value
                              : (before_it - flip * before_it) + falls;
         };
-        const Vec2<Real> gains = near.of({change(on_u, at_u, seen_u, was.x, fall.x),
-                                          change(on_v, at_v, seen_v, was.y, fall.y)},
+        const Vec2<Real> gains = near.of({change(on_u, at_u, seen_u, faces_u, was.x, fall.x),
+                                          change(on_v, at_v, seen_v, faces_v, was.y, fall.y)},
                                          near.wall - flip * near.wall);
         Vec2<Real> v = flip * was + gains;
         const Real half_x = Real(0.5) * (u.slope_x * u.value + u.slope_y * w.value);
@@ -243,8 +245,8 @@ bool liquid_at(const ThinWalls<Real>& thin, const StaggeredGrid<Real>& liquid, V
     if (on_u == 0 || on_v == 0) {
         return false;
     }
-    velocity = {sample_seen<Real>(liquid.u, 1, s.stride, at_u, on_u).value,
-                sample_seen<Real>(liquid.v, 1, s.stride, at_v, on_v).value};
+    velocity = {sample_seen<Real>(liquid.u, 1, s.stride, at_u, StandIns(on_u)).value,
+                sample_seen<Real>(liquid.v, 1, s.stride, at_v, StandIns(on_v)).value};
     return true;
 }
 

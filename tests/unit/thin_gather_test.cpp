@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "step/thin_transfer.hpp"
 #include "world_inside.hpp"
