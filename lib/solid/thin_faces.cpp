@@ -85,33 +85,41 @@ void close_faces(const GridShape& s, std::int32_t i, std::int32_t j, ThinWalls<R
     }
 }
 
-/// Edges around a face.
+/// Edges around a face. Of more than there is room for always the same ones.
 template <class Real>
 struct Edges {
+    const WallEdge* edge[kMostEdges];
     Vec2<Real> a[kMostEdges];
     Vec2<Real> b[kMostEdges];
     std::int32_t count = 0;
+
+    /// In their bodies' order, each once.
+    void add(const WallEdge& one) {
+        std::int32_t place = count;
+        while (place > 0 && goes_before(one, *edge[place - 1])) {
+            --place;
+        }
+        if (place == kMostEdges || (place > 0 && !goes_before(*edge[place - 1], one))) {
+            return;
+        }
+        count = minimum(count + 1, kMostEdges);
+        for (std::int32_t k = count - 1; k > place; --k) {
+            edge[k] = edge[k - 1];
+        }
+        edge[place] = &one;
+    }
 };
 
 template <class Real>
 Edges<Real> edges_around(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> face) {
     Edges<Real> edges;
-    std::int32_t known[kMostEdges] = {};
-    for_each_wall_edge(
-        thin, s, floor_to_int(face.x) - 1, floor_to_int(face.y) - 1, floor_to_int(face.x) + 1,
-        floor_to_int(face.y) + 1, [&](const WallEdge& edge) {
-            for (std::int32_t k = 0; k < edges.count; ++k) {
-                if (known[k] == edge.from) {
-                    return;
-                }
-            }
-            if (edges.count < kMostEdges) {
-                known[edges.count] = edge.from;
-                edges.a[edges.count] = thin.vertex[edge.from];
-                edges.b[edges.count] = thin.vertex[edge.to];
-                ++edges.count;
-            }
-        });
+    for_each_wall_edge(thin, s, floor_to_int(face.x) - 1, floor_to_int(face.y) - 1,
+                       floor_to_int(face.x) + 1, floor_to_int(face.y) + 1,
+                       [&](const WallEdge& edge) { edges.add(edge); });
+    for (std::int32_t k = 0; k < edges.count; ++k) {
+        edges.a[k] = thin.vertex[edges.edge[k]->from];
+        edges.b[k] = thin.vertex[edges.edge[k]->to];
+    }
     return edges;
 }
 

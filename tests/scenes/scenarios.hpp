@@ -32,11 +32,10 @@ struct ScenarioIn {
     weir::Status (*before_step)(StageIn<Real>& stage, std::int32_t step);
 };
 
-inline constexpr std::int32_t kScenarioCount = 7;
-
-/// The scenes, smallest memory first. For float and Fixed.
+/// The scenes of float, Fixed and SmallFixed, smallest memory first; behind them one with thin
+/// walls, which SmallFixed has not.
 template <class Real>
-const ScenarioIn<Real> (&scenarios())[kScenarioCount];
+weir::View<ScenarioIn<Real>> scenarios();
 
 using Stage = StageIn<float>;
 using Scenario = ScenarioIn<float>;

@@ -192,7 +192,7 @@ TEST_P(SolidScenario, EquationOfStateKeepsThemAndStaysFinite) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SolidScenario,
-                         ::testing::Values("dam_break_solids", "moving_piston"),
+                         ::testing::Values("dam_break_solids", "moving_piston", "tipping_cup"),
                          [](const auto& one) { return std::string(one.param); });
 
 TEST(Scenario, AllHaveDifferentNamesAndFitTheSmallestBoards) {

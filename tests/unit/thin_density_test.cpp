@@ -111,5 +111,42 @@ TYPED_TEST(ThinDensity, OfAWallThatLeans) {
     }
 }
 
+/// Around a face there is room for twelve edges: of more the same ones count after a restore, though
+/// the records stand in another order.
+TEST(ThinDensity, OfMoreEdgesThanThereIsRoomForTheSameCountAfterARestore) {
+    constexpr int kLines = 20;
+    WorldDef def = tank_def(kCells, kCells, 4 * kCells * kCells, kLines, 2 * kLines);
+    def.capacity.wall_edges = 400;
+    def.cell_m = kCell;
+    TestWorld<float> world(def);
+    TestWorld<float> restored(def);
+    BodyId id[kLines];
+    const auto add = [&](int k) {
+        const auto at = static_cast<float>(k);
+        const Vec2f way{kCell * std::cos(at), kCell * std::sin(at)};
+        const Ring spoke = {0.2F * way, (0.4F + 0.04F * at) * way};
+        BodyDef line = body_of(spoke, {8.2F * kCell, 7.9F * kCell});
+        line.open = true;
+        id[k] = put_static(*world, line);
+    };
+    for (int k = 0; k < kLines; ++k) {
+        add(k);
+    }
+    for (const int k : {3, 7, 1}) {
+        expect_ok(world->remove_body(id[k]));
+    }
+    for (const int k : {1, 3, 7}) {
+        add(k);
+    }
+    expect_ok(world->fill({{0, 0}, {16 * kCell, 12 * kCell}}));
+    world->step(1.0F / 60.0F);
+    change_worlds(world, restored, def);
+    for (int step = 0; step < 5; ++step) {
+        world->step(1.0F / 60.0F);
+        restored->step(1.0F / 60.0F);
+        ASSERT_EQ(restored->state_hash(), world->state_hash()) << step;
+    }
+}
+
 }  // namespace
 }  // namespace weir
