@@ -2,19 +2,11 @@
 // wall crosses the way from one to the other, no liquid flows. The closed faces of a wall without
 // gaps have none either, since the ways around each node form a loop that the wall leaves as often
 // as it enters it.
-#include "solid/thin_sight.hpp"
+#include "solid/seen_share.hpp"
 
 namespace weir {
 
 namespace {
-
-constexpr std::int32_t kMostEdges = 12;
-constexpr std::int32_t kMostCrossings = 4;
-
-/// Rows of a face's kernel are summed between heights at most so far apart, and where edges begin
-/// and end: among these what is seen of a row changes smoothly.
-constexpr std::int32_t kBands = 4;
-constexpr std::int32_t kMostHeights = kBands + 24;
 
 /// Whether an edge crosses the way between two neighbouring centres. Which edge of a polyline
 /// crosses the line through them is decided by comparing coordinates, where by the centres' sides
@@ -85,182 +77,71 @@ void close_faces(const GridShape& s, std::int32_t i, std::int32_t j, ThinWalls<R
     }
 }
 
-/// Edges around a face. Of more than there is room for always the same ones.
+/// Share of what each face of a row of cells would get in a full tank that gets there past thin
+/// walls: asked once, though two cells have the face.
 template <class Real>
-struct Edges {
-    const WallEdge* edge[kMostEdges];
-    Vec2<Real> a[kMostEdges];
-    Vec2<Real> b[kMostEdges];
-    std::int32_t count = 0;
+class FaceShares {
+public:
+    static constexpr std::int32_t kColumns = 32;
 
-    /// In their bodies' order, each once.
-    void add(const WallEdge& one) {
-        std::int32_t place = count;
-        while (place > 0 && goes_before(one, *edge[place - 1])) {
-            --place;
+    FaceShares(const ThinWalls<Real>& thin, const GridShape& shape) : thin_(thin), shape_(shape) {
+        for (Real& share : below_) {
+            share = kUnknown;
         }
-        if (place == kMostEdges || (place > 0 && !goes_before(*edge[place - 1], one))) {
-            return;
-        }
-        count = minimum(count + 1, kMostEdges);
-        for (std::int32_t k = count - 1; k > place; --k) {
-            edge[k] = edge[k - 1];
-        }
-        edge[place] = &one;
     }
+    /// A row's cells come from the left, `column` counted from the first.
+    void begin_row() { left_ = kUnknown; }
+    void pass(std::int32_t column) { left_ = below_[column] = kUnknown; }
+
+    /// Mean of those of a cell's faces that its centre sees.
+    Real of_cell(std::int32_t column, std::int32_t i, std::int32_t j) {
+        constexpr Real kHalf = Real(0.5);
+        const SeenFaces sees = faces_seen(thin_, shape_, shape_.index(i, j));
+        const Vec2<Real> low{static_cast<Real>(i), static_cast<Real>(j)};
+        const auto share = [&](bool seen, Real known, Real x, Real y) {
+            return !seen ? Real(0)
+                         : (known == kUnknown ? seen_share(thin_, shape_, low + Vec2<Real>{x, y})
+                                              : known);
+        };
+        const Real left = share(sees.left, left_, Real(0), kHalf);
+        const Real lower = share(sees.lower, below_[column], kHalf, Real(0));
+        const Real right = share(sees.right, kUnknown, Real(1), kHalf);
+        const Real upper = share(sees.upper, kUnknown, kHalf, Real(1));
+        left_ = sees.right ? right : kUnknown;
+        below_[column] = sees.upper ? upper : kUnknown;
+        return Real(0.25) * ((left + right) + (lower + upper));
+    }
+
+private:
+    static constexpr Real kUnknown = Real(-1);
+
+    const ThinWalls<Real>& thin_;
+    const GridShape& shape_;
+    Real left_ = kUnknown;
+    Real below_[kColumns];
 };
 
+/// What cells near a wall would show if they were full and only faces that their centres see
+/// counted.
 template <class Real>
-Edges<Real> edges_around(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> face) {
-    Edges<Real> edges;
-    for_each_wall_edge(thin, s, floor_to_int(face.x) - 1, floor_to_int(face.y) - 1,
-                       floor_to_int(face.x) + 1, floor_to_int(face.y) + 1,
-                       [&](const WallEdge& edge) { edges.add(edge); });
-    for (std::int32_t k = 0; k < edges.count; ++k) {
-        edges.a[k] = thin.vertex[edges.edge[k]->from];
-        edges.b[k] = thin.vertex[edges.edge[k]->to];
-    }
-    return edges;
-}
-
-/// Integral of the hat function from −1.
-template <class Real>
-Real hat_integral(Real x) {
-    constexpr Real kHalf = Real(0.5);
-    const Real in = clamp(x, Real(-1), Real(1));
-    return in < Real(0) ? kHalf * ((Real(1) + in) * (Real(1) + in))
-                        : Real(1) - kHalf * ((Real(1) - in) * (Real(1) - in));
-}
-
-/// Places along an axis, seen from the face, in order. What there is no room for is left out.
-template <class Real, std::int32_t kMost>
-struct Places {
-    Real at[kMost];
-    std::int32_t count = 0;
-
-    void add(Real x) {
-        if (count == kMost) {
-            return;
-        }
-        std::int32_t place = count++;
-        for (; place > 0 && x < at[place - 1]; --place) {
-            at[place] = at[place - 1];
-        }
-        at[place] = x;
-    }
-};
-
-/// Share of a row of the face's kernel that the face sees.
-template <class Real>
-Real seen_of_row(const Edges<Real>& edges, Vec2<Real> face, Real y, Real left, Real right) {
-    Places<Real, kMostCrossings + 2> crossings;
-    crossings.add(left);
-    crossings.add(right);
-    for (std::int32_t k = 0; k < edges.count; ++k) {
-        const Vec2<Real> a = edges.a[k];
-        const Vec2<Real> b = edges.b[k];
-        if ((a.y < y) == (b.y < y)) {
-            continue;
-        }
-        const Real x = (a.x - face.x) + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-        if (left < x && x < right) {
-            crossings.add(x);
-        }
-    }
-    Real seen = Real(0);
-    for (std::int32_t k = 0; k + 1 < crossings.count; ++k) {
-        const Real middle = Real(0.5) * (crossings.at[k] + crossings.at[k + 1]);
-        const Vec2<Real> place{face.x + middle, y};
-        bool blocked = false;
-        for (std::int32_t e = 0; e < edges.count; ++e) {
-            blocked = blocked || cross_edge(face, place, edges.a[e], edges.b[e]).found;
-        }
-        seen += blocked ? Real(0)
-                        : hat_integral(crossings.at[k + 1]) - hat_integral(crossings.at[k]);
-    }
-    return seen / (hat_integral(right) - hat_integral(left));
-}
-
-/// Heights between which the rows of a face's kernel are summed: those where what is seen of a row
-/// jumps, or begins to change, are where edges end and where they come into the kernel.
-template <class Real>
-struct Heights : Places<Real, kMostHeights> {
-    Heights(const Edges<Real>& edges, Vec2<Real> face, Real left, Real right, Real tank_height) {
-        const auto add = [&](Real y) {
-            if (Real(-1) < y && y < Real(1)) {
-                this->add(y);
-            }
-        };
-        const auto add_all = [&](Real y) { // with its images beyond the tank's floor and ceiling
-            add(y - face.y);
-            add(Real(0) - y - face.y);
-            add((tank_height - face.y) + (tank_height - y));
-        };
-        for (std::int32_t band = 0; band <= kBands; ++band) {
-            this->add(static_cast<Real>(2 * band - kBands) / static_cast<Real>(kBands));
-        }
-        add(Real(0) - face.y);
-        add(tank_height - face.y);
-        for (std::int32_t k = 0; k < edges.count; ++k) {
-            const Vec2<Real> a = edges.a[k];
-            const Vec2<Real> b = edges.b[k];
-            add_all(a.y);
-            add_all(b.y);
-            const Real sides[] = {face.x + left, face.x + right};
-            for (const Real side : sides) {
-                if ((a.x < side) != (b.x < side)) {
-                    add_all(a.y + (side - a.x) / (b.x - a.x) * (b.y - a.y));
+void find_seen_density(const GridShape& s, const NodeBox& cells, const ThinWalls<Real>& thin,
+                       ShareOf<Real>* full_density) {
+    constexpr std::int32_t kColumns = FaceShares<Real>::kColumns;
+    for (std::int32_t first = cells.i0; first <= cells.i1; first += kColumns) {
+        FaceShares<Real> shares(thin, s);
+        const std::int32_t columns = minimum(kColumns, cells.i1 + 1 - first);
+        for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
+            shares.begin_row();
+            for (std::int32_t k = 0; k < columns; ++k) {
+                const std::int32_t c = s.index(first + k, j);
+                if ((thin.mark[c] & kNear) == 0) {
+                    shares.pass(k);
+                    continue;
                 }
+                full_density[c] = Real(full_density[c]) * shares.of_cell(k, first + k, j);
             }
         }
     }
-};
-
-/// Share of the mass that a face would get in a full tank which gets there past thin walls. Beyond
-/// the tank's own walls liquid and walls are mirrored.
-template <class Real>
-Real seen_share(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> face) {
-    const Edges<Real> edges = edges_around(thin, s, face);
-    if (edges.count == 0) {
-        return Real(1);
-    }
-    const Real height = static_cast<Real>(s.ny);
-    const Real left = maximum(Real(-1), Real(0) - face.x);
-    const Real right = minimum(Real(1), static_cast<Real>(s.nx) - face.x);
-    const Heights<Real> heights(edges, face, left, right, height);
-    constexpr Real kHalf = Real(0.5);
-    const Real gauss = Real(0.57735027);  // two places, exact for cubics
-    Real sum = Real(0);
-    for (std::int32_t k = 0; k + 1 < heights.count; ++k) {
-        const Real middle = kHalf * (heights.at[k] + heights.at[k + 1]);
-        const Real half = kHalf * (heights.at[k + 1] - heights.at[k]);
-        const Real offsets[] = {middle - gauss * half, middle + gauss * half};
-        for (const Real offset : offsets) {
-            Real y = absolute(face.y + offset);
-            y = y > height ? height + height - y : y;
-            const Real weight = half * (Real(1) - absolute(offset));
-            sum += weight * seen_of_row(edges, face, y, left, right);
-        }
-    }
-    return sum;
-}
-
-/// What a cell's density would be if it were full and only faces that its centre sees counted.
-template <class Real>
-Real seen_density(const ThinWalls<Real>& thin, const GridShape& s, std::int32_t i,
-                  std::int32_t j) {
-    constexpr Real kHalf = Real(0.5);
-    const std::int32_t c = s.index(i, j);
-    const Vec2<Real> centre{static_cast<Real>(i) + kHalf, static_cast<Real>(j) + kHalf};
-    const Vec2<Real> way[] = {{Real(0) - kHalf, Real(0)}, {kHalf, Real(0)},
-                              {Real(0), Real(0) - kHalf}, {Real(0), kHalf}};
-    const SeenFaces sees = faces_seen(thin, s, c);
-    const bool seen[] = {sees.left, sees.right, sees.lower, sees.upper};
-    Real sum = Real(0);
-    for (std::int32_t face = 0; face < 4; ++face) {
-        sum += seen[face] ? seen_share(thin, s, centre + way[face]) : Real(0);
-    }
-    return Real(0.25) * sum;
 }
 
 }  // namespace
@@ -315,22 +196,14 @@ void close_thin_faces(const GridShape& s, const NodeBox& nodes, ThinWalls<Real>&
     const NodeBox cells{maximum(0, nodes.i0 - 2), maximum(0, nodes.j0 - 2),
                         minimum(s.nx - 1, nodes.i1 + 1), minimum(s.ny - 1, nodes.j1 + 1)};
     mark_surroundings(s, cells, thin);
-    const auto each_marked = [&](std::uint8_t bit, auto visit) {
-        for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
-            for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
-                if ((thin.mark[s.index(i, j)] & bit) != 0) {
-                    visit(i, j);
-                }
+    for (std::int32_t j = cells.j0; j <= cells.j1; ++j) {
+        for (std::int32_t i = cells.i0; i <= cells.i1; ++i) {
+            if ((thin.mark[s.index(i, j)] & kTouching) != 0) {
+                close_faces(s, i, j, thin, open_u, open_v);
             }
         }
-    };
-    each_marked(kTouching, [&](std::int32_t i, std::int32_t j) {
-        close_faces(s, i, j, thin, open_u, open_v);
-    });
-    each_marked(kNear, [&](std::int32_t i, std::int32_t j) {
-        const std::int32_t c = s.index(i, j);
-        full_density[c] = Real(full_density[c]) * seen_density(thin, s, i, j);
-    });
+    }
+    find_seen_density(s, cells, thin, full_density);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                              \
