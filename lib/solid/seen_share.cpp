@@ -87,7 +87,7 @@ struct Sorted {
     Real at[kMost];
     std::int32_t count = 0;
 
-    void add(Real x) {
+    [[gnu::noinline]] void add(Real x) {
         if (count == kMost) {
             return;
         }
