@@ -231,15 +231,42 @@ bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bo
     return far || thin.reach > Real(1) || (mark_at(thin, s, x) & kNear) != 0;
 }
 
+/// Whether no particle of a block, as seen from any wall, can have come further than a cell: then
+/// who met a thin wall is within one cell of it.
+template <class Real>
+bool stays_beside(const Flight<Real>& flight, const ThinWalls<Real>& thin) {
+    return !flight.beyond && !flight.far && thin.reach <= Real(1) - kPastCorner<Real>;
+}
+
+/// The last of some particles of such a block that may have met a thin wall or another, or −1.
+template <class Real>
+std::int32_t last_near_any(const GridShape& s, const Walls<Real>& walls,
+                           const Vec2<Real>* position, std::int32_t count) {
+    const std::uint8_t* const cases = walls.cell_case + s.index(0, 0);
+    const std::uint8_t* const marks = walls.thin->mark + s.index(0, 0);
+    while (--count >= 0) {
+        const Vec2<Real> x = position[count];
+        const std::int32_t cell = static_cast<std::int32_t>(x.y) * s.stride +
+                                  static_cast<std::int32_t>(x.x);
+        if (cases[cell] != kCellOutside || (marks[cell] & kTouching) != 0) {
+            break;
+        }
+    }
+    return count;
+}
+
 #if WEIR_HAS_LANES
-/// The same of any of a block that did not go further.
-bool any_near_thin(const GridShape& s, const ThinWalls<float>& thin, const Vec2<float>* x,
-                   std::int32_t count) {
-    std::uint32_t marks = thin.reach > 1.0F ? std::uint32_t{kNear} : 0U;
+/// Whether any particle of a block may have met a thin wall.
+bool any_near_thin(const GridShape& s, const Flight<float>& flight, const ThinWalls<float>& thin,
+                   const Vec2<float>* x, std::int32_t count) {
+    if (!stays_beside(flight, thin)) {
+        return true;
+    }
+    std::uint32_t marks = 0;
     for (std::int32_t n = 0; n < count; ++n) {
         marks |= mark_at(thin, s, x[n]);
     }
-    return (marks & kNear) != 0;
+    return (marks & kTouching) != 0;
 }
 
 /// Whether a block cannot have met anything.
@@ -305,9 +332,11 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
     const GridShape& s = scene.shape;
     const Walls<Real>& walls = scene.walls;
     const Vec2<Real>* position = scene.particles.position + first;
-    const bool one_by_one = walls.thin != nullptr || flight.beyond;
+    const bool beside = walls.thin != nullptr && stays_beside(flight, *walls.thin);
+    const bool one_by_one = !beside && (walls.thin != nullptr || flight.beyond);
     for (std::int32_t n = count; n > 0;) {
-        n = one_by_one   ? n - 1
+        n = beside       ? last_near_any(s, walls, position, n)
+            : one_by_one ? n - 1
             : flight.far ? last_past_wall(s, walls.cell_case, flight.before, position, n)
                          : last_near_wall(s, walls.cell_case, position, n);
         if (n < 0) {
@@ -341,7 +370,7 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
             const Vec2<float>* position = particles.position + first;
             if (!flight.beyond && maximum(shape.stride, shape.ny) < 0x8000 &&
                 (walls.thin == nullptr ||
-                 (!flight.far && !any_near_thin(shape, *walls.thin, position, count)))) {
+                 !any_near_thin(shape, flight, *walls.thin, position, count))) {
                 collide_in_lanes(scene, flight, first, count);
                 return;
             }

@@ -2,40 +2,81 @@
 
 namespace weir {
 
+namespace {
+
+/// The faces of a particle's two stencils: where they begin, and the box that holds them.
+template <class Real>
+struct FacesAround {
+    Vec2<Real> first_u;
+    Vec2<Real> first_v;
+    Vec2<Real> low;
+    Vec2<Real> high;
+
+    explicit FacesAround(Vec2<Real> point) {
+        constexpr Real kHalf = Real(0.5);
+        const Vec2<Real> cell{static_cast<Real>(static_cast<std::int32_t>(point.x)),
+                              static_cast<Real>(static_cast<std::int32_t>(point.y))};
+        const Vec2<Real> middle{
+            static_cast<Real>(static_cast<std::int32_t>(point.x + kHalf)) - kHalf,
+            static_cast<Real>(static_cast<std::int32_t>(point.y + kHalf)) - kHalf};
+        first_u = {cell.x, middle.y};
+        first_v = {middle.x, cell.y};
+        low = {minimum(cell.x, middle.x), minimum(cell.y, middle.y)};
+        high = low + Vec2<Real>{Real(1.5), Real(1.5)};
+    }
+    bool misses(Vec2<Real> a, Vec2<Real> b) const {
+        return maximum(a.x, b.x) < low.x || minimum(a.x, b.x) > high.x ||
+               maximum(a.y, b.y) < low.y || minimum(a.y, b.y) > high.y;
+    }
+    bool holds(Vec2<Real> a) const {
+        return low.x <= a.x && a.x <= high.x && low.y <= a.y && a.y <= high.y;
+    }
+    Vec2<Real> place(std::uint32_t bit) const {
+        return (bit < 4 ? first_u : first_v) +
+               Vec2<Real>{static_cast<Real>(static_cast<std::int32_t>(bit & 1U)),
+                          static_cast<Real>(static_cast<std::int32_t>(bit >> 1U & 1U))};
+    }
+};
+
+/// Which of four faces lie on the left of an edge, from the cross product of the edge and the way
+/// to the first one.
+template <class Number>
+std::uint32_t on_left(Number first, Number right, Number up) {
+    const Number zero{};
+    return (first >= zero ? 1U : 0U) | (first + right >= zero ? 2U : 0U) |
+           (first + up >= zero ? 4U : 0U) | (first + right + up >= zero ? 8U : 0U);
+}
+
+}  // namespace
+
 template <class Real>
 std::uint32_t seen_faces(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> point) {
-    constexpr Real kHalf = Real(0.5);
-    const auto i = static_cast<std::int32_t>(point.x);
-    const auto j = static_cast<std::int32_t>(point.y);
-    const auto upper = static_cast<std::int32_t>(point.y + kHalf);  // of the u faces around it
-    const auto right = static_cast<std::int32_t>(point.x + kHalf);  // of the v faces
+    const FacesAround<Real> faces(point);
     std::uint32_t seen = 0xFFU;
-    std::int32_t known[4] = {-1, -1, -1, -1};  // an edge comes once a cell
-    std::uint32_t looks = 0;
-    for_each_wall_edge(thin, s, i - 1, j - 1, i + 1, j + 1, [&](const WallEdge& edge) {
-        if (edge.from == known[0] || edge.from == known[1] || edge.from == known[2] ||
-            edge.from == known[3]) {
+    const auto look = [&](const WallEdge& one) {
+        const Vec2<Real> a = thin.vertex[one.from];
+        const Vec2<Real> b = thin.vertex[one.to];
+        if (faces.misses(a, b)) {
             return;
         }
-        known[looks++ % 4] = edge.from;
-        const Vec2<Real> a = thin.vertex[edge.from];
-        const Vec2<Real> b = thin.vertex[edge.to];
-        const bool left = is_left_of(point, a, b);
-        const auto look = [&](std::uint32_t bit, Vec2<Real> face) {
-            if ((seen & bit) != 0 && is_left_of(face, a, b) != left &&
-                cross_edge(point, face, a, b).found) {
-                seen &= ~bit;
+        const Vec2<Real> edge = b - a;
+        const Product<Real> right = product(Real(0) - edge.y, Real(1));
+        const Product<Real> up = product(edge.x, Real(1));
+        const std::uint32_t left = on_left(cross(edge, faces.first_u - a), right, up) |
+                                   on_left(cross(edge, faces.first_v - a), right, up) << 4U;
+        std::uint32_t beyond = (is_left_of(point, a, b) ? ~left : left) & seen;
+        // What goes all through the box parts it.
+        if (faces.holds(a) || faces.holds(b)) {
+            for (std::uint32_t bit = 0; bit < 8; ++bit) {
+                if ((beyond >> bit & 1U) != 0 && !cross_edge(point, faces.place(bit), a, b).found) {
+                    beyond &= ~(1U << bit);
+                }
             }
-        };
-        for (std::uint32_t node = 0; node < 4; ++node) {
-            const auto across = static_cast<std::int32_t>(node & 1U);
-            const auto up = static_cast<std::int32_t>(node >> 1U);
-            look(1U << node, {static_cast<Real>(i + across),
-                              static_cast<Real>(upper + up) - kHalf});
-            look(16U << node, {static_cast<Real>(right + across) - kHalf,
-                               static_cast<Real>(j + up)});
         }
-    });
+        seen &= ~beyond;
+    };
+    for_each_edge_around(thin, s, static_cast<std::int32_t>(point.x),
+                         static_cast<std::int32_t>(point.y), look);
     return seen;
 }
 

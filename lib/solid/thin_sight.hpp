@@ -77,6 +77,27 @@ inline void for_each_wall_edge(const ThinWalls<Real>& thin, const GridShape& s, 
     }
 }
 
+/// The same of a cell of the tank and those around it; of the last four edges none comes again.
+template <class Real, class Visit>
+inline void for_each_edge_around(const ThinWalls<Real>& thin, const GridShape& s, std::int32_t i,
+                                 std::int32_t j, Visit visit) {
+    std::int32_t known[4] = {-1, -1, -1, -1};
+    std::uint32_t visits = 0;
+    const std::uint16_t* row = thin.first + s.index(i - 1, j - 1);
+    for (std::int32_t y = 0; y < 3; ++y, row += s.stride) {
+        for (std::int32_t x = 0; x < 3; ++x) {  // beyond the tank there is none
+            for (std::uint16_t at = row[x]; at != kNoEdge; at = thin.edge[at].next) {
+                const WallEdge& edge = thin.edge[at];
+                if (edge.from != known[0] && edge.from != known[1] && edge.from != known[2] &&
+                    edge.from != known[3]) {
+                    known[visits++ % 4] = edge.from;
+                    visit(edge);
+                }
+            }
+        }
+    }
+}
+
 /// Whether a thin wall stands between two points that are less than a cell apart along each axis.
 template <class Real>
 inline bool hidden(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> p, Vec2<Real> q) {

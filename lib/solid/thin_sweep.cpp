@@ -192,12 +192,15 @@ bool keep_side(const ThinWalls<Real>& thin, const GridShape& shape, const Body<R
 template <class Real>
 bool way_out_of_thin(const ThinWalls<Real>& thin, const GridShape& shape,
                      const Body<Real>* bodies, Vec2<Real> place, ThinStop<Real>& stop) {
+    if (!thin.any_closed) {
+        return false;
+    }
     // Bodies overlap: the nearest edge of each says whether it holds the place.
     NearEdge<Real> nearest[kMostHits];
     std::int32_t bodies_near = 0;
     const auto i = static_cast<std::int32_t>(place.x);
     const auto j = static_cast<std::int32_t>(place.y);
-    for_each_wall_edge(thin, shape, i - 1, j - 1, i + 1, j + 1, [&](const WallEdge& edge) {
+    for_each_edge_around(thin, shape, i, j, [&](const WallEdge& edge) {
         if (bodies[edge.slot].open) {
             return;
         }

@@ -230,6 +230,7 @@ void clear_thin_walls(ThinWalls<Real>& thin, const GridShape& shape, std::int32_
         return;
     }
     thin.used = 0;
+    thin.any_closed = false;
     thin.reach = Real(0);
     for (std::int32_t slot = 0; slot < bodies; ++slot) {
         new (thin.body + slot) ThinBody<Real>();
@@ -248,6 +249,7 @@ void relink(ThinWalls<Real>& thin, const GridShape& shape, const BodyTable<Real>
                          [&](std::int32_t cell, std::int32_t from, std::int32_t to) {
                              link(thin, slot, cell, from, to);
                          });
+    thin.any_closed = thin.any_closed || (thin.body[slot].room > 0 && !table.body[slot].open);
 }
 
 template <class Real>
@@ -310,6 +312,7 @@ void remove_thin_edges(ThinWalls<Real>& thin, const BodyTable<Real>& table, std:
 
 template <class Real>
 void relink_all(ThinWalls<Real>& thin, const GridShape& shape, const BodyTable<Real>& table) {
+    thin.any_closed = false;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         if (thin.body[slot].room > 0) {
             relink(thin, shape, table, slot);

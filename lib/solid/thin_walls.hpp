@@ -78,8 +78,9 @@ struct ThinWalls {
     ThinSpan* span = nullptr;        ///< of the edge that begins at each vertex of the pool
     ThinBody<Real>* body = nullptr;
     const Vec2<Real>* vertex = nullptr;  ///< the pool, placed in the tank
-    std::int32_t capacity = 0;       ///< records; 0: this world has no room for thin walls
-    std::int32_t used = 0;           ///< of them; 0: nothing is looked at, either
+    std::uint16_t capacity = 0;      ///< records; 0: this world has no room for thin walls
+    bool any_closed = false;         ///< some are polygons', which have an inside
+    std::int32_t used = 0;           ///< records; 0: nothing is looked at, either
     Real reach = Real(0);            ///< furthest way of any of them since particles met them
 };
 

@@ -61,7 +61,7 @@ struct NextWall {
     NextWall(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> x) {
         const auto i = static_cast<std::int32_t>(x.x);
         const auto j = static_cast<std::int32_t>(x.y);
-        for_each_wall_edge(thin, s, i - 1, j - 1, i + 1, j + 1, [&](const WallEdge& one) {
+        for_each_edge_around(thin, s, i, j, [&](const WallEdge& one) {
             const Vec2<Real> a = thin.vertex[one.from];
             const Vec2<Real> b = thin.vertex[one.to];
             const Product<Real> zero{};

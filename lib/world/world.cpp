@@ -85,7 +85,7 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
         carver.take(Block::wall_span, thin.span);
         carver.take(Block::wall_body, thin.body);
         thin.vertex = bodies.placed;
-        thin.capacity = capacity.wall_edges;
+        thin.capacity = static_cast<std::uint16_t>(capacity.wall_edges);
     }
 }
 
