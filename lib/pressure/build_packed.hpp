@@ -65,7 +65,7 @@ template <bool Solids, class Weights, class Fields>
     std::int32_t flow = rounded_shift(outwards, 7);
     if (Solids && walls.moving != nullptr && (!wide || touches_wall(walls, c))) {
         constexpr std::int32_t kMost = 0x7FFFFE00;  // a fast spin's end saturates
-        flow += rounded_shift(minimum(walls.moving->flow(s, walls, i, j).raw, kMost), 9);
+        flow += rounded_shift(minimum(walls.moving->flow(grid, walls, i, j).raw, kMost), 9);
     }
     fields.divergence[c].raw = short_of(flow);
     fields.inverse_diagonal[c].raw = short_of(wide ? diagonal : -diagonal);

@@ -63,7 +63,7 @@ WEIR_ALWAYS_INLINE Real divergence_of(
         divergence += wanted_convergence(weights.grid, c, leap);
     }
     if (Solids && walls.moving != nullptr && (!wide || touches_wall(walls, c))) {
-        divergence += walls.moving->flow(s, walls, i, j);
+        divergence += walls.moving->flow(weights.grid, walls, i, j);
     }
     if (fields.on_surface) {
         const std::int32_t up = c + s.stride;
@@ -191,7 +191,7 @@ inline void add_wall_flow(const RowTask& task, std::int32_t c, std::uint32_t ask
         const std::int32_t k = WEIR_TRAILING_ZEROS(asked);
         if ((wide >> static_cast<std::uint32_t>(k) & 1U) == 0 || touches_wall(walls, c + k)) {
             divergence[k] +=
-                walls.moving->flow(s, walls, c + k - s.index(0, task.j), task.j);
+                walls.moving->flow(task.grid, walls, c + k - s.index(0, task.j), task.j);
         }
     }
 }

@@ -17,36 +17,39 @@ Vec2<Real> velocity_of_nearest(const Walls<Real>& walls, std::int32_t a, std::in
 }
 
 template <class Real>
-Real wall_flow(const GridShape& shape, const Walls<Real>& walls, std::int32_t i, std::int32_t j) {
+Real wall_flow(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t i,
+               std::int32_t j) {
+    const GridShape& shape = grid.shape;
     const std::int32_t node = shape.index(i, j);
     const std::int32_t up = node + shape.stride;
     const Vec2<Real> corner = corner_of<Real>(shape, i, j);
     constexpr Real kHalf = Real(0.5);
-    const auto thin = [&](std::int32_t face, ThinMark closed) {
+    const auto thin = [&](std::int32_t face, ThinMark closed) {  // flow_of_thin_walls
         return walls.thin != nullptr && (walls.thin->mark[face] & closed) != 0;
     };
     const auto closed_u = [&](std::int32_t low, std::int32_t high, Real x) {
-        if (thin(low, kLeftClosed)) {
-            return flow_of_thin_wall(*walls.thin, walls.body, Vec2<Real>{x, corner.y + kHalf},
-                                     low - 1, low, true);
-        }
         const Real closed = Real(1) - walls.open_u[low];
         const Vec2<Real> middle{x, corner.y + kHalf};
-        return closed > Real(0) ? closed * velocity_of_nearest(walls, low, high, middle).x
-                                : Real(0);
+        return closed > Real(0) && !thin(low, kLeftClosed)
+                   ? closed * velocity_of_nearest(walls, low, high, middle).x
+                   : Real(0);
     };
     const auto closed_v = [&](std::int32_t left, std::int32_t right, Real y) {
-        if (thin(left, kLowerClosed)) {
-            return flow_of_thin_wall(*walls.thin, walls.body, Vec2<Real>{corner.x + kHalf, y},
-                                     left - shape.stride, left, false);
-        }
         const Real closed = Real(1) - walls.open_v[left];
         const Vec2<Real> middle{corner.x + kHalf, y};
-        return closed > Real(0) ? closed * velocity_of_nearest(walls, left, right, middle).y
-                                : Real(0);
+        return closed > Real(0) && !thin(left, kLowerClosed)
+                   ? closed * velocity_of_nearest(walls, left, right, middle).y
+                   : Real(0);
     };
-    return (closed_u(node + 1, up + 1, corner.x + Real(1)) - closed_u(node, up, corner.x)) +
-           (closed_v(up, up + 1, corner.y + Real(1)) - closed_v(node, node + 1, corner.y));
+    const Real flow =
+        (closed_u(node + 1, up + 1, corner.x + Real(1)) - closed_u(node, up, corner.x)) +
+        (closed_v(up, up + 1, corner.y + Real(1)) - closed_v(node, node + 1, corner.y));
+    if constexpr (kHasThinWalls<Real>) {
+        if (walls.thin != nullptr) {
+            return flow + flow_of_thin_walls(grid, walls, i, j);
+        }
+    }
+    return flow;
 }
 
 template <class Real>

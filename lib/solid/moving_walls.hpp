@@ -13,7 +13,8 @@ template <class Real>
 struct MovingWalls {
     /// What they push into the cell (i, j) through the closed parts of its faces, counted outwards,
     /// cells/s: added to the divergence (Batty, Bertails & Bridson 2007).
-    Real (*flow)(const GridShape& shape, const Walls<Real>& walls, std::int32_t i, std::int32_t j);
+    Real (*flow)(const StaggeredGrid<Real>& grid, const Walls<Real>& walls, std::int32_t i,
+                 std::int32_t j);
     /// Whether a contour is in a cell that does not stand still: its body moves.
     bool (*shifts)(const Walls<Real>& walls, std::int32_t cell, std::int32_t up);
     /// Velocity of the nearest one at a point between two nodes; 0 where no body is near.

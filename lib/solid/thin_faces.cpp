@@ -175,21 +175,6 @@ const WallEdge* edge_between(const ThinWalls<Real>& thin, Vec2<Real> face, std::
 }
 
 template <class Real>
-Real flow_of_thin_wall(const ThinWalls<Real>& thin, const Body<Real>* bodies, Vec2<Real> face,
-                       std::int32_t before, std::int32_t cell, bool along_x) {
-    const WallEdge* edge = edge_between(thin, face, before, cell, along_x);
-    if (edge == nullptr) {
-        return Real(0);
-    }
-    // Without its part along itself: a staircase of faces would drag the liquid along.
-    const Body<Real>& body = bodies[edge->slot];
-    const Vec2<Real> velocity = body.velocity + spin_velocity(body.spin, face - body.position);
-    const Vec2<Real> normal = left_normal(thin, *edge);
-    const Real through = dot(velocity, normal);
-    return through * (along_x ? normal.x : normal.y);
-}
-
-template <class Real>
 void close_thin_faces(const GridShape& s, const NodeBox& nodes, ThinWalls<Real>& thin,
                       ShareOf<Real>* open_u, ShareOf<Real>* open_v,
                       ShareOf<Real>* full_density) {
@@ -209,8 +194,6 @@ void close_thin_faces(const GridShape& s, const NodeBox& nodes, ThinWalls<Real>&
 #define WEIR_INSTANTIATE(Real)                                                              \
     template const WallEdge* edge_between(const ThinWalls<Real>&, Vec2<Real>, std::int32_t, \
                                           std::int32_t, bool);                              \
-    template Real flow_of_thin_wall(const ThinWalls<Real>&, const Body<Real>*, Vec2<Real>,  \
-                                    std::int32_t, std::int32_t, bool);                      \
     template void close_thin_faces(const GridShape&, const NodeBox&, ThinWalls<Real>&,      \
                                    ShareOf<Real>*, ShareOf<Real>*, ShareOf<Real>*);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "solid/thin_walls.hpp"
+#include "solid/walls.hpp"
 
 namespace weir {
 
@@ -57,10 +58,14 @@ template <class Real>
 const WallEdge* edge_between(const ThinWalls<Real>& thin, Vec2<Real> face, std::int32_t before,
                              std::int32_t cell, bool along_x);
 
-/// Velocity of a thin wall through a closed face, or any face that one crosses; 0 if none does.
+/// What thin walls that move push into the cell (i, j), as `MovingWalls::flow`. The faces that one
+/// closes are stairs. With its velocity along itself it would drag along liquid that stands still;
+/// without, liquid that goes with a leaning wall has to go around the stairs. So each face has of
+/// it what the liquid in the cell shares. A wall that stands still lets nothing through: with the
+/// liquid's own velocity along it stairs did work, and whirls beside them grew.
 template <class Real>
-Real flow_of_thin_wall(const ThinWalls<Real>& thin, const Body<Real>* bodies, Vec2<Real> face,
-                       std::int32_t before, std::int32_t cell, bool along_x);
+Real flow_of_thin_walls(const StaggeredGrid<Real>& grid, const Walls<Real>& walls,
+                        std::int32_t i, std::int32_t j);
 
 /// Calls visit(edge) for the records of the cells i0 … i1, j0 … j1 that are in the tank; an edge
 /// comes once a cell.
