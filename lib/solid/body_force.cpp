@@ -54,11 +54,20 @@ Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
     for_each_beside(shape, walls, slot, cells, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
         Vec2<Real> closed;
         for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
-            if (face.slot == slot) {
-                closed = closed + face.outward;
-                impulse.add(convert<Face<Real>>(cells.pressure[c] * face.outward),
-                            convert<Face<Real>>(face.centre) - centre);
+            if (face.slot != slot) {
+                return;
             }
+            const Real pressure = cells.pressure[c];
+            if (face.thin) {
+                const Real there = pressure + Real(dot(cells.gravity_dt, face.behind));
+                impulse.add(convert<Face<Real>>(there * face.outward),
+                            (centre_of_cell<Real>(i, j) - centre) +
+                                convert<Face<Real>>(face.behind));
+                return;
+            }
+            closed = closed + face.outward;
+            impulse.add(convert<Face<Real>>(pressure * face.outward),
+                        convert<Face<Real>>(face.centre) - centre);
         });
         if (closed.x != Real(0) || closed.y != Real(0)) {
             impulse.add(contour_impulse(shape, walls, i, j, closed, cells.gravity_dt, centre));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solid/body_load.hpp"
+#include "solid/thin_sight.hpp"
 #include "solid/walls.hpp"
 
 namespace weir {
@@ -44,7 +45,24 @@ struct ClosedFace {
     std::int32_t next = 0;  ///< and at the other
     std::uint16_t slot = kNoBody;
     std::uint8_t bit = 0;           ///< 1, 2, 4, 8: left, right, lower, upper
+    bool thin = false;              ///< by a thin wall, which stands `behind` the cell's centre
+    Vec2<Real> behind{};
 };
+
+/// Whose thin wall closes a face between two cells, and where, seen from the centre of one of them.
+template <class Real>
+[[gnu::noinline]] void find_thin(const ThinWalls<Real>& thin, std::int32_t before,
+                                 std::int32_t cell, Vec2<Real> from, ClosedFace<Real>& face) {
+    const WallEdge* edge = edge_between(thin, face.centre, before, cell, face.bit < 4);
+    if (edge != nullptr) {
+        const Vec2<Real> half = face.centre - from;
+        const Vec2<Real> way = half + half;
+        face.slot = edge->slot;
+        face.thin = true;
+        face.behind = cross_edge(from, from + way, thin.vertex[edge->from],
+                                 thin.vertex[edge->to]).part * way;
+    }
+}
 
 /// Calls visit(ClosedFace) for the faces of the cell (i, j) that solids close in part. They are
 /// those through which wall_flow pushes: the same numbers, so that what the pressure does to a
@@ -61,8 +79,16 @@ inline void for_each_closed_face(const GridShape& s, const Walls<Real>& walls, s
     const auto look = [&](Real open, Vec2<Real> outward, Vec2<Real> centre, std::int32_t a,
                           std::int32_t b, std::uint8_t bit) {
         if ((among & bit) != 0 && open < Real(1)) {
-            visit(ClosedFace<Real>{(Real(1) - open) * outward, centre, a, b,
-                                   nearest_body(walls, a, b), bit});
+            ClosedFace<Real> face{(Real(1) - open) * outward, centre, a, b,
+                                  nearest_body(walls, a, b), bit};
+            if constexpr (kHasThinWalls<Real>) {
+                if (walls.thin != nullptr &&
+                    (walls.thin->mark[a] & (bit < 4 ? kLeftClosed : kLowerClosed)) != 0) {
+                    find_thin(*walls.thin, a - (bit < 4 ? 1 : s.stride), a,
+                              {x + kHalf, y + kHalf}, face);
+                }
+            }
+            visit(face);
         }
     };
     look(walls.open_u[node], {Real(-1), Real(0)}, {x, y + kHalf}, node, up, 1);
