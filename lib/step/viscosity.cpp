@@ -2,6 +2,7 @@
 
 #include "grid/diffuse.hpp"
 #include "solid/face_axis.hpp"
+#include "solid/thin_between.hpp"
 #include "step/no_slip.hpp"
 
 namespace weir {
@@ -62,6 +63,33 @@ void let_images_fall(const Borders<Real>& b, const GridShape& s, Vec2<Real> fall
     side(b.right, s.nx);
 }
 
+/// Over what `diffuse` did beside thin walls: liquid on one side does not rub on that of the other.
+template <class Real>
+void diffuse_beside(const ThinWalls<Real>& thin, const GridShape& s, const FaceShare<Real>& share,
+                    std::int32_t first_i, std::int32_t first_j, Real amount,
+                    const VelocityOf<Real>* field, VelocityOf<Real>* out) {
+    const bool on_u = share.back == 1;
+    const std::int32_t ways[] = {-1, 1, -s.stride, s.stride};
+    for (std::int32_t j = first_j; j < s.ny; ++j) {
+        for (std::int32_t i = first_i; i < s.nx; ++i) {
+            const std::int32_t face = s.index(i, j);
+            const Real own = (thin.mark[face] & kNear) != 0 ? share.at(face) : Real(0);
+            if (!(own > Real(0))) {
+                continue;
+            }
+            Real sum = Real(0);
+            for (const std::int32_t way : ways) {
+                if (!separated(thin, s, face, face + way, on_u)) {
+                    const Real other = share.at(face + way);
+                    const Real difference = Real(field[face + way]) - Real(field[face]);
+                    sum += other < own ? difference * (other / own) : difference;
+                }
+            }
+            out[face] = Real(field[face]) + amount * sum;
+        }
+    }
+}
+
 template <bool Solids, class Real>
 void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Impulse<Real>* tank,
                    Work work) {
@@ -90,6 +118,12 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
     diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, from, fields.divergence, grid.u);
     diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, from, fields.inverse_diagonal,
             grid.v);
+    if constexpr (Solids && kHasThinWalls<Real>) {
+        if (walls.thin != nullptr && work.once(s.size())) {
+            diffuse_beside(*walls.thin, s, on_u, 1, 0, amount, fields.divergence, grid.u);
+            diffuse_beside(*walls.thin, s, on_v, 0, 1, amount, fields.inverse_diagonal, grid.v);
+        }
+    }
     if (sticking && work.once(s.size())) {
         diffuse_to_walls(domain, amount, fall, from);
     }
