@@ -210,6 +210,26 @@ void extend_velocity(const Borders<Real>& b, const GridShape& s, VelocityOf<Real
     extend_component(b, s, false, v);
 }
 
+template <class Real>
+void extend_densities(const Borders<Real>& b, StaggeredGrid<Real>& grid) {
+    const GridShape& s = grid.shape;
+    const auto extend = [&](VelocityOf<Real>* light, bool is_u) {
+        Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
+        Line (*const across)(const GridShape&, std::int32_t) = is_u ? column : row;
+        const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
+        const bool seam = is_u ? b.wrap_y : b.wrap_x;
+        copy(light, along(s, -1), along(s, seam ? last : 0));
+        copy(light, along(s, last + 1), along(s, seam ? 0 : last));
+        if (is_u ? b.wrap_x : b.wrap_y) {
+            copy(light, across(s, -1), across(s, (is_u ? s.nx : s.ny) - 1));
+        }
+    };
+    if (!Stored<Real>::shares_momentum && grid.inverse_density_u != nullptr) {
+        extend(grid.inverse_density_u, true);
+        extend(grid.inverse_density_v, false);
+    }
+}
+
 /// `off`: what of the fall leads from the wall. By itself: four walls share it.
 template <class Real>
 [[gnu::noinline]] void close_wall(VelocityOf<Real>* velocity,
@@ -251,6 +271,7 @@ void close_walls(const Borders<Real>& b, Vec2<Real> fall, const LevelOf<Real>* l
     template void fold_borders(const Borders<Real>&, StaggeredGrid<Real>&);              \
     template void fold_counts(const Borders<Real>&, const GridShape&, VelocityOf<Real>*, \
                               VelocityOf<Real>*);                                        \
+    template void extend_densities(const Borders<Real>&, StaggeredGrid<Real>&);          \
     template void extend_velocity(const Borders<Real>&, const GridShape&,                \
                                   VelocityOf<Real>*, VelocityOf<Real>*);                 \
     template void close_walls(const Borders<Real>&, Vec2<Real>, const LevelOf<Real>*,    \

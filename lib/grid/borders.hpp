@@ -58,6 +58,10 @@ template <class Real>
 void extend_velocity(const Borders<Real>& borders, const GridShape& shape,
                      VelocityOf<Real>* u, VelocityOf<Real>* v);
 
+/// With two liquids: ghost faces are as dense as those that they mirror or repeat.
+template <class Real>
+void extend_densities(const Borders<Real>& borders, StaggeredGrid<Real>& grid);
+
 /// Ghost cells of a cell field take the tank's other side. Walls: nothing is done.
 template <bool Seams = true, class Real, class Field>
 inline void extend_cells(const Borders<Real>& b, const GridShape& s, Field* field) {

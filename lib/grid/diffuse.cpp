@@ -36,7 +36,7 @@ void diffuse(const GridShape& s, const FaceShare<Real>& share, std::int32_t firs
             if (along_x && i == 0) {
                 one(i++);
             }
-            if (along_x || j > 0) {
+            if (share.light == nullptr && (along_x || j > 0)) {
                 i = diffuse_lanes(share, s.stride, amount, field, row + i, row + s.nx, out) - row;
             }
         }

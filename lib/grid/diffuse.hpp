@@ -5,14 +5,15 @@
 
 namespace weir {
 
-/// How much liquid a component's faces carry, as far as it matters to what rubs on them.
+/// How much mass a component's faces carry, as far as it matters to what rubs on them.
 template <class Real>
 struct FaceShare {
     const DensityOf<Real>* density;  ///< of the cells, ghosts mirrored
     const ShareOf<Real>* open;       ///< open fraction of the faces; null: no solids
     std::int32_t back;               ///< from a face to the cell before it: 1 for u, stride for v
+    const VelocityOf<Real>* light = nullptr;  ///< 1/density of the faces; null: 1 everywhere
 
-    /// 0 … 1. From half full on faces count as full, so that the noise between particles does not.
+    /// From half full on faces count as full, so that the noise between particles does not.
     Real at(std::int32_t face) const {
         const Real before = density[face - back];
         const Real after = density[face];
@@ -20,7 +21,9 @@ struct FaceShare {
             return Real(0);
         }
         const Real full = minimum(before + after, Real(1));
-        return open == nullptr ? full : full * Real(open[face]);
+        const Real volume = open == nullptr ? full : full * Real(open[face]);
+        return Stored<Real>::shares_momentum || light == nullptr ? volume
+                                                                 : volume / Real(light[face]);
     }
 };
 
@@ -49,7 +52,7 @@ inline Real changed([[maybe_unused]] VelocityOf<Real> here, Real then,
 }
 
 /// out = field + amount ∇²field on one component's faces; `first_i`, `first_j`: the first face
-/// that is no wall. Each face and its neighbour pull one another by the share of the lesser of
+/// that is no wall. Each face and its neighbour pull one another by the mass of the lesser of
 /// both: what one gains the other loses, and a drop that rushes by does not drag a pool along. A
 /// face counts if both its cells have seen a particle; one that does not exerts nothing. Ghost
 /// lines of the field have been extended. `out` keeps its value where no liquid is.

@@ -8,6 +8,7 @@
 #include "pressure/project_packed.hpp"
 #include "pressure/relax.hpp"
 #include "pressure/relax_packed.hpp"
+#include "pressure/sharpen_between.hpp"
 #include "pressure/start.hpp"
 #include "pressure/system.hpp"
 
@@ -246,6 +247,7 @@ constexpr detail::SecondLiquid<Real> stages_of_two() {
     if constexpr (!Stored<Real>::shares_momentum) {
         stages.in_open = solve_and_project<false, true, Real>;
         stages.lift_in_open = lift_by_mass<false, Real>;
+        stages.sharpen_between = sharpen_between<Real>;
         if constexpr (Solids) {
             stages.among_solids = solve_and_project<true, true, Real>;
             stages.lift_among_solids = lift_by_mass<true, Real>;

@@ -60,6 +60,9 @@ struct detail::SecondLiquid {
                           Weights<SumOf<Real>>&);
     Solver in_open;
     Lift<false> lift_in_open;      ///< work of its drift (pressure/patch_drift.hpp)
+    /// Of velocities between the transfers (pressure/sharpen_between.hpp).
+    void (*sharpen_between)(const Domain<Real>& domain, Real smoothing, VelocityOf<Real>* sharp_u,
+                            VelocityOf<Real>* sharp_v, Work work);
     Solver among_solids = nullptr;  ///< null: there is room for none
     Lift<true> lift_among_solids = nullptr;
 };

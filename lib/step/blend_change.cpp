@@ -1,5 +1,6 @@
 #include "step/blend_change.hpp"
 
+#include "pressure/projection.hpp"
 #include "step/blend_packed.hpp"
 #include "step/depth_bits.hpp"
 #include "step/face_lanes.hpp"
@@ -194,6 +195,10 @@ void sharpen(const Domain<Real>& domain, VelocityOf<Real>* sharp_u, VelocityOf<R
         work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
             sharpen_rows<Real>(borders, rows, of_u, of_v);
         });
+    }
+    const detail::SecondLiquid<Real>* const second = domain.fields.second_liquid;
+    if (second != nullptr) {
+        second->sharpen_between(domain, kSmoothing<Real>, sharp_u, sharp_v, work);
     }
     if (work.once(s.border())) {
         extend_velocity(borders, s, sharp_u, sharp_v);

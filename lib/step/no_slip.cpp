@@ -201,12 +201,13 @@ void diffuse_to_walls(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
     const Walls<Real>& walls = domain.walls;
     const PressureFields<Real>& fields = domain.fields;
     const GridShape& s = domain.grid.shape;
-    const FaceShare<Real> on_u{fields.density, nullptr, 1};
-    const FaceShare<Real> on_v{fields.density, nullptr, s.stride};
+    const StaggeredGrid<Real>& grid = domain.grid;
+    const FaceShare<Real> on_u{fields.density, nullptr, 1, grid.inverse_density_u};
+    const FaceShare<Real> on_v{fields.density, nullptr, s.stride, grid.inverse_density_v};
     diffuse_component<Real>({s, walls, true}, on_u, amount, fall.x, from, fields.divergence,
-                            domain.grid.u);
+                            grid.u);
     diffuse_component<Real>({s, walls, false}, on_v, amount, fall.y, from,
-                            fields.inverse_diagonal, domain.grid.v);
+                            fields.inverse_diagonal, grid.v);
 }
 
 #define WEIR_INSTANTIATE(Real)                                \

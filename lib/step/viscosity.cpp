@@ -106,13 +106,16 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
         extend_velocity(borders, s, grid.u, grid.v);
         let_images_fall(borders, s, fall, grid);
         mirror_cells(borders, s, fields.density);
+        extend_densities(borders, grid);
     }
     const Part copied = work.take(s.ny + 2, s.nx + 2);
     copy_rows(s, copied, grid.u, fields.divergence);
     copy_rows(s, copied, grid.v, fields.inverse_diagonal);
     const bool cut = Solids && walls.active;
-    const FaceShare<Real> on_u{fields.density, cut ? walls.open_u : nullptr, 1};
-    const FaceShare<Real> on_v{fields.density, cut ? walls.open_v : nullptr, s.stride};
+    const FaceShare<Real> on_u{fields.density, cut ? walls.open_u : nullptr, 1,
+                               grid.inverse_density_u};
+    const FaceShare<Real> on_v{fields.density, cut ? walls.open_v : nullptr, s.stride,
+                               grid.inverse_density_v};
     const Part rows = work.take(s.ny, s.nx);
     const std::int32_t from = fields.settling ? kNearest : rounded_from(fields.quiet_turn);
     diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, from, fields.divergence, grid.u);
