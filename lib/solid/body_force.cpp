@@ -70,7 +70,8 @@ Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
                         convert<Face<Real>>(face.centre) - centre);
         });
         if (closed.x != Real(0) || closed.y != Real(0)) {
-            impulse.add(contour_impulse(shape, walls, i, j, closed, cells.gravity_dt, centre));
+            impulse.add(contour_impulse(shape, walls, i, j, closed,
+                                        gradient_at_rest(shape, walls, cells, c), centre));
         }
     });
     return impulse;

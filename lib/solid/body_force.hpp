@@ -16,7 +16,31 @@ struct PressedCells {
     const DensityOf<Real>* density = nullptr;  ///< 1: full
     const VelocityOf<Real>* u = nullptr;       ///< on the faces
     const VelocityOf<Real>* v = nullptr;
+    const VelocityOf<Real>* light_u = nullptr;  ///< 1/density there; null: 1 everywhere
+    const VelocityOf<Real>* light_v = nullptr;
 };
+
+/// The pressure's gradient at rest in a cell: its open faces tell how dense it is.
+template <class Real>
+inline Vec2<Real> gradient_at_rest(const GridShape& s, const Walls<Real>& walls,
+                                   const PressedCells<Real>& cells, std::int32_t c) {
+    if (Stored<Real>::shares_momentum || cells.light_u == nullptr) {
+        return cells.gravity_dt;
+    }
+    Real open = Real(0);
+    Real light = Real(0);
+    const auto look = [&](const ShareOf<Real>* shares, const VelocityOf<Real>* lights,
+                          std::int32_t face) {
+        const Real share = walls.active ? Real(shares[face]) : Real(1);
+        open += share;
+        light += share * Real(lights[face]);
+    };
+    look(walls.open_u, cells.light_u, c);
+    look(walls.open_u, cells.light_u, c + 1);
+    look(walls.open_v, cells.light_v, c);
+    look(walls.open_v, cells.light_v, c + s.stride);
+    return light > Real(0) ? (open / light) * cells.gravity_dt : cells.gravity_dt;
+}
 
 /// Cells of a box around the nodes that a body wrote.
 inline NodeBox cells_of(const GridShape& shape, const NodeBox& drawn) {

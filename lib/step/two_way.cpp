@@ -21,7 +21,7 @@ void press_on_tank(const Simulation<Real>& simulation, const PressedCells<Real>&
     const auto push = [&](std::int32_t c, std::int32_t face, const ShareOf<Real>* open,
                           Vec2<Real> outward) {
         if (cells.level[c] > Real(0)) {
-            const Real way = dot(cells.gravity_dt, outward);
+            const Real way = dot(gradient_at_rest(s, walls, cells, c), outward);
             const Real more = Real(0.5) * way;
             const Real share = walls.active ? Real(open[face]) : Real(1);
             const Vec2<Real> force = (share * (cells.pressure[c] + more)) * outward;
@@ -53,7 +53,9 @@ PressedCells<Real> pressed_cells(const Simulation<Real>& simulation, Seconds<Rea
             simulation.settings.fall_in(dt_s),
             simulation.pressure.density,
             simulation.grid.u,
-            simulation.grid.v};
+            simulation.grid.v,
+            simulation.grid.inverse_density_u,
+            simulation.grid.inverse_density_v};
 }
 
 template <class Real>

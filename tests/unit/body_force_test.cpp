@@ -237,5 +237,38 @@ TEST(BodyForce, MiddleOfTheContourIsThatOfItsLength) {
     EXPECT_NEAR(both.y, both.x, 1.0e-6F);
 }
 
+/// Force on a square in a layer of a tenth of the density, over what it is in the heavy one below.
+template <class Real>
+double lift_in_lighter_layer() {
+    const Ring square = rectangle(5, 5);
+    const auto lift = [&](float height) {
+        WorldDef def = tank_def(24, 24, 2400, 1, 4);
+        def.capacity.two_way = true;
+        def.capacity.second_liquid = true;
+        def.second_density_ratio = 0.1F;
+        def.cell_m = 1;
+        def.gravity_mps2 = {0, -1};
+        TestWorld<Real> world(def);
+        const BodyId id = put_static(*world, body_of(square, {12.2F, height}));
+        expect_ok(world->fill({{0, 0}, {24, 10}}));
+        expect_ok(world->fill({{0, 10}, {24, 20}}, nullptr, Liquid::second));
+        double sum = 0;
+        for (int step = 0; step < 600; ++step) {
+            world->step(0.3F);
+            BodyForce force;
+            expect_ok(world->force(id, &force));
+            sum += step < 300 ? 0 : static_cast<double>(force.impulse_m3ps.y);
+        }
+        return sum;
+    };
+    return lift(15) / lift(5);
+}
+
+/// The pressure's way from a cell to the wall goes by the density there: it was 0.077.
+TEST(BodyForce, OfALighterLayerIsAsMuchLess) {
+    EXPECT_NEAR(lift_in_lighter_layer<float>(), 0.1, 0.002);
+    EXPECT_NEAR(lift_in_lighter_layer<Fixed>(), 0.1, 0.002);
+}
+
 }  // namespace
 }  // namespace weir
