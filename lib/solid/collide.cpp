@@ -6,6 +6,7 @@
 #include "solid/near_wall_lanes.hpp"
 #include "solid/open_around.hpp"
 #include "solid/set_back.hpp"
+#include "solid/thin_marks.hpp"
 #include "solid/thin_sweep.hpp"
 #include "solid/way_out.hpp"
 
@@ -224,51 +225,29 @@ bool meet(Scene<Real>& scene, std::int32_t k, Vec2<Real> before, Went went, bool
     return (x.x == kept.x && x.y == kept.y) || meet_thin(scene, k, kept, false);
 }
 
-/// Whether a thin wall can be on a particle's way to `x`: within two cells, or anywhere if the
-/// particle or a wall moved further than a cell.
+/// Whether a particle of a block that stays beside thin walls may have met one, or another wall.
 template <class Real>
-bool near_thin(const GridShape& s, const ThinWalls<Real>& thin, Vec2<Real> x, bool far) {
-    return far || thin.reach > Real(1) || (mark_at(thin, s, x) & kNear) != 0;
+bool may_have_met(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
+    return case_at(s, walls, x) != kCellOutside || (mark_at(*walls.thin, s, x) & kTouching) != 0;
 }
 
-/// Whether no particle of a block, as seen from any wall, can have come further than a cell: then
-/// who met a thin wall is within one cell of it.
+/// A particle of a block that is not passed over by the cells of all.
 template <class Real>
-bool stays_beside(const Flight<Real>& flight, const ThinWalls<Real>& thin) {
-    return !flight.beyond && !flight.far && thin.reach <= Real(1) - kPastCorner<Real>;
-}
-
-/// The last of some particles of such a block that may have met a thin wall or another, or −1.
-template <class Real>
-std::int32_t last_near_any(const GridShape& s, const Walls<Real>& walls,
-                           const Vec2<Real>* position, std::int32_t count) {
-    const std::uint8_t* const cases = walls.cell_case + s.index(0, 0);
-    const std::uint8_t* const marks = walls.thin->mark + s.index(0, 0);
-    while (--count >= 0) {
-        const Vec2<Real> x = position[count];
-        const std::int32_t cell = static_cast<std::int32_t>(x.y) * s.stride +
-                                  static_cast<std::int32_t>(x.x);
-        if (cases[cell] != kCellOutside || (marks[cell] & kTouching) != 0) {
-            break;
-        }
+void meet_one(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t first, std::int32_t n) {
+    const GridShape& s = scene.shape;
+    const Walls<Real>& walls = scene.walls;
+    const Vec2<Real> x = scene.particles.position[first + n];
+    const Vec2<Real> before = flight.before[n];
+    const Went how = went(before, x);
+    const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, how == Went::far);
+    if (case_at(s, walls, x) != kCellOutside || goes_further(before, x, kPastCorner<Real>) ||
+        thin) {
+        note(scene, first + n, meet(scene, first + n, before, how, thin), before,
+             flight.mark_removed);
     }
-    return count;
 }
 
 #if WEIR_HAS_LANES
-/// Whether any particle of a block may have met a thin wall.
-bool any_near_thin(const GridShape& s, const Flight<float>& flight, const ThinWalls<float>& thin,
-                   const Vec2<float>* x, std::int32_t count) {
-    if (!stays_beside(flight, thin)) {
-        return true;
-    }
-    std::uint32_t marks = 0;
-    for (std::int32_t n = 0; n < count; ++n) {
-        marks |= mark_at(thin, s, x[n]);
-    }
-    return (marks & kTouching) != 0;
-}
-
 /// Whether a block cannot have met anything.
 [[gnu::noinline]] bool is_in_the_open(const BlockTask& task, std::int32_t count) {
     Extent<float> ways = extent_of_places(task.before, count);
@@ -307,6 +286,34 @@ void collide_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int
     }
     scene.result.tested += near.count;
 }
+
+/// A block that stays beside thin walls.
+void collide_beside_in_lanes(Scene<float>& scene, const Flight<float>& flight, std::int32_t first,
+                             std::int32_t count) {
+    const GridShape& s = scene.shape;
+    const Walls<float>& walls = scene.walls;
+    const Vec2<float>* position = scene.particles.position + first;
+    const MarkedInBlock<float> marked(*walls.thin, s, position, count);
+    if (marked.count() == 0) {
+        collide_in_lanes(scene, flight, first, count);
+        return;
+    }
+    std::int32_t numbers[kBlock<float> + 8];
+    std::uint32_t cells[kBlock<float> + 8];
+    NearWall near{0, numbers, cells};
+    find_near_wall({s, walls.cell_case, flight.before, position, false}, count, near);
+    std::int32_t of_marked = 0;
+    for (std::int32_t of_near = 0; of_near < near.count || of_marked < marked.count();) {
+        const std::int32_t by_contour = of_near < near.count ? near.n[of_near] : -1;
+        const std::int32_t by_mark = of_marked < marked.count() ? marked[of_marked] : -1;
+        const std::int32_t n = maximum(by_contour, by_mark);
+        of_near += n == by_contour ? 1 : 0;
+        of_marked += n == by_mark ? 1 : 0;
+        if (may_have_met(s, walls, position[n])) {
+            meet_one(scene, flight, first, n);
+        }
+    }
+}
 #endif
 
 /// Nearly all particles are in cells without solid, and nearly all others clearly in the open.
@@ -333,23 +340,16 @@ void collide_plain(Scene<Real>& scene, const Flight<Real>& flight, std::int32_t 
     const Walls<Real>& walls = scene.walls;
     const Vec2<Real>* position = scene.particles.position + first;
     const bool beside = walls.thin != nullptr && stays_beside(flight, *walls.thin);
-    const bool one_by_one = !beside && (walls.thin != nullptr || flight.beyond);
+    const bool one_by_one = walls.thin != nullptr || flight.beyond;
     for (std::int32_t n = count; n > 0;) {
-        n = beside       ? last_near_any(s, walls, position, n)
-            : one_by_one ? n - 1
+        n = one_by_one   ? n - 1
             : flight.far ? last_past_wall(s, walls.cell_case, flight.before, position, n)
                          : last_near_wall(s, walls.cell_case, position, n);
         if (n < 0) {
             return;
         }
-        const Vec2<Real> x = position[n];
-        const Vec2<Real> before = flight.before[n];
-        const Went how = went(before, x);
-        const bool thin = walls.thin != nullptr && near_thin(s, *walls.thin, x, how == Went::far);
-        if (case_at(s, walls, x) != kCellOutside || goes_further(before, x, kPastCorner<Real>) ||
-            thin) {
-            note(scene, first + n, meet(scene, first + n, before, how, thin), before,
-                 flight.mark_removed);
+        if (!beside || may_have_met<Real>(s, walls, position[n])) {
+            meet_one(scene, flight, first, n);
         }
     }
 }
@@ -367,11 +367,11 @@ void collide(const GridShape& shape, const Walls<Real>& walls, const Flight<Real
     } else {
 #if WEIR_HAS_LANES
         if constexpr (kHasLanes<Real>) {
-            const Vec2<float>* position = particles.position + first;
+            const auto in_lanes = walls.thin == nullptr ? collide_in_lanes
+                                                        : collide_beside_in_lanes;
             if (!flight.beyond && maximum(shape.stride, shape.ny) < 0x8000 &&
-                (walls.thin == nullptr ||
-                 !any_near_thin(shape, flight, *walls.thin, position, count))) {
-                collide_in_lanes(scene, flight, first, count);
+                (walls.thin == nullptr || stays_beside(flight, *walls.thin))) {
+                in_lanes(scene, flight, first, count);
                 return;
             }
         }

@@ -83,7 +83,7 @@ struct NextWall {
 /// What holds of a velocity's part along a wall's normal nearer to the wall than it was sampled:
 /// it grows with the distance from the wall's own. Without it particles gathered on thin walls.
 template <class Real>
-struct NearWall {
+struct TowardsWall {
     Vec2<Real> normal{};
     Real wall = Real(0);  ///< its own velocity along the normal
     Real less = Real(0);  ///< share that does not hold
@@ -95,7 +95,7 @@ struct NearWall {
 };
 
 template <class Real>
-NearWall<Real> near_wall(const Walls<Real>& walls, const GridShape& s, Vec2<Real> x,
+TowardsWall<Real> near_wall(const Walls<Real>& walls, const GridShape& s, Vec2<Real> x,
                          Vec2<Real> way_u, Vec2<Real> way_v) {
     const NextWall<Real> next(*walls.thin, s, x);
     if (next.edge == nullptr) {
@@ -169,7 +169,9 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
     Component<Real> on_v{};
     components(grid, on_u, on_v);
     TransferResult<Real> result;
-    for (std::int32_t k = 0; k < block.count; ++k) {
+    const MarkedInBlock<Real> marked(thin, s, before, block.count);
+    for (std::int32_t m = 0; m < marked.count(); ++m) {
+        const std::int32_t k = marked[m];
         Vec2<Real> x = before[k];
         if (!beside_thin_wall(thin, s, x)) {
             continue;
@@ -185,7 +187,7 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         const std::uint32_t seen_v = seen >> 4U;
         const StandIns faces_u(seen_u);
         const StandIns faces_v(seen_v);
-        NearWall<Real> near;
+        TowardsWall<Real> near;
         if (seen_u != 0 && seen_v != 0) {
             near = near_wall(walls, s, x, way_to_sample(at_u, faces_u),
                              way_to_sample(at_v, faces_v));
@@ -286,8 +288,11 @@ void mirror_at_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
     const auto wet = [&](std::int32_t before, std::int32_t c, std::uint32_t unseen) {
         return level[unseen == 0 ? c : before] > Real(0);
     };
+    const auto next = [&](std::int32_t j, std::int32_t i) {
+        return next_marked(&thin, s, j, j, i, s.nx, ThinMark(kLeftClosed | kLowerClosed));
+    };
     for (std::int32_t j = 0; j < s.ny; ++j) {
-        for (std::int32_t i = 0; i < s.nx; ++i) {
+        for (std::int32_t i = next(j, 0); i < s.nx; i = next(j, i + 1)) {
             const std::int32_t c = s.index(i, j);
             const std::uint32_t mark = thin.mark[c];
             Vec2<Real> velocity;

@@ -3,6 +3,7 @@
 // wall come here.
 #pragma once
 
+#include "solid/thin_marks.hpp"
 #include "solid/thin_sight.hpp"
 #include "solid/walls.hpp"
 #include "step/grid_to_particle.hpp"
@@ -22,13 +23,18 @@ inline void for_each_beside(const Particles<Real>& particles, const Part& part,
                             const ThinWalls<Real>& thin, const GridShape& s, Away away,
                             Beside beside) {
     std::int32_t first = part.first;
-    for (std::int32_t k = part.first; k < part.end; ++k) {
-        if (beside_thin_wall(thin, s, Vec2<Real>(particles.position[k]))) {
-            if (first < k) {
-                away(Part{first, k});
+    for (std::int32_t begin = part.first; begin < part.end; begin += kBlock<Real>) {
+        const MarkedInBlock<Real> marked(thin, s, particles.position + begin,
+                                         minimum(kBlock<Real>, part.end - begin));
+        for (std::int32_t m = marked.count() - 1; m >= 0; --m) {
+            const std::int32_t k = begin + marked[m];
+            if (beside_thin_wall(thin, s, Vec2<Real>(particles.position[k]))) {
+                if (first < k) {
+                    away(Part{first, k});
+                }
+                beside(k);
+                first = k + 1;
             }
-            beside(k);
-            first = k + 1;
         }
     }
     if (first < part.end) {
