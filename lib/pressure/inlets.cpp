@@ -121,9 +121,8 @@ void make_room(const Domain<Real>& domain) {
 /// the cell in which it lies.
 template <class Real>
 Vec2<Real> centre_seen(const GridShape& s, const Walls<Real>& walls, Vec2<Real> place) {
-    constexpr Real kHalf = Real(0.5);
     const auto centre_of = [](Real at) {
-        return static_cast<Real>(static_cast<std::int32_t>(at)) + kHalf;
+        return static_cast<Real>(static_cast<std::int32_t>(at)) + Real(0.5);
     };
     const Vec2<Real> own{centre_of(place.x), centre_of(place.y)};
     if (walls.thin == nullptr || (mark_at(*walls.thin, s, place) & kTouching) == 0) {
