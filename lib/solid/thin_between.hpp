@@ -9,7 +9,7 @@ namespace weir {
 /// their cells is closed, or, one behind the other, one of them is hidden from the cell between.
 template <class Real>
 inline bool separated(const ThinWalls<Real>& thin, const GridShape& s, std::int32_t face,
-               std::int32_t neighbour, bool on_u) {
+                      std::int32_t neighbour, bool on_u) {
     const std::int32_t low = minimum(face, neighbour);
     const std::int32_t high = maximum(face, neighbour);
     const bool in_row = high - low == 1;
