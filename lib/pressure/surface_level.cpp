@@ -104,6 +104,22 @@ void density_from_faces(const Domain<Real>& domain, const CutDensity<Real>& cut,
     }
 }
 
+/// No surface opens where liquid is pressed: two cells side by side that thinned out there were a
+/// sink that took the weight off a whole pool for a substep. Each is no evidence for the other.
+template <class Real>
+void keep_pressed(const GridShape& s, const Part& rows, Real held, PressureFields<Real>& fields) {
+    for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        const Part columns = s.columns(j);
+        const std::int32_t end = s.index(columns.end, j);
+        for (std::int32_t c = s.index(columns.first, j); c < end; ++c) {
+            LevelOf<Real>& level = fields.level[c];
+            if (!(level > Real(0)) && level > kEmptyLevel<Real> && fields.pressure[c] > held) {
+                level = kFilledLevel<Real>;
+            }
+        }
+    }
+}
+
 template <class Real>
 bool surrounded(const GridShape& s, const Borders<Real>& borders, const Walls<Real>& walls,
                 const LevelOf<Real>* level, std::int32_t i, std::int32_t j) {
@@ -219,7 +235,7 @@ Real level_of_density(Real density) {
 
 template <class Real>
 void surface_level(const Domain<Real>& domain, Real rest_count, EmptySlivers<Real> empty_slivers,
-                   Work work) {
+                   Work work, Real held) {
     const Borders<Real>& borders = domain.borders;
     const Walls<Real>& walls = domain.walls;
     PressureFields<Real>& fields = domain.fields;
@@ -228,12 +244,17 @@ void surface_level(const Domain<Real>& domain, Real rest_count, EmptySlivers<Rea
     cut.full = walls.active ? walls.full_density : nullptr;
     cut.sliver = Real(1) / rest_count;
     const Real per_face = Real(1) / (Real(4 * Stored<Real>::particle_mass) * rest_count);
+    // Compressible liquid stores what flows into a cell: one that holds little has no room for it.
+    const bool fills = !(fields.sound_speed > Real(0));
     work.share(work.take(s.ny, s.nx), s.nx, 1, [&](const Part& rows, std::int32_t) {
         if constexpr (Stored<Real>::coarse) {
             packed_density(domain, cut, static_cast<std::int32_t>(rest_count), empty_slivers,
                            rows);
         } else {
             density_from_faces(domain, cut, per_face, empty_slivers, rows);
+            if (fills && held > Real(0)) {
+                keep_pressed(s, rows, held, fields);
+            }
         }
     });
     if (work.once(s.border())) {
@@ -242,8 +263,6 @@ void surface_level(const Domain<Real>& domain, Real rest_count, EmptySlivers<Rea
             extend_cells(borders, s, fields.density);
         }
     }
-    // Compressible liquid stores what flows into a cell: one that holds little has no room for it.
-    const bool fills = !(fields.sound_speed > Real(0));
     work.share_in_turn(work.take(s.ny, s.nx), s.nx, 2, [&](const Part& rows, std::int32_t) {
         if (fills) {
             fill_dimples(s, borders, walls, rows, fields.level);
@@ -256,7 +275,7 @@ void surface_level(const Domain<Real>& domain, Real rest_count, EmptySlivers<Rea
 
 #define WEIR_INSTANTIATE(Real)            \
     template Real level_of_density(Real); \
-    template void surface_level(const Domain<Real>&, Real, EmptySlivers<Real>, Work);
+    template void surface_level(const Domain<Real>&, Real, EmptySlivers<Real>, Work, Real);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

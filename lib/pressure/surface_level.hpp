@@ -11,12 +11,19 @@ namespace weir {
 template <class Real>
 Real level_of_density(Real density);
 
+/// Under so many cells of liquid no surface is near. Viscous flow is so smooth that particles
+/// gather in streaks and thin out beside them; without viscosity their own motion undoes that.
+template <class Real>
+inline constexpr Real kPressedHead = Real(2);
+
 /// Density = mean of the masses on the cell's four faces over what a full cell would show there;
 /// level from it. An air cell that liquid surrounds counts as liquid: it would be a sink of
-/// pressure. `empty_slivers`: null where there is no room for bodies. Order: by row. Cost: 4 sums
-/// and about one square root a cell near the surface.
+/// pressure. So does one that particles reach and whose last pressure was above `held`; 0: none
+/// does. `empty_slivers`: null where there is no room for bodies. Order: by row. Cost: 4 sums and
+/// about one square root a cell near the surface.
 template <class Real>
 void surface_level(const Domain<Real>& domain, Real rest_count,
-                   EmptySlivers<Real> empty_slivers = nullptr, Work work = {});
+                   EmptySlivers<Real> empty_slivers = nullptr, Work work = {},
+                   Real held = Real(0));
 
 }  // namespace weir

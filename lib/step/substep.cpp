@@ -70,7 +70,10 @@ void find_surface(Simulation<Real>& simulation, const Domain<Real>& domain,
         const Real held = Real(1.0F / kDropLength2) * plan.surface_tension;
         fields.on_surface = held >= larger_part(simulation.settings.gravity) ? kDrops : kPools;
     }
-    surface_level(domain, simulation.settings.rest_count, simulation.stages->empty_slivers, work);
+    const Settings<Real>& settings = simulation.settings;
+    const bool thins_out = plan.viscosity > Real(0) && !fields.on_surface;
+    surface_level(domain, settings.rest_count, simulation.stages->empty_slivers, work,
+                  thins_out ? kPressedHead<Real> * settings.cell_weight(fields.last_dt) : Real(0));
 }
 
 /// As Fall::of says. Sound makes substeps so short that rounding always shows. Others owe only
