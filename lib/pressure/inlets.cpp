@@ -3,7 +3,6 @@
 #include "math/packed_arithmetic.hpp"
 #include "pressure/domain.hpp"
 #include "pressure/make_room.hpp"
-#include "solid/thin_sight.hpp"
 
 namespace weir {
 
@@ -117,32 +116,6 @@ void make_room(const Domain<Real>& domain) {
     inlets.count = left;
 }
 
-/// The centre of the cell that liquid in a place belongs to: a thin wall may hide it from that of
-/// the cell in which it lies.
-template <class Real>
-Vec2<Real> centre_seen(const GridShape& s, const Walls<Real>& walls, Vec2<Real> place) {
-    const auto centre_of = [](Real at) {
-        return static_cast<Real>(static_cast<std::int32_t>(at)) + Real(0.5);
-    };
-    const Vec2<Real> own{centre_of(place.x), centre_of(place.y)};
-    if (walls.thin == nullptr || (mark_at(*walls.thin, s, place) & kTouching) == 0) {
-        return own;
-    }
-    const Vec2<Real> beside{place.x < own.x ? own.x - Real(1) : own.x + Real(1), own.y};
-    const Vec2<Real> along{own.x, place.y < own.y ? own.y - Real(1) : own.y + Real(1)};
-    const bool nearer = absolute(place.x - own.x) > absolute(place.y - own.y);
-    const Vec2<Real> cells[] = {own, nearer ? beside : along, nearer ? along : beside,
-                                {beside.x, along.y}};
-    for (const Vec2<Real> centre : cells) {
-        const bool inside = centre.x > Real(0) && centre.x < static_cast<Real>(s.nx) &&
-                            centre.y > Real(0) && centre.y < static_cast<Real>(s.ny);
-        if (inside && !hidden(*walls.thin, s, place, centre)) {
-            return centre;
-        }
-    }
-    return own;
-}
-
 /// The inlet that takes what is added in a cell; null: none does.
 template <class Real>
 Inlet<Real>* inlet_for(std::int32_t i, std::int32_t j, Inlets<Real>& inlets) {
@@ -211,9 +184,8 @@ void note_inlet([[maybe_unused]] const GridShape& tank, [[maybe_unused]] const W
                 [[maybe_unused]] Vec2<Real> place, [[maybe_unused]] Real volume,
                 [[maybe_unused]] PressureFields<Real>& fields) {
     if constexpr (kHasInlets<Real>) {
-        const Vec2<Real> centre = centre_seen(tank, walls, place);
-        const auto i = static_cast<std::int32_t>(centre.x);
-        const auto j = static_cast<std::int32_t>(centre.y);
+        const auto i = static_cast<std::int32_t>(place.x);
+        const auto j = static_cast<std::int32_t>(place.y);
         const GridShape stored = stored_part(walls, tank);
         const bool known = i >= stored.i0 && i < stored.i0 + stored.nx && j >= stored.j0 &&
                            j < stored.j0 + stored.ny;

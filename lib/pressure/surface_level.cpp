@@ -107,7 +107,8 @@ void density_from_faces(const Domain<Real>& domain, const CutDensity<Real>& cut,
 /// No surface opens where liquid is pressed: two cells side by side that thinned out there were a
 /// sink that took the weight off a whole pool for a substep. Each is no evidence for the other.
 template <class Real>
-void keep_pressed(const GridShape& s, const Part& rows, Real held, PressureFields<Real>& fields) {
+[[gnu::noinline, gnu::cold]] void keep_pressed(const GridShape& s, const Part& rows, Real held,
+                                               PressureFields<Real>& fields) {
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
         const Part columns = s.columns(j);
         const std::int32_t end = s.index(columns.end, j);

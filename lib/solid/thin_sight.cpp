@@ -80,8 +80,33 @@ std::uint32_t seen_faces(const ThinWalls<Real>& thin, const GridShape& s, Vec2<R
     return seen;
 }
 
-#define WEIR_INSTANTIATE(Real) \
-    template std::uint32_t seen_faces(const ThinWalls<Real>&, const GridShape&, Vec2<Real>);
+template <class Real>
+Vec2<Real> centre_seen(const GridShape& s, const Walls<Real>& walls, Vec2<Real> place) {
+    const auto centre_of = [](Real at) {
+        return static_cast<Real>(static_cast<std::int32_t>(at)) + Real(0.5);
+    };
+    const Vec2<Real> own{centre_of(place.x), centre_of(place.y)};
+    if (walls.thin == nullptr || (mark_at(*walls.thin, s, place) & kTouching) == 0) {
+        return own;
+    }
+    const Vec2<Real> beside{place.x < own.x ? own.x - Real(1) : own.x + Real(1), own.y};
+    const Vec2<Real> along{own.x, place.y < own.y ? own.y - Real(1) : own.y + Real(1)};
+    const bool nearer = absolute(place.x - own.x) > absolute(place.y - own.y);
+    const Vec2<Real> cells[] = {own, nearer ? beside : along, nearer ? along : beside,
+                                {beside.x, along.y}};
+    for (const Vec2<Real> centre : cells) {
+        const bool inside = centre.x > Real(0) && centre.x < static_cast<Real>(s.nx) &&
+                            centre.y > Real(0) && centre.y < static_cast<Real>(s.ny);
+        if (inside && !hidden(*walls.thin, s, place, centre)) {
+            return centre;
+        }
+    }
+    return own;
+}
+
+#define WEIR_INSTANTIATE(Real)                                                               \
+    template std::uint32_t seen_faces(const ThinWalls<Real>&, const GridShape&, Vec2<Real>); \
+    template Vec2<Real> centre_seen(const GridShape&, const Walls<Real>&, Vec2<Real>);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -118,6 +118,11 @@ inline bool hidden(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> p
     return found;
 }
 
+/// The centre of the cell that liquid in a place belongs to: a thin wall may hide it from that of
+/// the cell in which it lies.
+template <class Real>
+Vec2<Real> centre_seen(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> place);
+
 /// Which of the faces of its two stencils a point sees: bits 0 … 3 u, 4 … 7 v, lower left, lower
 /// right, upper left, upper right.
 template <class Real>

@@ -19,6 +19,7 @@ struct Stages {
     /// Between steps. Null: none can.
     void (*note_moving)(const BodyTable<Real>& table, Walls<Real>& walls);
     bool (*inside_solid)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> point);
+    Vec2<Real> (*centre_seen)(const GridShape& shape, const Walls<Real>& walls, Vec2<Real> place);
     /// Draws the bodies that were put elsewhere since the last step: somebody looks at them.
     std::int32_t (*draw_moved)(Layers<Real>& layers, BodyTable<Real>& table);
     /// The most nodes that this can be in a substep (solid/layers.hpp).

@@ -49,7 +49,8 @@ template <class Real>
             // The fields' own weight of a cell is no part of a snapshot.
             note_dense(tank, at, simulation.settings.cell_weight(fields.last_dt), fields);
         } else {
-            note_inlet(tank, simulation.layers.walls, at,
+            const Walls<Real>& walls = simulation.layers.walls;
+            note_inlet(tank, walls, simulation.stages->centre_seen(tank, walls, at),
                        Real(1) / simulation.settings.rest_count, fields);
         }
     }
