@@ -53,6 +53,8 @@ constexpr std::int32_t kSplash = 4 * 12 * 12;
 constexpr Vec2f kBar[] = {{-3 * kCell, -kCell}, {3 * kCell, -kCell}, {3 * kCell, kCell},
                           {-3 * kCell, kCell}};
 
+constexpr Vec2f kLine[] = {{-3 * kCell, -kCell}, {3 * kCell, kCell}};
+
 Scene tank(std::int32_t cells_x, std::int32_t cells_y) {
     Scene scene;
     scene.def.cell_m = kCell;
@@ -105,6 +107,11 @@ Scene scene_of(const char* name, Way way) {
     WorldDef& def = scene.def;
     if (is("solids") && way != Way::absent) {
         add_bodies(scene, way == Way::used ? 0.15F : 0.75F);
+    } else if (is("lines") && way != Way::absent) {
+        add_bodies(scene, way == Way::used ? 0.15F : 0.75F);
+        scene.body.polygon = {kLine, 2};
+        scene.body.open = true;
+        def.capacity.wall_edges = 200;
     } else if (is("raster") || is("rectangle")) {
         scene = is("rectangle") && way == Way::skipped ? tank(640, 192) : tank(160, 48);
         add_bodies(scene, 0.75F);

@@ -21,6 +21,7 @@ struct Case {
 
 inline constexpr Case kCases[] = {
     {"solids", "three solids in the air above the water", {true, true, true}},
+    {"lines", "three thin walls in the air above the water", {true, true, true}},
     {"raster", "bodies that may move and stand still", {true, true, true}},
     {"rectangle", "bodies turning in a tank 16 times as large", {true, true, false}},
     {"columns", "the empty width of rows: a drop that is far away", {true, true, false}},
