@@ -53,13 +53,14 @@ Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
     Impulse<Real> impulse;
     for_each_beside(shape, walls, slot, cells, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
         Vec2<Real> closed;
+        const Vec2<Real> gradient = gradient_at_rest(shape, walls, cells, c);
         for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
             if (face.slot != slot) {
                 return;
             }
             const Real pressure = cells.pressure[c];
             if (face.thin) {
-                const Real there = pressure + Real(dot(cells.gravity_dt, face.behind));
+                const Real there = pressure + Real(dot(gradient, face.behind));
                 impulse.add(convert<Face<Real>>(there * face.outward),
                             (centre_of_cell<Real>(i, j) - centre) +
                                 convert<Face<Real>>(face.behind));
@@ -70,8 +71,7 @@ Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
                         convert<Face<Real>>(face.centre) - centre);
         });
         if (closed.x != Real(0) || closed.y != Real(0)) {
-            impulse.add(contour_impulse(shape, walls, i, j, closed,
-                                        gradient_at_rest(shape, walls, cells, c), centre));
+            impulse.add(contour_impulse(shape, walls, i, j, closed, gradient, centre));
         }
     });
     return impulse;

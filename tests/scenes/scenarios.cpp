@@ -277,7 +277,7 @@ bool all_inside(const weir::World<Real>& world) {
 }
 
 #define WEIR_INSTANTIATE(Real)                                                                 \
-    template weir::View<ScenarioIn<Real>> scenarios();                                   \
+    template weir::View<ScenarioIn<Real>> scenarios();                                         \
     template Status begin(const ScenarioIn<Real>&, void*, std::size_t, StageIn<Real>&);        \
     template weir::StepReport advance(const ScenarioIn<Real>&, StageIn<Real>&, std::int32_t);  \
     template float energy(const ScenarioIn<Real>&, const weir::World<Real>&);                  \
