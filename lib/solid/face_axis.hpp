@@ -68,6 +68,9 @@ struct StickingWalls {
     /// Velocity of its surface at a place with the normal n.
     Vec2<Real> (*velocity)(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real> place,
                            Vec2<Real> n);
+    /// After the pressure (step/no_slip.hpp).
+    void (*bind_to_thin)(const Walls<Real>& walls, const LevelOf<Real>* level,
+                         StaggeredGrid<Real>& grid);
 };
 
 }  // namespace weir

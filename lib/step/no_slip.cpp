@@ -2,7 +2,7 @@
 
 #include "grid/diffuse.hpp"
 #include "solid/body_force.hpp"
-#include "solid/face_axis.hpp"
+#include "solid/nearest_wall.hpp"
 
 namespace weir {
 
@@ -37,21 +37,30 @@ Real share_at(Real d) {
     return d / (d + lever / mass);
 }
 
-/// Mean of the other component's four faces around a face, of those that are not closed.
+/// Mean of the other component's four faces around a face, of those that are not closed, nor beyond
+/// a thin wall.
 template <class Real>
-Real across_at(const FaceAxis<Real>& axis, std::int32_t face, const VelocityOf<Real>* other) {
+Real across_at(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j,
+               const VelocityOf<Real>* other, bool thin) {
+    constexpr Real kHalf = Real(0.5);
+    const std::int32_t face = axis.s.index(i, j);
     const std::int32_t back = axis.is_u ? 1 : axis.s.stride;
     const std::int32_t up = axis.is_u ? axis.s.stride : 1;
     const ShareOf<Real>* open = axis.is_u ? axis.walls.open_v : axis.walls.open_u;
     Real sum = Real(0);
     std::int32_t count = 0;
-    const std::int32_t around[] = {face, face - back, face + up, face + up - back};
-    for (const std::int32_t at : around) {
-        if (open[at] > Real(0)) {
+    const Vec2<Real> here = axis.centre(i, j);
+    const auto look = [&](std::int32_t at, Real own, Real beside) {
+        const Vec2<Real> way = axis.is_u ? Vec2<Real>{own, beside} : Vec2<Real>{beside, own};
+        if (open[at] > Real(0) && !(thin && hidden(*axis.walls.thin, axis.s, here, here + way))) {
             sum += Real(other[at]);
             ++count;
         }
-    }
+    };
+    look(face, kHalf, -kHalf);
+    look(face - back, -kHalf, -kHalf);
+    look(face + up, kHalf, kHalf);
+    look(face + up - back, -kHalf, kHalf);
     return count > 0 ? part_of(sum, count) : Real(0);
 }
 
@@ -61,21 +70,18 @@ void centre_component(const FaceAxis<Real>& axis, const VelocityOf<Real>* own,
                       VelocityOf<Real>* before) {
     const ShareOf<Real>* open = axis.open();
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
-        if (!(open[face] > Real(0))) {
+        const NearestWall<Real> wall(axis, i, j, Real(1));
+        if (wall.slot == kNoBody || !(open[face] > Real(0) || wall.thin)) {
             return;
         }
-        const Real d = axis.distance(face);
-        const std::uint16_t slot = d < Real(1) ? axis.sticking(face) : kNoBody;
-        if (slot == kNoBody) {
-            return;
-        }
-        const Vec2<Real> n = axis.normal(face);
+        const Vec2<Real> n = wall.normal;
+        const Real d = wall.distance;
         const Vec2<Real> tangent{-n.y, n.x};
         const Real here = own[face];
-        const Real there = across_at(axis, face, other);
+        const Real there = across_at(axis, i, j, other, wall.thin);
         const Vec2<Real> liquid = axis.is_u ? Vec2<Real>{here, there} : Vec2<Real>{there, here};
         const Vec2<Real> on_wall = axis.centre(i, j) - d * n;
-        const Real slip = dot(liquid - axis.wall(slot, on_wall, n), tangent);
+        const Real slip = dot(liquid - axis.wall(wall.slot, on_wall, n), tangent);
         const Real less = ((Real(1) - share_at(d)) * slip) * axis.of(tangent);
         velocity[face] = Real(velocity[face]) - less;
         before[face] = here - less;
@@ -95,12 +101,38 @@ struct Pull {
 template <class Real>
 Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
                    const VelocityOf<Real>* field, Real fall, std::int32_t i, std::int32_t j,
-                   Real d) {
+                   const NearestWall<Real>& wall) {
     const std::int32_t face = axis.s.index(i, j);
+    const Real shown = axis.distance(face);
     const Real own = share.at(face);
     const Real here = field[face];
+    const Vec2<Real> centre = axis.centre(i, j);
     Pull<Real> pull;
+    const auto stop = [&](Vec2<Real> way, Real to_wall, std::uint16_t slot) {
+        const Real theta = maximum(to_wall, kLeastWay<Real>);
+        const Real stiff = Real(1) / theta;
+        // Not the neighbour's normal: on the tank's wall it would ask for nodes beyond.
+        pull.weight += stiff;
+        const Vec2<Real> goes = axis.wall(slot, centre + theta * way, wall.normal);
+        pull.towards += stiff * (axis.of(goes) + fall);
+        // Traction on a wall is ∂u/∂n + (∇u)ᵀn; the Laplacian has the first of the two, the
+        // second is that of the wall's own rotation.
+        pull.turning += (axis.is_u ? -way.y : way.x) * axis.walls.body[slot].spin;
+        pull.slot = slot;
+    };
     const auto look = [&](std::int32_t di, std::int32_t dj) {
+        const Vec2<Real> way{static_cast<Real>(di), static_cast<Real>(dj)};
+        if constexpr (kHasThinWalls<Real>) {
+            if (wall.thin) {
+                const FirstMet<Real> met(*axis.walls.thin, axis.s, centre, centre + way);
+                if (met.edge != nullptr) {
+                    if (sticking_edge(axis.walls, *met.edge) != kNoBody) {
+                        stop(way, met.part, met.edge->slot);
+                    }
+                    return;
+                }
+            }
+        }
         const std::int32_t neighbour = axis.s.index(i + di, j + dj);
         const Real beyond = axis.in_tank(i + di, j + dj) ? axis.distance(neighbour) : Real(1);
         if (beyond > Real(0)) {
@@ -110,21 +142,9 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
             return;
         }
         const std::uint16_t slot = axis.sticking(neighbour);
-        if (slot == kNoBody) {
-            return;
+        if (slot != kNoBody) {
+            stop(way, shown / (shown - beyond), slot);
         }
-        const Real theta = maximum(d / (d - beyond), kLeastWay<Real>);
-        const Vec2<Real> way{static_cast<Real>(di), static_cast<Real>(dj)};
-        const Vec2<Real> place = axis.centre(i, j) + theta * way;
-        const Real stiff = Real(1) / theta;
-        // Not the neighbour's normal: on the tank's wall it would ask for nodes beyond.
-        pull.weight += stiff;
-        pull.towards += stiff * (axis.of(axis.wall(slot, place, axis.normal(face))) + fall);
-        // Traction on a wall is ∂u/∂n + (∇u)ᵀn; the Laplacian has the first of the two, the
-        // second is that of the wall's own rotation.
-        const std::int32_t outward = axis.is_u ? -dj : di;
-        pull.turning += static_cast<Real>(outward) * axis.walls.body[slot].spin;
-        pull.slot = slot;
     };
     look(-1, 0);
     look(1, 0);
@@ -149,15 +169,16 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
                        Real fall, std::int32_t from, const VelocityOf<Real>* field,
                        VelocityOf<Real>* out) {
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
-        const Real d = axis.distance(face);
-        if (!(d < kBand<Real>) || axis.sticking(face) == kNoBody) {
+        const NearestWall<Real> wall(axis, i, j, kBand<Real>);
+        if (wall.slot == kNoBody) {
             return;
         }
-        if (d <= Real(0) || !(share.at(face) > Real(0))) {
+        const Real d = wall.distance;
+        if ((d <= Real(0) && !wall.thin) || !(share.at(face) > Real(0))) {
             out[face] = field[face];
             return;
         }
-        const Pull<Real> pull = pull_on(axis, share, field, fall, i, j, d);
+        const Pull<Real> pull = pull_on(axis, share, field, fall, i, j, wall);
         const Real unbound = Real(field[face]) + amount * pull.liquid;
         const Real bound = (unbound + amount * pull.towards) /
                            (Real(1) + amount * pull.weight);
@@ -165,7 +186,7 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         if (axis.walls.load != nullptr) {
             // What pulls on faces that are bound to the wall, pulls on the wall.
             const bool is_bound = d < kBoundLayer<Real>;
-            const std::uint16_t slot = is_bound ? axis.sticking(face) : pull.slot;
+            const std::uint16_t slot = is_bound ? wall.slot : pull.slot;
             if (slot != kNoBody) {
                 const auto mass = static_cast<Face<Real>>(share.at(face));
                 const Vec2<Real> place = axis.centre(i, j);

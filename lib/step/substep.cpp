@@ -7,6 +7,7 @@
 #include "pressure/surface_level.hpp"
 #include "pressure/surface_tension.hpp"
 #include "pressure/volume_correction.hpp"
+#include "solid/face_axis.hpp"
 #include "step/bend_paths.hpp"
 #include "step/blend_change.hpp"
 #include "step/boundary_condition.hpp"
@@ -123,6 +124,9 @@ void fill_borders(const Domain<Real>& domain, Vec2<Real> fall, Work work) {
             mirror_in_solids(domain, fall, work);
             if (walls.thin != nullptr && work.once(grid.shape.size())) {
                 mirror_at_thin_walls(walls, domain.fields.level, grid);
+                if (walls.sticking != nullptr) {
+                    walls.sticking->bind_to_thin(walls, domain.fields.level, grid);
+                }
             }
         }
     }

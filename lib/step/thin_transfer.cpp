@@ -2,114 +2,64 @@
 
 #include "fluid/particles.hpp"
 #include "math/lanes.hpp"
+#include "solid/reflect.hpp"
+#include "solid/thin_beside.hpp"
 #include "step/scatter.hpp"
+#include "step/seen_sample.hpp"
 #include "step/tank_walls.hpp"
 
 namespace weir {
 
 namespace {
 
-/// Which faces of a stencil stand in for those that are not `seen`: along the row, else along the
-/// column, else across. At least one is seen.
-struct StandIns {
-    std::uint32_t of[4];
-
-    explicit StandIns(std::uint32_t seen) {
-        for (std::uint32_t node = 0; node < 4; ++node) {
-            const std::uint32_t others[] = {node, node ^ 1U, node ^ 2U, node ^ 3U};
-            std::uint32_t k = 0;
-            while (k < 3 && (seen >> others[k] & 1U) == 0) {
-                ++k;
-            }
-            of[node] = others[k];
-        }
-    }
-};
-
-/// Value and slopes from the four faces of a stencil, `step` numbers apart, or those that stand in
-/// for them.
-template <class Real>
-Sample<Real> sample_seen(const VelocityOf<Real>* field, std::int32_t step, std::int32_t stride,
-                         const Stencil<Real>& at, const StandIns& face) {
-    const VelocityOf<Real>* p = field + step * at.base;
-    const Real known[4] = {Real(p[0]), Real(p[step]), Real(p[step * stride]),
-                           Real(p[step * (stride + 1)])};
-    return bilinear(known[face.of[0]], known[face.of[1]], known[face.of[2]], known[face.of[3]],
-                    at);
-}
-
-/// From a stencil's place to the one that `sample_seen` tells of.
-template <class Real>
-Vec2<Real> way_to_sample(const Stencil<Real>& at, const StandIns& face) {
-    Real x[4];
-    Real y[4];
-    for (std::int32_t node = 0; node < 4; ++node) {
-        x[node] = Real((face.of[node] & 1U) != 0 ? 1 : 0);
-        y[node] = Real((face.of[node] & 2U) != 0 ? 1 : 0);
-    }
-    return {bilinear(x[0], x[1], x[2], x[3], at).value - at.fx,
-            bilinear(y[0], y[1], y[2], y[3], at).value - at.fy};
-}
-
-/// The wall that a particle is next to. No edge stands beside a corner.
-template <class Real>
-struct NextWall {
-    const WallEdge* edge = nullptr;
-    Vec2<Real> normal{};      ///< from the wall to the particle
-    Real distance = Real(2);  ///< what is further does not count
-
-    NextWall(const ThinWalls<Real>& thin, const GridShape& s, Vec2<Real> x) {
-        const auto i = static_cast<std::int32_t>(x.x);
-        const auto j = static_cast<std::int32_t>(x.y);
-        for_each_edge_around(thin, s, i, j, [&](const WallEdge& one) {
-            const Vec2<Real> a = thin.vertex[one.from];
-            const Vec2<Real> b = thin.vertex[one.to];
-            const Product<Real> zero{};
-            if (dot(x - a, b - a) < zero || dot(x - b, a - b) < zero) {
-                return;
-            }
-            const Vec2<Real> left = left_normal(thin, one);
-            const Real height = dot(x - a, left);
-            const Real far = absolute(height);
-            if (far < distance || (far == distance && edge != nullptr && goes_before(one, *edge))) {
-                distance = far;
-                normal = height >= Real(0) ? left : Vec2<Real>{} - left;
-                edge = &one;
-            }
-        });
-    }
-};
-
-/// What holds of a velocity's part along a wall's normal nearer to the wall than it was sampled:
-/// it grows with the distance from the wall's own. Without it particles gathered on thin walls.
+/// What holds of a velocity nearer to a wall than it was sampled: its part along the normal grows
+/// with the distance from the wall's own, without which particles gathered on thin walls, and where
+/// the liquid sticks so does its part along the wall.
 template <class Real>
 struct TowardsWall {
     Vec2<Real> normal{};
-    Real wall = Real(0);  ///< its own velocity along the normal
-    Real less = Real(0);  ///< share that does not hold
+    Real wall = Real(0);   ///< its own velocity along the normal
+    Real along = Real(0);  ///< and along itself
+    Real less = Real(0);   ///< share that does not hold along the normal
+    Real less_along = Real(0);
 
-    Vec2<Real> of(Vec2<Real> velocity, Real of_wall) const {
+    /// @param flip share that is left out of the velocity, and of the wall's.
+    Vec2<Real> of(Vec2<Real> velocity, Real flip) const {
         const Real through = dot(velocity, normal);
-        return velocity - (less * (through - of_wall)) * normal;
+        Vec2<Real> holds = velocity - (less * (through - (wall - flip * wall))) * normal;
+        if (less_along > Real(0)) {
+            const Vec2<Real> tangent{-normal.y, normal.x};
+            const Real goes = dot(velocity, tangent);
+            holds = holds - (less_along * (goes - (along - flip * along))) * tangent;
+        }
+        return holds;
     }
 };
 
 template <class Real>
 TowardsWall<Real> near_wall(const Walls<Real>& walls, const GridShape& s, Vec2<Real> x,
-                         Vec2<Real> way_u, Vec2<Real> way_v) {
-    const NextWall<Real> next(*walls.thin, s, x);
+                            Vec2<Real> way_u, Vec2<Real> way_v) {
+    const NextWall<Real> next(*walls.thin, s, x, false);
     if (next.edge == nullptr) {
         return {};
     }
     const Vec2<Real> n = next.normal;
+    const Body<Real>& body = walls.body[next.edge->slot];
+    const Vec2<Real> wall = velocity_at(body, x);
     const Real along_u = dot(way_u, n);
     const Real along_v = dot(way_v, n);
-    const Real further = n.x * (n.x * along_u) + n.y * (n.y * along_v);
-    if (!(further > Real(0))) {
-        return {};
+    const auto share = [&](Real further) {
+        return further > Real(0) ? further / (next.distance + further) : Real(0);
+    };
+    TowardsWall<Real> near;
+    near.normal = n;
+    near.wall = dot(wall, n);
+    near.less = share(n.x * (n.x * along_u) + n.y * (n.y * along_v));
+    if (walls.sticking != nullptr && body.surface.no_slip) {
+        near.along = dot(surface_velocity(body.surface, wall, n), Vec2<Real>{-n.y, n.x});
+        near.less_along = share(n.y * (n.y * along_u) + n.x * (n.x * along_v));
     }
-    const Real wall = dot(velocity_at(walls.body[next.edge->slot], x), n);
-    return {n, wall, further / (next.distance + further)};
+    return near;
 }
 
 /// Where velocity and change of a component lie, and how many numbers apart two faces are.
@@ -207,12 +157,12 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         };
         const Vec2<Real> gains = near.of({change(on_u, at_u, seen_u, faces_u, was.x, fall.x),
                                           change(on_v, at_v, seen_v, faces_v, was.y, fall.y)},
-                                         near.wall - flip * near.wall);
+                                         flip);
         Vec2<Real> v = flip * was + gains;
         const Real half_x = Real(0.5) * (u.slope_x * u.value + u.slope_y * w.value);
         const Real half_y = Real(0.5) * (w.slope_x * u.value + w.slope_y * w.value);
         const Vec2<Real> along = near.of({u.value + transfer.dt_s * half_x,
-                                          w.value + transfer.dt_s * half_y}, near.wall);
+                                          w.value + transfer.dt_s * half_y}, Real(0));
         advect(size, {transfer, nullptr}, along, x, v, result);
         block.position[k] = x;
         block.velocity[k] = v;

@@ -148,11 +148,21 @@ Vec2<Real> velocity_of(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real
     return axis.wall(slot, place, n);
 }
 
+template <class Real>
+constexpr auto bind_thin() {
+    if constexpr (kHasThinWalls<Real>) {
+        return bind_to_thin_walls<Real>;
+    } else {
+        return nullptr;
+    }
+}
+
 }  // namespace
 
 template <bool Solids, class Real>
 const detail::Viscosity<Real>& detail::viscosity() {
-    static constexpr StickingWalls<Real> kSticking{sticking_to<Real>, velocity_of<Real>};
+    static constexpr StickingWalls<Real> kSticking{sticking_to<Real>, velocity_of<Real>,
+                                                    bind_thin<Real>()};
     static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>,
                                             Solids ? &kSticking : nullptr};
     return kStage;

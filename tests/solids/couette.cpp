@@ -93,22 +93,27 @@ double between_tank_walls(int gap, Profile profile) {
     return plane_error(tank, gap, 0.0, profile);
 }
 
-/// Between bodies, neither on the grid's lines.
+/// Between bodies, neither on the grid's lines: belts 8 cells thick, or lines.
 template <class Real>
-double between_bodies(int gap, Profile profile) {
+double between_bodies(int gap, Profile profile, bool lines = false) {
     const double length = kGaps * gap;
     const double floor = 2.37;
     const double ceiling = floor + gap;
-    Tank<Real> tank(definition(gap, kGaps * gap, gap + 6));
-    const Ring belt = rectangle(6.0 * length * kCell, 8.0 * kCell);
+    const double half = lines ? 0.0 : 4.0;
+    weir::WorldDef def = definition(gap, kGaps * gap, gap + 6);
+    def.capacity.wall_edges = lines ? 37 * kGaps * gap + 100 : 0;
+    Tank<Real> tank(def);
+    Ring belt = rectangle(6.0 * length * kCell, 2.0 * half * kCell);
+    belt.resize(lines ? 2 : 4);
     const auto add_belt = [&](double y, double speed) {
         weir::BodyDef moving = sticky(belt, 0.5 * length - 1.2 * gap * speed, y);
+        moving.open = lines;
         moving.motion.velocity_mps = {static_cast<float>(gap * kCell * speed), 0.0F};
         weir::BodyId id;
         require(tank->add_moving_body(moving, &id));
     };
-    add_belt(floor - 4.0, profile(0.0));
-    add_belt(ceiling + 4.0, profile(1.0));
+    add_belt(floor - half, profile(0.0));
+    add_belt(ceiling + half, profile(1.0));
     require(tank->fill({{0.0F, static_cast<float>(floor * kCell)},
                         {static_cast<float>(length * kCell), static_cast<float>(ceiling * kCell)}}));
     simulate(tank, kSettled * kReynolds);
@@ -122,6 +127,10 @@ void plane(Report& report, int gap) {
                    between_bodies<Real>(gap, kCouette), "%", gap > 16 ? 0.2 : 0.8);
     report.figure("R10.couette.the_same_between_tank_walls." + n,
                   between_tank_walls<Real>(gap, kCouette), "%");
+    if (kThinWalls<Real>) {
+        report.figure("R10.couette.the_same_between_lines." + n,
+                      between_bodies<Real>(gap, kCouette, true), "%");
+    }
     accurate<Real>(report, "R10.flow_back.velocity_error." + n,
                    between_bodies<Real>(gap, kFlowsBack), "%", gap > 16 ? 0.4 : 1.2);
     report.figure("R10.flow_back.the_same_between_tank_walls." + n,

@@ -107,8 +107,8 @@ struct Surface {
     float restitution = 0.0F;  ///< normal velocity given back: 0 (slide along) … 1 (mirror)
     /// Coulomb: a blow takes at most this times its normal part along the surface; 0 … 1000
     float friction = 0.0F;
-    /// Viscous liquid sticks. It means nothing without viscosity, nor on bodies
-    /// thinner than a cell.
+    /// Viscous liquid sticks. It means nothing without viscosity, nor, without
+    /// `Capacity::wall_edges`, on bodies thinner than a cell.
     bool no_slip = false;
     /// Of the surface along itself, as of a belt, m/s: counter-clockwise about the body, or about
     /// the tank. It shows where there is friction, or viscosity and no slip.
