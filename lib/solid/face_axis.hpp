@@ -68,7 +68,9 @@ struct StickingWalls {
     /// Velocity of its surface at a place with the normal n.
     Vec2<Real> (*velocity)(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real> place,
                            Vec2<Real> n);
-    /// After the pressure (step/no_slip.hpp).
+    /// These as step/no_slip.hpp says.
+    void (*centre_flow)(const FaceAxis<Real>& axis, const VelocityOf<Real>* other_mass,
+                        const Real* other_momentum, VelocityOf<Real>* flow);
     void (*bind_to_thin)(const Walls<Real>& walls, const LevelOf<Real>* level,
                          StaggeredGrid<Real>& grid);
 };

@@ -27,6 +27,8 @@ struct Component {
     bool to_surface;
     const VelocityOf<Real>* mass;
     Real* momentum;
+    const VelocityOf<Real>* other_mass;  ///< of the other component
+    const Real* other_momentum;
     Edge* right;             ///< from a face to the next one along x
     Edge* up;                ///< along y
     Diagonal* across;        ///< of it and the next ones along x, along y and along both
@@ -280,6 +282,10 @@ void solve(const Component<Real>& of, const Particles<Real>& particles, Real sec
     const GridShape& s = of.shape();
     sum_edges(of, particles, second_density, work);
     of.begin(work.take(s.ny + 2, s.nx + 2));
+    const Walls<Real>& walls = of.domain.walls;
+    if (walls.active && walls.sticking != nullptr && work.once(s.size())) {
+        walls.sticking->centre_flow(of.axis(), of.other_mass, of.other_momentum, of.flow);
+    }
     iterate(of, MassMatrixStep::to_middle, work);
     iterate(of, MassMatrixStep::excess, work);
     if (work.once(s.border())) {
@@ -311,11 +317,13 @@ void solve_both(const Domain<Real>& domain, const Particles<Real>& particles,
     Diagonal* const across = reinterpret_cast<Diagonal*>(kept + 2 * (s.nx + 2)) - first;
     VelocityOf<Real>* const flow = domain.fields.inverse_diagonal;
     const bool mixed = grid.inverse_density_u != nullptr;  // then the mass stands there
-    solve<Real>({domain, true, to_surface, mixed ? grid.inverse_density_u : grid.mass_u,
-                 grid.momentum_u(), right, up, across, flow, kept},
+    const VelocityOf<Real>* const mass_u = mixed ? grid.inverse_density_u : grid.mass_u;
+    const VelocityOf<Real>* const mass_v = mixed ? grid.inverse_density_v : grid.mass_v;
+    solve<Real>({domain, true, to_surface, mass_u, grid.momentum_u(), mass_v, grid.momentum_v(),
+                 right, up, across, flow, kept},
                 particles, second_density, work);
-    solve<Real>({domain, false, to_surface, mixed ? grid.inverse_density_v : grid.mass_v,
-                 grid.momentum_v(), right, up, across, flow, kept},
+    solve<Real>({domain, false, to_surface, mass_v, grid.momentum_v(), mass_u, grid.momentum_u(),
+                 right, up, across, flow, kept},
                 particles, second_density, work);
 }
 

@@ -15,8 +15,9 @@ namespace weir {
 ///
 /// Faces at the surface stay as they are where anything pulls at it, or waves would swing by
 /// another period; `to_surface`: they get what the slope beside them tells. Those beside walls that
-/// liquid sticks to (step/no_slip.hpp) and beside thin ones stay. Momentum is kept but there, at
-/// the surface and beside walls. Packed worlds do without.
+/// liquid sticks to (step/no_slip.hpp) and beside thin ones stay, and others take them as without
+/// the wall's part. Momentum is kept but there, at the surface and beside walls. Packed worlds do
+/// without.
 ///
 /// After particle-to-grid and `surface_level`, before `grid_update`. The fields' divergence,
 /// inverse diagonal and coarse correction are the scratch.

@@ -38,10 +38,10 @@ Real share_at(Real d) {
 }
 
 /// Mean of the other component's four faces around a face, of those that are not closed, nor beyond
-/// a thin wall.
-template <class Real>
-Real across_at(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j,
-               const VelocityOf<Real>* other, bool thin) {
+/// a thin wall. `other(face)` tells their velocity.
+template <class Real, class Other>
+Real across_at(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j, Other other,
+               bool thin) {
     constexpr Real kHalf = Real(0.5);
     const std::int32_t face = axis.s.index(i, j);
     const std::int32_t back = axis.is_u ? 1 : axis.s.stride;
@@ -53,7 +53,7 @@ Real across_at(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j,
     const auto look = [&](std::int32_t at, Real own, Real beside) {
         const Vec2<Real> way = axis.is_u ? Vec2<Real>{own, beside} : Vec2<Real>{beside, own};
         if (open[at] > Real(0) && !(thin && hidden(*axis.walls.thin, axis.s, here, here + way))) {
-            sum += Real(other[at]);
+            sum += other(at);
             ++count;
         }
     };
@@ -64,10 +64,10 @@ Real across_at(const FaceAxis<Real>& axis, std::int32_t i, std::int32_t j,
     return count > 0 ? part_of(sum, count) : Real(0);
 }
 
-template <class Real>
-void centre_component(const FaceAxis<Real>& axis, const VelocityOf<Real>* own,
-                      const VelocityOf<Real>* other, VelocityOf<Real>* velocity,
-                      VelocityOf<Real>* before) {
+/// Calls lessen(face, less) for the faces within a cell of a wall that liquid sticks to, with what
+/// they have too much of. `own` and `other` tell velocities as scattered.
+template <class Real, class Own, class Other, class Lessen>
+void centre_component(const FaceAxis<Real>& axis, Own own, Other other, Lessen lessen) {
     const ShareOf<Real>* open = axis.open();
     for_each_face(axis, [&](std::int32_t i, std::int32_t j, std::int32_t face) {
         const NearestWall<Real> wall(axis, i, j, Real(1));
@@ -77,14 +77,12 @@ void centre_component(const FaceAxis<Real>& axis, const VelocityOf<Real>* own,
         const Vec2<Real> n = wall.normal;
         const Real d = wall.distance;
         const Vec2<Real> tangent{-n.y, n.x};
-        const Real here = own[face];
+        const Real here = own(face);
         const Real there = across_at(axis, i, j, other, wall.thin);
         const Vec2<Real> liquid = axis.is_u ? Vec2<Real>{here, there} : Vec2<Real>{there, here};
         const Vec2<Real> on_wall = axis.centre(i, j) - d * n;
         const Real slip = dot(liquid - axis.wall(wall.slot, on_wall, n), tangent);
-        const Real less = ((Real(1) - share_at(d)) * slip) * axis.of(tangent);
-        velocity[face] = Real(velocity[face]) - less;
-        before[face] = here - less;
+        lessen(face, ((Real(1) - share_at(d)) * slip) * axis.of(tangent));
     });
 }
 
@@ -209,11 +207,34 @@ void centre_at_walls(const Domain<Real>& domain, Work work) {
     copy_rows(s, copied, grid.mass_u, fields.divergence);
     copy_rows(s, copied, grid.mass_v, fields.inverse_diagonal);
     if (work.once(s.size())) {
-        centre_component<Real>({s, domain.walls, true}, fields.divergence,
-                               fields.inverse_diagonal, grid.u, grid.mass_u);
-        centre_component<Real>({s, domain.walls, false}, fields.inverse_diagonal,
-                               fields.divergence, grid.v, grid.mass_v);
+        const auto centre = [&](bool is_u, const VelocityOf<Real>* own,
+                                const VelocityOf<Real>* other, VelocityOf<Real>* velocity,
+                                VelocityOf<Real>* before) {
+            const auto of = [](const VelocityOf<Real>* field) {
+                return [field](std::int32_t face) { return Real(field[face]); };
+            };
+            centre_component<Real>({s, domain.walls, is_u}, of(own), of(other),
+                                   [&](std::int32_t face, Real less) {
+                                       velocity[face] = Real(velocity[face]) - less;
+                                       before[face] = Real(own[face]) - less;
+                                   });
+        };
+        centre(true, fields.divergence, fields.inverse_diagonal, grid.u, grid.mass_u);
+        centre(false, fields.inverse_diagonal, fields.divergence, grid.v, grid.mass_v);
     }
+}
+
+template <class Real>
+void centre_flow(const FaceAxis<Real>& axis, const VelocityOf<Real>* other_mass,
+                 const Real* other_momentum, VelocityOf<Real>* flow) {
+    const auto other = [&](std::int32_t face) {
+        const Real m = other_mass[face];
+        return m > Real(0) ? other_momentum[face] / m : Real(0);
+    };
+    centre_component<Real>(axis, [&](std::int32_t face) { return Real(flow[face]); }, other,
+                           [&](std::int32_t face, Real less) {
+                               flow[face] = Real(flow[face]) - less;
+                           });
 }
 
 template <class Real>
@@ -230,6 +251,12 @@ void diffuse_to_walls(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
     diffuse_component<Real>({s, walls, false}, on_v, amount, fall.y, from,
                             fields.inverse_diagonal, grid.v);
 }
+
+#define WEIR_INSTANTIATE(Real)                                                      \
+    template void centre_flow(const FaceAxis<Real>&, const VelocityOf<Real>*,     \
+                              const Real*, VelocityOf<Real>*);
+WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 #define WEIR_INSTANTIATE(Real)                                \
     template void centre_at_walls(const Domain<Real>&, Work); \

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pressure/domain.hpp"
+#include "solid/face_axis.hpp"
 
 namespace weir {
 
@@ -13,6 +14,12 @@ namespace weir {
 /// Cost: a look at each cell, about 60 operations for each face within a cell of such a wall.
 template <class Real>
 void centre_at_walls(const Domain<Real>& domain, Work work = {});
+
+/// The same of velocities of one component as scattered, before the mass matrix (mass_matrix.hpp)
+/// asks them what particles beside a wall interpolate.
+template <class Real>
+void centre_flow(const FaceAxis<Real>& axis, const VelocityOf<Real>* other_mass,
+                 const Real* other_momentum, VelocityOf<Real>* flow);
 
 /// Viscosity beside walls without slip, over what `diffuse` did there: a neighbour beyond the wall
 /// pulls with the wall's velocity at the wall's distance θ, (u_wall − u)/θ (Gibou, Fedkiw, Cheng &

@@ -148,12 +148,13 @@ Vec2<Real> velocity_of(const FaceAxis<Real>& axis, std::uint16_t slot, Vec2<Real
     return axis.wall(slot, place, n);
 }
 
+/// Packed worlds have neither thin walls nor a mass matrix.
 template <class Real>
-constexpr auto bind_thin() {
-    if constexpr (kHasThinWalls<Real>) {
-        return bind_to_thin_walls<Real>;
+constexpr StickingWalls<Real> sticking_walls() {
+    if constexpr (Stored<Real>::coarse) {
+        return {sticking_to<Real>, velocity_of<Real>, nullptr, nullptr};
     } else {
-        return nullptr;
+        return {sticking_to<Real>, velocity_of<Real>, centre_flow<Real>, bind_to_thin_walls<Real>};
     }
 }
 
@@ -161,8 +162,7 @@ constexpr auto bind_thin() {
 
 template <bool Solids, class Real>
 const detail::Viscosity<Real>& detail::viscosity() {
-    static constexpr StickingWalls<Real> kSticking{sticking_to<Real>, velocity_of<Real>,
-                                                    bind_thin<Real>()};
+    static constexpr StickingWalls<Real> kSticking = sticking_walls<Real>();
     static constexpr Viscosity<Real> kStage{diffuse_faces<Solids, Real>,
                                             Solids ? &kSticking : nullptr};
     return kStage;
