@@ -236,7 +236,7 @@ void keep_levers(const CoupledSolve<Real>& solve) {
                Face<Real>(0), CellReach<Real>{}, -1};
         if (levers.any_own) {
             at->own = {levers.own,
-                       way_to_contour(solve.shape, solve.walls, c, solve.cells.gravity_dt), true};
+                       beyond_cell(solve.shape, solve.walls, solve.cells, c), true};
         }
         Lever<Real>* lever = reinterpret_cast<Lever<Real>*>(at + 1);
         for (std::int32_t k = 0; k < levers.count; ++k) {

@@ -20,13 +20,10 @@ struct PressedCells {
     const VelocityOf<Real>* light_v = nullptr;
 };
 
-/// The pressure's gradient at rest in a cell: its open faces tell how dense it is.
+/// How dense the liquid in a cell is, over the first one's: its open faces tell.
 template <class Real>
-inline Vec2<Real> gradient_at_rest(const GridShape& s, const Walls<Real>& walls,
-                                   const PressedCells<Real>& cells, std::int32_t c) {
-    if (Stored<Real>::shares_momentum || cells.light_u == nullptr) {
-        return cells.gravity_dt;
-    }
+inline Real density_at_rest(const GridShape& s, const Walls<Real>& walls,
+                            const PressedCells<Real>& cells, std::int32_t c) {
     Real open = Real(0);
     Real light = Real(0);
     const auto look = [&](const ShareOf<Real>* shares, const VelocityOf<Real>* lights,
@@ -39,7 +36,20 @@ inline Vec2<Real> gradient_at_rest(const GridShape& s, const Walls<Real>& walls,
     look(walls.open_u, cells.light_u, c + 1);
     look(walls.open_v, cells.light_v, c);
     look(walls.open_v, cells.light_v, c + s.stride);
-    return light > Real(0) ? (open / light) * cells.gravity_dt : cells.gravity_dt;
+    return light > Real(0) ? open / light : Real(1);
+}
+
+template <class Real>
+inline bool is_mixed(const PressedCells<Real>& cells) {
+    return !Stored<Real>::shares_momentum && cells.light_u != nullptr;
+}
+
+/// The pressure's gradient at rest in a cell.
+template <class Real>
+inline Vec2<Real> gradient_at_rest(const GridShape& s, const Walls<Real>& walls,
+                                   const PressedCells<Real>& cells, std::int32_t c) {
+    return is_mixed(cells) ? density_at_rest(s, walls, cells, c) * cells.gravity_dt
+                           : cells.gravity_dt;
 }
 
 /// Cells of a box around the nodes that a body wrote.

@@ -70,9 +70,9 @@ Impulse<Real> reach_of_face(const BodyTable<Real>& table, const Walls<Real>& wal
 
 template <class Real>
 Face<Real> way_to_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node,
-                          Vec2<Real> gravity_dt) {
+                          Vec2<Real> gradient) {
     const Vec2<Real> half{Real(0.5), Real(0.5)};
-    const Real beyond = dot(gravity_dt, middle_of_contour(shape, walls, node) - half);
+    const Real beyond = dot(gradient, middle_of_contour(shape, walls, node) - half);
     return static_cast<Face<Real>>(beyond);
 }
 
@@ -90,7 +90,7 @@ Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& tab
             }
         });
         if (reach.any) {
-            reach.beyond = way_to_contour(shape, walls, c, cells.gravity_dt);
+            reach.beyond = beyond_cell(shape, walls, cells, c);
             impulse.add(reach.impulse(cells.pressure[c]));
         }
     });

@@ -38,10 +38,17 @@ struct CellReach {
     }
 };
 
-/// `beyond` of a cell, for bodies that close faces of it.
+/// Along a gradient, from a cell's centre to the contour in it.
 template <class Real>
 Face<Real> way_to_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node,
-                          Vec2<Real> gravity_dt);
+                          Vec2<Real> gradient);
+
+/// `beyond` of a cell, for bodies that close faces of it.
+template <class Real>
+inline Face<Real> beyond_cell(const GridShape& shape, const Walls<Real>& walls,
+                              const PressedCells<Real>& cells, std::int32_t cell) {
+    return way_to_contour(shape, walls, cell, gradient_at_rest(shape, walls, cells, cell));
+}
 
 /// Impulse of the pressure on a free body within the last substep, about its centre of mass.
 /// Cost: a look at each cell of the body's rectangle, and for each line that the contour crosses

@@ -211,7 +211,9 @@ private:
             }
             point.film = film;
             point.film_cell = cell[k];
-            point.beyond = dot(convert<Number>(cells_.gravity_dt),
+            const Vec2<Real> gradient =
+                gradient_at_rest(obstacles_.tank, obstacles_.walls, cells_, cell[k]);
+            point.beyond = dot(convert<Number>(gradient),
                                middle - centre_of_cell<Real>(obstacles_.tank, cell[k]));
             *link = static_cast<std::int32_t>(&point - list_.entry);
             link = &point.next_film;

@@ -93,7 +93,11 @@ Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real
     AtRest<Real> rest{obstacles.bodies.load[slot].at, convert<Number>(cells.gravity_dt)};
     bool any = false;
     Meetings<Real>(obstacles.bodies).for_each_film_of(slot, [&](const Meeting<Real>& film) {
-        rest.press(centre_of_cell<Real>(s, film.film_cell), film.beyond, film.film.linear);
+        const std::int32_t c = film.film_cell;
+        const Number density =
+            is_mixed(cells) ? static_cast<Number>(density_at_rest(s, walls, cells, c))
+                            : Number(1);
+        rest.press(centre_of_cell<Real>(s, c), film.beyond / density, film.film.linear);
         any = true;
     });
     if (!any) {
@@ -121,7 +125,7 @@ template <class Real>
 struct Around {
     using Number = Face<Real>;
     Number length = Number(0);  ///< of what there is room before
-    Number wet = Number(0);     ///< of that, in liquid
+    Number wet = Number(0);     ///< of that, in liquid, by how dense that is
     Wide<Real> place{};         ///< summed over what is wet
     Wide<Real> stream{};
 };
@@ -156,7 +160,10 @@ void look(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, Wid
         const Number weight = size * ((k & 1) != 0 ? tx : Number(1) - tx) *
                               ((k >> 1) != 0 ? ty : Number(1) - ty);
         const auto full = static_cast<Number>(Real(cells.density[c]));
-        const Number wet = weight * clamp(full, Number(0), Number(1));
+        Number wet = weight * clamp(full, Number(0), Number(1));
+        if (is_mixed(cells)) {
+            wet *= static_cast<Number>(density_at_rest(s, obstacles.walls, cells, c));
+        }
         const Wide<Real> twice{
             static_cast<Number>(Real(cells.u[c])) + static_cast<Number>(Real(cells.u[c + 1])),
             static_cast<Number>(Real(cells.v[c])) +
