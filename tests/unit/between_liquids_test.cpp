@@ -64,5 +64,37 @@ TYPED_TEST(BetweenLiquids, SmallSquaresDisplaceTheirMass) {
     }
 }
 
+/// How high a body of half the liquid's density has come that lay on the floor, cells, in liquid
+/// so many times as dense as the first.
+template <class Real>
+double height_in_alone(float size, float liquid) {
+    WorldDef def = tank_def(24, 24, 1600, 1, 4);
+    def.capacity.two_way = true;
+    def.capacity.second_liquid = true;
+    def.second_density_ratio = liquid;
+    TestWorld<Real> world(def);
+    const Ring ring = rectangle(size * kCell, size * kCell);
+    BodyDef body = body_of(ring, {12.2F * kCell, (0.5F * size + 0.01F) * kCell});
+    body.density_ratio = 0.5F * liquid;
+    const BodyId id = put_free(*world, body);
+    expect_ok(world->fill({{0, 0}, {24 * kCell, 16 * kCell}}, nullptr,
+                          liquid == 1.0F ? Liquid::first : Liquid::second));
+    for (int step = 0; step < 80; ++step) {
+        world->step(1.0F / 64.0F);
+    }
+    return static_cast<double>(motion_of(*world, id).position_m.y / kCell);
+}
+
+/// Alone a second liquid is to a body of so many times the mass what the first is: a small square
+/// in one ten times as dense stayed on the floor.
+TYPED_TEST(BetweenLiquids, SecondLiquidAloneLiftsAsTheFirstDoes) {
+    const double small = height_in_alone<TypeParam>(1, 1);
+    const double large = height_in_alone<TypeParam>(4, 1);
+    for (const float liquid : some_of({10.0F, 0.1F})) {
+        EXPECT_NEAR(height_in_alone<TypeParam>(1, liquid), small, 0.2) << liquid;
+        EXPECT_NEAR(height_in_alone<TypeParam>(4, liquid), large, 0.6) << liquid;
+    }
+}
+
 }  // namespace
 }  // namespace weir
