@@ -128,8 +128,10 @@ Status World<Real>::fill(const Box& box_m, std::int32_t* added, Liquid kind) {
     if (seeds > particles.capacity - particles.count) {
         return Status::no_free_particle;
     }
-    seed(true);
-    note_changed(*state_);
+    if (seeds > 0) {
+        seed(true);
+        note_changed(*state_);
+    }
     return Status::ok;
 }
 

@@ -176,6 +176,9 @@ TYPED_TEST(SleepOf, WhatChangesNothingWakesNobody) {
     EXPECT_EQ(pool->remove_particle(-1), Status::no_such_particle);
     EXPECT_EQ(pool->add_particle({9.0F, 0.0F}, {}), Status::particle_outside_domain);
     expect_ok(pool->drain({{0.0F, 0.2F}, {0.32F, 0.32F}}));
+    std::int32_t added = -1;
+    expect_ok(pool->fill({{0.251F, 0.251F}, {0.252F, 0.252F}}, &added));
+    EXPECT_EQ(added, 0) << "no point of the lattice is there";
     EXPECT_TRUE(pool->step(kDt).asleep);
     EXPECT_EQ(pool->state_hash(), hash);
 }
