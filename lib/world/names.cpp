@@ -112,7 +112,7 @@ const char* content_text(Status status) {
         case Status::no_moving_bodies:
             return "this world holds static bodies only: set capacity.moving_bodies = true";
         case Status::polygon_missing: return "polygon is null: point it at the vertices";
-        case Status::polygon_too_few_vertices: return "polygon: at least 3 vertices";
+        case Status::polygon_too_few_vertices: return "polygon: at least 3 vertices, an open one 2";
         case Status::polygon_too_many_vertices:
             return "polygon: at most 16384 vertices, check_polygon counts them; simplify it";
         case Status::polygon_not_finite: return "polygon has a NaN or infinite vertex";

@@ -40,7 +40,7 @@ Status check_room(const WorldState<Real>& state, const BodyDef& def, BodyKind ki
         return Status::no_free_body;
     }
     if (!kHasThinWalls<Real> && def.open) {
-        return Status::no_free_wall_edge;
+        return Status::small_fixed_has_no_thin_walls;
     }
     return places_needed(def) > table.vertex_capacity - table.vertices_used
                ? Status::no_free_vertex

@@ -26,13 +26,13 @@ Status World<Real>::add_free_body(const BodyDef& def, BodyId* id) {
     if (free != Status::ok) {
         return free;
     }
-    Simulation<Real>& simulation = state_->simulation;
-    if (simulation.bodies.load == nullptr) {
-        return Status::two_way_missing;
-    }
     if constexpr (Stored<Real>::shares_momentum) {
         return Status::free_body_in_small_world;
     } else {
+        Simulation<Real>& simulation = state_->simulation;
+        if (simulation.bodies.load == nullptr) {
+            return Status::two_way_missing;
+        }
         if (def.open) {
             return Status::polygon_zero_area;  // it weighs nothing
         }

@@ -64,6 +64,22 @@ const std::vector<Row>& fixed_rows() {
          Status::no_moving_bodies},
         {"thin walls in SmallFixed", CHANGED_INIT(SmallFixed, capacity.wall_edges, 1),
          Status::small_fixed_has_no_thin_walls},
+        {"polyline in SmallFixed",
+         [](Fixture&) {
+             TestWorld<SmallFixed> world(small_def());
+             BodyDef def = body_of(kSquare4cm, {0.1F, 0.1F});
+             def.open = true;
+             BodyId id;
+             return world->add_static_body(def, &id);
+         },
+         Status::small_fixed_has_no_thin_walls},
+        {"free body in SmallFixed, without forces",
+         [](Fixture&) {
+             TestWorld<SmallFixed> world(small_def());
+             BodyId id;
+             return world->add_free_body(body_of(kSquare4cm, {0.1F, 0.1F}), &id);
+         },
+         Status::free_body_in_small_world},
         {"window in SmallFixed", CHANGED_INIT(SmallFixed, capacity.window_cells, 100),
          Status::small_fixed_has_no_window},
         {"tension in SmallFixed", CHANGED_INIT(SmallFixed, surface_tension_m3ps2, 1.0e-5F),
