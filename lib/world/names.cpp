@@ -78,7 +78,7 @@ const char* init_text(Status status) {
         case Status::periodic_needs_even_cells:
             return "periodic: choose an even number of cells along that axis";
         case Status::unknown_option:
-            return "pressure, contour or liquid is no enumerator: pick one from config.hpp";
+            return "pressure, contour, hold or liquid: pick an enumerator from config.hpp";
         case Status::small_fixed_has_one_liquid:
             return "two liquids: choose World<Fixed>, or float";
         case Status::small_fixed_has_no_thin_walls:
@@ -179,7 +179,8 @@ const char* snapshot_text(Status status) {
         case Status::snapshot_of_other_capacity:
             return "snapshot: init the world with the capacity that it was saved with";
         case Status::snapshot_of_other_definition:
-            return "snapshot: init the world with the definition that it was saved with";
+            return "snapshot: init the world with the definition that it was saved with, and let "
+                   "regions sleep in both or in none";
         case Status::snapshot_damaged: return "snapshot: its contents were changed, use another";
         default: return nullptr;
     }

@@ -30,8 +30,8 @@ struct PolygonFault {
 /// its size: vertices that are no step apart are one, and none is known below 1e-36 m.
 /// Cost for n edges: of the order of n^1.5 box tests, n² if most edges are as long as the polygon;
 /// holes × n for holes.
-/// @param fault may be null.
 Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes = {});
+/// @param fault may be null.
 Status check_polygon(View<Vec2f> polygon, View<View<Vec2f>> holes, PolygonFault* fault);
 
 /// Pieces that a curve is cut into at most.

@@ -33,7 +33,8 @@ struct Box {
 
 /// A body's name: a slot in the body table and the generation that the slot had when the body was
 /// added, so that the name of a removed body is refused and does not reach its successors, but for
-/// each 65,536th; and the world's own tag, so that one world refuses another's names.
+/// each 65,536th; and the world's own tag, so that one world refuses another's names. The tag is
+/// its place in memory: after another `init` there, names of before may be those of new bodies.
 struct BodyId {
     std::uint16_t slot = 0xFFFF;
     std::uint16_t generation = 0;

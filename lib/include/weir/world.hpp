@@ -47,7 +47,10 @@ public:
         return init(def, detail::first_of(memory), detail::size_of(memory));
     }
 
-    /// A solid that never moves; it is rasterized once. Liquid found inside it is pushed out.
+    /// A solid that never moves; it is rasterized once. Liquid found inside it is pushed out, and
+    /// pressed together around it: of the room that 10 × 10 cells take amid a pool a third is
+    /// missing 10 s later. If its place is drained first (`drain`) none is; a moving body that is
+    /// led in (`move_body`) costs 7 %.
     Status add_static_body(const BodyDef& def, BodyId* id);
     /// A solid that moves as told; it is rasterized again in each step in which it moved. It may
     /// come in from outside the tank, where other bodies are refused.
@@ -96,8 +99,8 @@ public:
     /// And to the tank: pressure on its walls, particles that hit them, drag of those without slip.
     /// The sum over tank and bodies is what gravity gave to the liquid less what its momentum
     /// changed by, to 1e-6 of the liquid's weight, except in substeps in which liquid touched
-    /// neither. `Fixed` and `SmallFixed` keep it in whole numbers, of which none is lost, and tell
-    /// them rounded; what would be nobody's there is the tank's.
+    /// nothing, or free bodies alone. `Fixed` and `SmallFixed` keep it in whole numbers, of which
+    /// none is lost, and tell them rounded; what would be nobody's there is the tank's.
     Status tank_force(BodyForce* force) const;
     /// What a body weighs. Wants `capacity.two_way`.
     Status mass(BodyId id, BodyMass* mass) const;
@@ -166,8 +169,9 @@ public:
 
     /// The same in slices: begins a step, which `advance` carries out. However it is cut, the
     /// result is `step`'s, to the bit. Until it is done nothing else may change the world: such
-    /// calls answer `Status::step_in_progress` and change nothing. Views may be looked at, and
-    /// show the liquid on its way; `restore` drops the step.
+    /// calls answer `Status::step_in_progress` and change nothing, and so do `liquid_in`,
+    /// `work_bound`, `diagnose` and `save`. Views may be looked at, and show the liquid on its way;
+    /// `restore` drops the step.
     /// @param report filled while the step goes on; must live until it is done.
     Status begin_step(float dt_s, StepReport* report, std::int32_t rung = 0);
     /// Goes on with the step for that much work: a unit is a cell or a particle that one loop
@@ -233,7 +237,7 @@ public:
     /// was. Bodies that were placed since the last step are seen where they are. Names of bodies
     /// hold the place of the world in memory: in one that lies elsewhere ask for the new ones
     /// (`body_in_slot`). There are no contacts until the next step. Both worlds or none must have
-    /// let regions sleep.
+    /// let regions sleep (else `Status::snapshot_of_other_definition`).
     Status restore(const void* snapshot, std::size_t bytes);
     /// The name of the body in that slot of the table, 0 … capacity.bodies − 1.
     Status body_in_slot(std::int32_t slot, BodyId* id) const;
