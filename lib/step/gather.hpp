@@ -109,7 +109,8 @@ TransferResult<Real> move_past_walls(const Simulation<Real>& simulation,
     again.tank = nullptr;  // what hit its walls has been counted
     const TransferResult<Real> beside =
         gather_past_walls(simulation.grid, again, simulation.layers.walls,
-                          simulation.settings.fall_in(transfer.dt_s), before, velocity, block);
+                          simulation.pressure.density, simulation.settings.fall_in(transfer.dt_s),
+                          before, velocity, block);
     moved.far += beside.far;
     moved.max_speed = maximum(moved.max_speed, beside.max_speed);
     return moved;

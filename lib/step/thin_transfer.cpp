@@ -62,6 +62,17 @@ TowardsWall<Real> near_wall(const Walls<Real>& walls, const GridShape& s, Vec2<R
     return near;
 }
 
+/// Emptier cells hold drops that fly alone, a particle of four at most.
+template <class Real>
+constexpr Real kSparse = Real(0.3);
+
+/// The cell that liquid in a place belongs to.
+template <class Real>
+std::int32_t cell_seen(const GridShape& s, const Walls<Real>& walls, Vec2<Real> x) {
+    const Vec2<Real> centre = centre_seen(s, walls, x);
+    return s.index(static_cast<std::int32_t>(centre.x), static_cast<std::int32_t>(centre.y));
+}
+
 /// Where velocity and change of a component lie, and how many numbers apart two faces are.
 template <class Real>
 struct Component {
@@ -108,8 +119,8 @@ std::int32_t scatter_past_walls(const Particles<Real>& particles, const ThinWall
 template <class Real>
 TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
                                        const Transfer<Real>& transfer,
-                                       const Walls<Real>& walls, Vec2<Real> fall,
-                                       const Vec2<PositionOf<Real>>* before,
+                                       const Walls<Real>& walls, const DensityOf<Real>* density,
+                                       Vec2<Real> fall, const Vec2<PositionOf<Real>>* before,
                                        const Vec2<VelocityOf<Real>>* velocity,
                                        Particles<Real>& block) {
     const ThinWalls<Real>& thin = *walls.thin;
@@ -138,7 +149,7 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         const StandIns faces_u(seen_u);
         const StandIns faces_v(seen_v);
         TowardsWall<Real> near;
-        if (seen_u != 0 && seen_v != 0) {
+        if (seen_u != 0 && seen_v != 0 && !(density[cell_seen(s, walls, x)] < kSparse<Real>)) {
             near = near_wall(walls, s, x, way_to_sample(at_u, faces_u),
                              way_to_sample(at_v, faces_v));
         }
@@ -265,8 +276,8 @@ void mirror_at_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
                                      StaggeredGrid<Real>&);                                \
     template TransferResult<Real> gather_past_walls(                                       \
         const StaggeredGrid<Real>&, const Transfer<Real>&, const Walls<Real>&,             \
-        Vec2<Real>, const Vec2<PositionOf<Real>>*, const Vec2<VelocityOf<Real>>*,          \
-        Particles<Real>&);                                                                 \
+        const DensityOf<Real>*, Vec2<Real>, const Vec2<PositionOf<Real>>*,                 \
+        const Vec2<VelocityOf<Real>>*, Particles<Real>&);                                  \
     template void mirror_at_thin_walls(const Walls<Real>&, const LevelOf<Real>*,           \
                                        StaggeredGrid<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

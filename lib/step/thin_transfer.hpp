@@ -50,14 +50,15 @@ std::int32_t scatter_past_walls(const Particles<Real>& particles, const ThinWall
 
 /// Gathers the particles of a block that stand beside thin walls anew: a face that a particle does
 /// not see has the value of the nearest one of its stencil that it sees, and what of that goes to
-/// or from the wall holds in proportion to the distance from it; who sees none falls. After
-/// `grid_to_particle` of the block.
+/// or from the wall holds in proportion to the distance from it, unless its cell is sparse: what
+/// flies alone is met by no pressure. Who sees none falls. After `grid_to_particle` of the block.
 /// @param fall velocity that gravity gives in the substep.
 /// @param before, velocity places and velocities before the block was gathered.
 template <class Real>
 TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
                                        const Transfer<Real>& transfer,
-                                       const Walls<Real>& walls, Vec2<Real> fall,
+                                       const Walls<Real>& walls, const DensityOf<Real>* density,
+                                       Vec2<Real> fall,
                                        const Vec2<PositionOf<Real>>* before,
                                        const Vec2<VelocityOf<Real>>* velocity,
                                        Particles<Real>& block);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "step/thin_transfer.hpp"
 #include "world_inside.hpp"
@@ -80,8 +81,9 @@ double error_at(const Wall& wall, double distance) {
     const Vec2<VelocityOf<Real>> still{};
     Particles<Real> one{&position, &velocity, 1, 1};
     constexpr float kStep = 1.0F / 64.0F;
+    const std::vector<DensityOf<Real>> full(static_cast<std::size_t>(grid.shape.size()), Real(1));
     gather_past_walls<Real>(grid, {Seconds<Real>(kStep), Real(0), Real(200)},
-                            simulation.layers.walls, {}, &before, &still, one);
+                            simulation.layers.walls, full.data(), {}, &before, &still, one);
     const Vec2<double> expected = wall.velocity(place);
     const Vec2<double> taken = convert<double>(velocity);
     const Vec2<double> moved = (1.0 / double(kStep)) * (convert<double>(position) - place);
