@@ -252,9 +252,9 @@ void diffuse_to_walls(const Domain<Real>& domain, Real amount, Vec2<Real> fall,
                             fields.inverse_diagonal, grid.v);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                      \
-    template void centre_flow(const FaceAxis<Real>&, const VelocityOf<Real>*,     \
-                              const Real*, VelocityOf<Real>*);
+#define WEIR_INSTANTIATE(Real)                                                             \
+    template void centre_flow(const FaceAxis<Real>&, const VelocityOf<Real>*, const Real*, \
+                              VelocityOf<Real>*);
 WEIR_FOR_EACH_ROOMY_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
 

@@ -78,6 +78,7 @@ void bind_component(const FaceAxis<Real>& axis, const LevelOf<Real>* level,
                 continue;
             }
             const SlipBefore<Real> liquid = slip_before(thin, grid, place, on_wall, n);
+            // What the face itself has: nearer faces count, too.
             const SlipBefore<Real> own = slip_before(thin, grid, centre, on_wall - n, n);
             if (!(liquid.distance > Real(0)) || !(own.distance > Real(0))) {
                 continue;
@@ -100,8 +101,8 @@ void bind_to_thin_walls(const Walls<Real>& walls, const LevelOf<Real>* level,
     bind_component<Real>({grid.shape, walls, false}, level, grid, grid.v);
 }
 
-#define WEIR_INSTANTIATE(Real)                                                     \
-    template void bind_to_thin_walls(const Walls<Real>&, const LevelOf<Real>*,     \
+#define WEIR_INSTANTIATE(Real)                                                 \
+    template void bind_to_thin_walls(const Walls<Real>&, const LevelOf<Real>*, \
                                      StaggeredGrid<Real>&);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
 #undef WEIR_INSTANTIATE
