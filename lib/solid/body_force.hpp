@@ -24,6 +24,9 @@ struct PressedCells {
 template <class Real>
 inline Real density_at_rest(const GridShape& s, const Walls<Real>& walls,
                             const PressedCells<Real>& cells, std::int32_t c) {
+    if (Stored<Real>::shares_momentum || cells.light_u == nullptr) {
+        return Real(1);
+    }
     Real open = Real(0);
     Real light = Real(0);
     const auto look = [&](const ShareOf<Real>* shares, const VelocityOf<Real>* lights,
@@ -39,17 +42,11 @@ inline Real density_at_rest(const GridShape& s, const Walls<Real>& walls,
     return light > Real(0) ? open / light : Real(1);
 }
 
-template <class Real>
-inline bool is_mixed(const PressedCells<Real>& cells) {
-    return !Stored<Real>::shares_momentum && cells.light_u != nullptr;
-}
-
 /// The pressure's gradient at rest in a cell.
 template <class Real>
 inline Vec2<Real> gradient_at_rest(const GridShape& s, const Walls<Real>& walls,
                                    const PressedCells<Real>& cells, std::int32_t c) {
-    return is_mixed(cells) ? density_at_rest(s, walls, cells, c) * cells.gravity_dt
-                           : cells.gravity_dt;
+    return density_at_rest(s, walls, cells, c) * cells.gravity_dt;
 }
 
 /// Cells of a box around the nodes that a body wrote.

@@ -94,9 +94,7 @@ Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real
     bool any = false;
     Meetings<Real>(obstacles.bodies).for_each_film_of(slot, [&](const Meeting<Real>& film) {
         const std::int32_t c = film.film_cell;
-        const Number density =
-            is_mixed(cells) ? static_cast<Number>(density_at_rest(s, walls, cells, c))
-                            : Number(1);
+        const auto density = static_cast<Number>(density_at_rest(s, walls, cells, c));
         rest.press(centre_of_cell<Real>(s, c), film.beyond / density, film.film.linear);
         any = true;
     });
@@ -160,10 +158,8 @@ void look(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, Wid
         const Number weight = size * ((k & 1) != 0 ? tx : Number(1) - tx) *
                               ((k >> 1) != 0 ? ty : Number(1) - ty);
         const auto full = static_cast<Number>(Real(cells.density[c]));
-        Number wet = weight * clamp(full, Number(0), Number(1));
-        if (is_mixed(cells)) {
-            wet *= static_cast<Number>(density_at_rest(s, obstacles.walls, cells, c));
-        }
+        const auto density = static_cast<Number>(density_at_rest(s, obstacles.walls, cells, c));
+        const Number wet = (weight * clamp(full, Number(0), Number(1))) * density;
         const Wide<Real> twice{
             static_cast<Number>(Real(cells.u[c])) + static_cast<Number>(Real(cells.u[c + 1])),
             static_cast<Number>(Real(cells.v[c])) +

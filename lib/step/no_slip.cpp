@@ -124,8 +124,9 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
             if (wall.thin) {
                 const FirstMet<Real> met(*axis.walls.thin, axis.s, centre, centre + way);
                 if (met.edge != nullptr) {
-                    if (sticking_edge(axis.walls, *met.edge) != kNoBody) {
-                        stop(way, met.part, met.edge->slot);
+                    const std::uint16_t slot = sticking_edge(axis.walls, *met.edge);
+                    if (slot != kNoBody) {
+                        stop(way, met.part, slot);
                     }
                     return;
                 }
