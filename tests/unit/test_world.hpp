@@ -14,12 +14,29 @@
 #include "measure/world_memory.hpp"
 #include "weir/weir.hpp"
 
+extern template class std::vector<weir::Vec2f>;  // in test_world.cpp
+
 namespace weir {
 
 using measure::tank_def;
 
+/// Sanitizers look at what memory is touched and how, in ten times the time: where lives are compared
+/// to the bit, which others do, they get fewer, and nothing in double, whose loops are those of the
+/// other arithmetics.
+#if defined(__SANITIZE_ADDRESS__)
+#define WEIR_SANITIZED 1
+#elif defined(__has_feature)
+#define WEIR_SANITIZED __has_feature(address_sanitizer)
+#endif
+#if WEIR_SANITIZED
+constexpr bool kSanitized = true;
+using EveryScalar = testing::Types<float, Fixed, SmallFixed>;
+using RoomyScalars = testing::Types<float, Fixed>;
+#else
+constexpr bool kSanitized = false;
 using EveryScalar = testing::Types<float, double, Fixed, SmallFixed>;
 using RoomyScalars = testing::Types<float, double, Fixed>;
+#endif
 
 /// Numbers typed tests after their arithmetic, whatever list it stands in: bits of a float and of a
 /// double, and behind the point of a place. CMake's names for tests know no words there.
@@ -38,16 +55,6 @@ struct ScalarNumber {
     template <class Real>                  \
     class Suite : public testing::Test {}; \
     TYPED_TEST_SUITE(Suite, Scalars, ScalarNumber)
-
-/// Sanitizers look at what memory is touched and how, in ten times the time: where lives are compared
-/// to the bit, which others do, they get fewer.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// All of these cases; under sanitizers the first.
 template <class T>
@@ -79,41 +86,32 @@ private:
 
 using Ring = std::vector<Vec2f>;
 
+// In `test_world.cpp`: else each file of tests, which are not optimised, compiles them anew.
+#define WEIR_ELSEWHERE(Real)                                \
+    extern template Layout layout<Real>(const Capacity&);   \
+    extern template class TestWorld<Real>
+WEIR_ELSEWHERE(float);
+WEIR_ELSEWHERE(double);
+WEIR_ELSEWHERE(Fixed);
+WEIR_ELSEWHERE(SmallFixed);
+#undef WEIR_ELSEWHERE
+
 /// In metres: legs of 8 cm, right angle at the origin.
 inline const Ring kTriangle = {{0, 0}, {0.08F, 0}, {0, 0.08F}};
 /// In metres: a square of 4 cm about the origin.
 inline const Ring kSquare4cm = {{-0.02F, -0.02F}, {0.02F, -0.02F}, {0.02F, 0.02F}, {-0.02F, 0.02F}};
 
-inline BodyDef body_of(const Ring& ring, Vec2f at_m, float angle_rad = 0.0F) {
-    BodyDef def;
-    def.polygon = {ring.data(), static_cast<std::int32_t>(ring.size())};
-    def.motion.position_m = at_m;
-    def.motion.angle_rad = angle_rad;
-    return def;
-}
+BodyDef body_of(const Ring& ring, Vec2f at_m, float angle_rad = 0.0F);
 
-inline Ring rectangle(float width, float height) {
-    return {{-0.5F * width, -0.5F * height},
-            {0.5F * width, -0.5F * height},
-            {0.5F * width, 0.5F * height},
-            {-0.5F * width, 0.5F * height}};
-}
+Ring rectangle(float width, float height);
 
 /// About the origin, with all corners so far from it.
-inline Ring regular_polygon(int corners, float radius, float first_rad = 0.0F) {
-    Ring ring;
-    for (int k = 0; k < corners; ++k) {
-        const float angle =
-            first_rad + 6.2831853F * static_cast<float>(k) / static_cast<float>(corners);
-        ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    return ring;
-}
+Ring regular_polygon(int corners, float radius, float first_rad = 0.0F);
 
 /// 16 × 16 cells of 2 cm, 200 particles, 3 bodies with 12 vertices.
-inline WorldDef small_def() { return tank_def(16, 16, 200, 3, 12); }
+WorldDef small_def();
 
-inline void expect_ok(Status status) { EXPECT_EQ(status, Status::ok) << status_text(status); }
+void expect_ok(Status status);
 
 template <class Real>
 BodyId put_static(World<Real>& world, const BodyDef& def) {
@@ -161,41 +159,10 @@ double volume_left(World<Real>& world) {
 }
 
 /// Of all stages of a step.
-inline std::int64_t work_of(const StepReport& report) {
-    std::int64_t all = 0;
-    for (const std::uint32_t work : report.work) {
-        all += work;
-    }
-    return all;
-}
+std::int64_t work_of(const StepReport& report);
 
 /// All that is told of two steps but ticks, and work if it is not asked for.
-inline void expect_same_report(const StepReport& a, const StepReport& b, bool work = true) {
-    for (std::int32_t stage = 0; work && stage < kStageCount; ++stage) {
-        EXPECT_EQ(a.work[stage], b.work[stage]) << stage_name(static_cast<weir::Stage>(stage));
-    }
-    EXPECT_EQ(a.nodes_rasterized, work ? b.nodes_rasterized : a.nodes_rasterized);
-    EXPECT_EQ(a.substeps, b.substeps);
-    EXPECT_EQ(a.clamped, b.clamped);
-    EXPECT_EQ(a.asleep, b.asleep);
-    EXPECT_EQ(a.rung, b.rung);
-    EXPECT_EQ(a.walls_held, b.walls_held);
-    EXPECT_EQ(a.dt_s, b.dt_s);
-    EXPECT_EQ(a.max_speed_mps, b.max_speed_mps);
-    EXPECT_EQ(a.particles, b.particles);
-    EXPECT_EQ(a.particles_asleep, b.particles_asleep);
-    EXPECT_EQ(a.particles_tested, b.particles_tested);
-    EXPECT_EQ(a.particles_reflected, b.particles_reflected);
-    EXPECT_EQ(a.particles_stuck, b.particles_stuck);
-    EXPECT_EQ(a.particles_removed_stuck, b.particles_removed_stuck);
-    EXPECT_EQ(a.particles_beyond, b.particles_beyond);
-    EXPECT_EQ(a.contacts_missed, b.contacts_missed);
-    EXPECT_EQ(a.cells_overfull, b.cells_overfull);
-    EXPECT_EQ(a.particles_crowded, b.particles_crowded);
-    EXPECT_EQ(a.particles_reset, b.particles_reset);
-    EXPECT_EQ(a.particles_slowed, b.particles_slowed);
-    EXPECT_EQ(a.bodies_slowed, b.bodies_slowed);
-}
+void expect_same_report(const StepReport& a, const StepReport& b, bool work = true);
 
 /// Saves one world and goes on in another.
 template <class Real>
