@@ -124,7 +124,7 @@ void recut(Layers<Real>& layers, const NodeBox& changed) {
             part.j0 - rim.below};
     update_cut_cells(part, {box.i0 - part.i0, box.j0 - part.j0, box.i1 - part.i0, box.j1 - part.j0},
                      rim, layers.thin.capacity > 0, layers.scratch, walls);
-    if (walls.thin != nullptr) {
+    if (layers.any_thin()) {
         close_thin_faces(layers.shape, box, layers.thin, walls.open_u, walls.open_v,
                          walls.full_density);
     }
@@ -228,12 +228,6 @@ std::int32_t redraw_static(Layers<Real>& layers, const BodyTable<Real>& table,
     return nodes + refresh(layers, table, box);
 }
 
-/// Thin walls are looked at where there are any.
-template <class Real>
-void show_thin_walls(Layers<Real>& layers) {
-    layers.walls.thin = layers.thin.used > 0 ? &layers.thin : nullptr;
-}
-
 /// Empties both layers: no solid anywhere.
 template <class Real>
 void clear_layers(Layers<Real>& layers) {
@@ -266,7 +260,6 @@ bool keep_thin_edges(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t 
         return false;
     }
     body.hollow = is_thin_all_over(layers.thin, table, slot);
-    show_thin_walls(layers);
     return true;
 }
 
@@ -281,7 +274,7 @@ template <class Real>
 void forget_drawn(Layers<Real>& layers, BodyTable<Real>& table) {
     clear_layers(layers);
     clear_thin_walls(layers.thin, layers.shape, table.capacity);
-    layers.walls.thin = nullptr;
+    layers.show(false);
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {
         table.body[slot].drawn = NodeBox{};
     }
@@ -302,6 +295,7 @@ void draw_missing(Layers<Real>& layers, BodyTable<Real>& table, Stale stale) {
     redraw_static(layers, table, stale.fixed);
     refresh(layers, table, stale.moving);
     layers.walls.any_sticking = sticking;
+    layers.show(table.used > 0);
 }
 
 template <class Real>
@@ -329,7 +323,7 @@ std::int32_t merge_moving(Layers<Real>& layers, BodyTable<Real>& table) {
         if (body.moved) {
             body.left = body.drawn;
             body.drawn = reach(layers.shape, table, body);
-            if (kHasThinWalls<Real> && layers.thin.used > 0) {
+            if (layers.any_thin()) {
                 relink(layers.thin, layers.shape, table, slot);
             }
             const NodeBox both = unite(body.left, body.drawn);
@@ -379,8 +373,7 @@ void remove_drawn(Layers<Real>& layers, BodyTable<Real>& table, std::int32_t slo
         refresh(layers, table, drawn);
     }
     layers.walls.any_sticking = any_without_slip(table);
-    show_thin_walls(layers);
-    layers.walls.active = table.used > 0;
+    layers.show(table.used > 0);
 }
 
 #define WEIR_INSTANTIATE(Real)                                                        \

@@ -20,6 +20,15 @@ struct Layers {
     const detail::Touching<Real>* touching = nullptr;  ///< null: room for one body at most
     Real* nodes = nullptr;                ///< a node field that is free before a substep
     VelocityOf<Real>* scratch = nullptr;  ///< a cell field that is free between steps
+
+    bool any_thin() const { return kHasThinWalls<Real> && thin.used > 0; }
+
+    /// Whether those who look at walls see any.
+    void show(bool any) {
+        walls.active = any;
+        walls.sticking = any ? walls.sticking : nullptr;
+        walls.thin = any && any_thin() ? &thin : nullptr;
+    }
 };
 
 /// Finds what of a new body is thinner than a cell. False: there is no room for it. Of a free body

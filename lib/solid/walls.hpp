@@ -71,7 +71,7 @@ struct Walls {
     ShareOf<Real>* full_density = nullptr;  ///< density of a cell when all around it is full
     std::uint32_t* near = nullptr;  ///< a bit a cell: its left or lower face is to be mirrored
     const Body<Real>* body = nullptr;
-    ThinWallsPointer<Real> thin = {};   ///< null: no wall is thinner than a cell
+    ThinWallsPointer<Real> thin = {};   ///< null: none, or none near the liquid
     BodyLoad<Real>* load = nullptr;     ///< what bodies receive; null: nobody wants to know
     Face<Real> particle_mass[2] = {};   ///< of either liquid, over the first's density, cells²
     StoredPart<Real> stored = {};

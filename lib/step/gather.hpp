@@ -234,17 +234,18 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
     if (freely) {
         gather_freely(simulation, transfer, work, report);
         clock.charge(Stage::grid_to_particle);
-        return;
     }
     if constexpr (Solids) {
-        transfer.near = kLongWay<Real> / dt_s;
-        transfer.keeps_places = true;
         ThinWalls<Real>& thin = simulation.layers.thin;
-        if (simulation.layers.walls.thin != nullptr &&
-            work.once(simulation.bodies.vertices_used + 1)) {
-            follow_bodies(thin, simulation.bodies);
+        if (!freely) {
+            transfer.near = kLongWay<Real> / dt_s;
+            transfer.keeps_places = true;
+            if (simulation.layers.walls.thin != nullptr &&
+                work.once(simulation.bodies.vertices_used + 1)) {
+                follow_bodies(thin, simulation.bodies);
+            }
+            gather_among_solids(simulation, transfer, work, clock, report);
         }
-        gather_among_solids(simulation, transfer, work, clock, report);
         if (kHasThinWalls<Real> && thin.capacity > 0 && work.once(simulation.bodies.capacity)) {
             forget_ways(thin, simulation.bodies);
         }

@@ -157,11 +157,12 @@ GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
 }
 
 template <class Real>
-bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies, const Walls<Real>& walls) {
-    if (walls.thin != nullptr || bodies.load != nullptr) {
+bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies) {
+    if (bodies.load != nullptr) {
         return bodies.used > 0;
     }
-    // Distances are known a band around a body; cut cells look one node further.
+    // Distances are known a band around a body; cut cells look one node further. A thin wall that
+    // has gone beyond met nobody on its way: none is followed further than the part's margin.
     const auto reached = [&](const NodeBox& box) {
         return !box.empty() && box.i0 <= part.i0 + part.nx + 1 &&
                box.j0 <= part.j0 + part.ny + 1 && box.i1 >= part.i0 - 1 && box.j1 >= part.j0 - 1;
@@ -197,7 +198,7 @@ void empty_beyond(const GridShape& tank, const GridShape& last, const GridShape&
     template Extent<Real> extent_of(const Particles<Real>&, std::int32_t);                   \
     template GridShape occupied_part(const GridShape&, const Borders<Real>&,                 \
                                      const Extent<Real>&, bool);                              \
-    template bool walls_reach(const GridShape&, const BodyTable<Real>&, const Walls<Real>&); \
+    template bool walls_reach(const GridShape&, const BodyTable<Real>&);                     \
     template void empty_beyond(const GridShape&, const GridShape&, const GridShape&,         \
                                PressureFields<Real>&, Work);
 WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)

@@ -31,9 +31,9 @@ GridShape occupied_part(const GridShape& tank, const Borders<Real>& borders,
                         const Extent<Real>& extent, bool from_corner);
 
 /// Whether a solid has to do with that part: if not, the stages need not know that there are any.
-/// Thin walls, and whoever counts what bodies receive, always have. Cost: a comparison a body.
+/// Whoever counts what bodies receive always has. Cost: a comparison a body.
 template <class Real>
-bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies, const Walls<Real>& walls);
+bool walls_reach(const GridShape& part, const BodyTable<Real>& bodies);
 
 /// Empties the cells that the last substep's part had and this one's has not: pressure, density
 /// and level are what a cell without liquid has.

@@ -90,7 +90,7 @@ bool all_know(const Simulation<float>& simulation, const SubstepPlan<float>& pla
     const Settings<float>& settings = simulation.settings;
     const PressureFields<float>& fields = simulation.pressure;
     const bool plain = simulation.regions == nullptr && simulation.two_way == nullptr &&
-                       simulation.layers.walls.thin == nullptr && fields.elasticity == nullptr &&
+                       !simulation.layers.any_thin() && fields.elasticity == nullptr &&
                        fields.second_liquid == nullptr;
     return plain && !settings.borders.wrap_x && !settings.borders.wrap_y &&
            settings.surface_tension == 0.0F && !interpolates(simulation, plan);

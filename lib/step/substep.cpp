@@ -143,7 +143,7 @@ void quiet_leaning(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
     if (plan.settling) {
         return;
     }
-    if (simulation.layers.walls.thin == nullptr) {
+    if (!simulation.layers.any_thin()) {
         quiet_surface(simulation.grid, simulation.pressure, simulation.settings.gravity,
                       simulation.particles, work);
     } else if (work.once(1)) {
@@ -216,8 +216,7 @@ void skip_empty(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
         }
         GridShape& coarse = simulation.pressure.coarse.shape;
         coarse = {coarse_cells(now.nx), coarse_cells(now.ny), coarse.stride};
-        walls.active = walls_reach(now, simulation.bodies, walls);
-        walls.sticking = walls.active ? walls.sticking : nullptr;
+        simulation.layers.show(walls_reach(now, simulation.bodies));
     }
     empty_beyond(tank, simulation.occupied, simulation.grid.shape, simulation.pressure, work);
     if (work.once(1)) {
@@ -263,6 +262,7 @@ void draw_bodies(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wo
         Seconds<Real>& moved_s = simulation.walls_moved_s;
         moved_s = plan.walls_held ? Seconds<Real>{} : plan.dt_s + simulation.walls_behind_s;
         simulation.walls_behind_s = Seconds<Real>{};
+        simulation.layers.show(true);
         Walls<Real>& walls = simulation.layers.walls;
         walls.sticking = plan.viscosity > Real(0) && walls.any_sticking
                              ? simulation.viscosity->sticking

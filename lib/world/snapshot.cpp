@@ -180,7 +180,6 @@ void redraw(Simulation<Real>& simulation, const Stale* picture) {
     }
     link_inlets(simulation.pressure);
     note_movable(table);
-    simulation.layers.walls.active = table.used > 0;
     simulation.grid.shape = simulation.layers.shape;
     simulation.occupied = stored_part(simulation);  // what is not kept may stand anywhere
     clear(simulation.contacts);

@@ -112,7 +112,7 @@ template <class Real>
     }
     ++table.used;
     note_movable(table);
-    layers.walls.active = true;
+    layers.show(true);
     layers.walls.any_sticking = any_without_slip(table);
     if (kind == BodyKind::fixed) {
         draw_static(layers, table, slot);

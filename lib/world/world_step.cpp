@@ -114,7 +114,7 @@ template <class Real>
 void end(detail::WorldState<Real>& state) {
     Simulation<Real>& simulation = state.simulation;
     StepReport& report = *state.report;
-    simulation.layers.walls.active = simulation.bodies.used > 0;
+    simulation.layers.show(simulation.bodies.used > 0);
     if (report.walls_held) {
         simulation.walls_behind_s = static_cast<Seconds<Real>>(report.dt_s * units_per_s(state));
     }
