@@ -194,6 +194,7 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
         const std::int32_t all = from.cycles * (sweeps + kSweepsForCoarse);
         const std::int32_t depth = from.last_row - from.first_row + 1;
         sweep(weights, sweeps_of_depth(depth, all, from.cycles > 1), coupled, work, fields);
+        weigh_end(weights, work, fields);
     } else {
         set_up_coarse(weights, fields, work);
         for (std::int32_t cycle = 0; cycle < fields.solve.cycles; ++cycle) {

@@ -6,31 +6,30 @@
 
 namespace weir {
 
-/// What packed worlds start from: sixteenths, or all from 11 on. Few sweeps leave so much of too
-/// high a pressure that liquid of 32 rows, kicked, swung between half and one and a half times its
-/// weight, and lost a quarter of its height, as long as all was taken from a half on.
+/// Of a pressure that adds energy packed worlds keep three quarters of what adds none, sixteenths:
+/// all of that adds a little where rounding does, in a box that is kicked.
 template <class Real>
 Real share_in_sixteenths(Product<Real> eight_times, Product<Real> there) {
-    const Product<Real> sixteen_times = eight_times + eight_times;
+    const Product<Real> most = (eight_times + eight_times) + eight_times;
     std::int32_t share = 0;
-    for (Product<Real> sum = there; share < 11 && sixteen_times >= sum; sum = sum + there) {
+    for (Product<Real> sum = there; share < 12 && most >= sum; sum = sum + there) {
         ++share;
     }
-    return share < 11 ? static_cast<Real>(share) / Real(16) : Real(1);
+    return static_cast<Real>(share) / Real(16);
 }
 
-/// How much of the old pressure p to start from: eighths, or all (packed: as above). `wanted`: pᵀb,
-/// `there`: pᵀAp.
+/// How much of a pressure p to go on with: all if it is no worse than none, otherwise eighths
+/// (packed: as above). `wanted`: pᵀb, `there`: pᵀAp.
 template <class Real>
 Real share_of_start(Product<Real> wanted, Product<Real> there) {
     const Product<Real> twice = wanted + wanted;
-    if constexpr (Stored<Real>::shares_momentum) {
-        return share_in_sixteenths<Real>((twice + twice) + (twice + twice), there);
-    }
     if (twice >= there) {
         return Real(1);
     }
     const Product<Real> eight_times = (twice + twice) + (twice + twice);
+    if constexpr (Stored<Real>::shares_momentum) {
+        return share_in_sixteenths<Real>(eight_times, there);
+    }
     const Real share = eight_times >= (there + there) + there
                            ? Real(0.375)
                            : (eight_times >= there + there ? Real(0.25) : Real(0.125));
@@ -73,18 +72,12 @@ Solve<Real> weigh_row(const FaceWeights<Solids, Mixed, Real>& weights, std::int3
     return row;
 }
 
-/// The old pressure is where the solve starts, but not if it is further from the solution than no
-/// pressure at all, as after an impact: few sweeps would leave most of it, and it would push. The
-/// distance is that in kinetic energy, √(eᵀAe), which is shortest at pᵀb/pᵀAp times the old
-/// pressure; eighths are near enough. From such a start sweeps leave the velocity with no more
-/// energy than it came with.
+/// How much of the pressure to go on with: by so many rows, none if it is known to be all.
 template <bool Solids, bool Mixed, class Real>
-void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
-                 PressureFields<Real>& fields) {
+[[gnu::noinline]] void weigh(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t depth,
+                             Work work, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
     Solve<Real>& solve = fields.solve;
-    Real* p = fields.pressure;
-    const std::int32_t depth = maximum(0, solve.last_row - solve.first_row + 1);
     const Part weighed = work.take(depth, s.nx);
     const Part rows{solve.first_row + weighed.first, solve.first_row + weighed.end};
     if constexpr (Stored<Real>::coarse) {
@@ -100,9 +93,26 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
         if (kSettles<Real> && solved && solve.share == Real(1)) {
             solve.cycles = 0;  // sweeps would go on for ever about their last digits
         }
+        solve.wanted = {};
+        solve.there = {};
     }
-    const bool nearer = solve.share == Real(1);  // than no pressure at all
-    const Part scaled = work.take(nearer ? 0 : depth, s.nx);
+}
+
+/// Rows that hold liquid.
+template <class Real>
+std::int32_t depth_of(const Solve<Real>& solve) {
+    return maximum(0, solve.last_row - solve.first_row + 1);
+}
+
+/// Leaves so much of the pressure as was found.
+template <bool Solids, bool Mixed, class Real>
+void scale(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
+           PressureFields<Real>& fields) {
+    const GridShape& s = weights.grid.shape;
+    const Solve<Real>& solve = fields.solve;
+    Real* p = fields.pressure;
+    const bool all = solve.share == Real(1);
+    const Part scaled = work.take(all ? 0 : depth_of(solve), s.nx);
     for (std::int32_t at = scaled.first; at < scaled.end; ++at) {
         const std::int32_t j = solve.first_row + at;
         const Part columns = s.columns(j);
@@ -115,9 +125,35 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
             p[c] = solve.share * p[c];
         }
     }
-    if (work.once(s.border()) && !nearer) {
+    if (work.once(s.border()) && !all) {
         extend_cells<!Solids>(weights.borders, s, p);
     }
+}
+
+/// The old pressure is where the solve starts, but not if it is further from the solution than no
+/// pressure at all, as after an impact: few sweeps would leave most of it, and it would push. The
+/// distance is that in kinetic energy, √(eᵀAe), which is shortest at pᵀb/pᵀAp times the old
+/// pressure; eighths are near enough. From such a start sweeps leave the velocity with no more
+/// energy than it came with. Packed worlds start from all of it, and scale afterwards: at a hole
+/// that was drained a sweep or two mend a pressure that is right everywhere else, in all pools.
+template <bool Solids, bool Mixed, class Real>
+void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
+                 PressureFields<Real>& fields) {
+    weigh(weights, depth_of(fields.solve), work, fields);
+    if constexpr (!Stored<Real>::shares_momentum) {
+        scale(weights, work, fields);
+    }
+}
+
+/// Of a pressure that started further from the solution than none, and was swept: as much as leaves
+/// the velocity with no more energy than it came with. Of one that was nearer all, as no sweep takes
+/// it further away.
+template <bool Solids, bool Mixed, class Real>
+void weigh_end(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
+               PressureFields<Real>& fields) {
+    const Solve<Real>& solve = fields.solve;
+    weigh(weights, solve.share == Real(1) ? 0 : depth_of(solve), work, fields);
+    scale(weights, work, fields);
 }
 
 /// A much longer step than the last starts from less than the last pressure would suggest. But an

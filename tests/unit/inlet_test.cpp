@@ -174,6 +174,30 @@ TYPED_TEST(InletOf, WhatIsPouredAndDrainedKeepsTheLevel) {
     EXPECT_LT(pool.sums().largest_density, 1.5);
 }
 
+/// An outlet in the floor of one of two pools takes half of it. Where its pressure jumped at the hole
+/// packed liquid held up less of its weight, that of the other pool, too: 0.84 of the volume was
+/// left, and 0.77 of the other one's height.
+TYPED_TEST(EveryInletOf, WhatADrainLeavesKeepsItsVolume) {
+    TestWorld<TypeParam> pools{tank_def(2 * kWide + 2, kHigh, 4 * 2 * kWide * 16, 1, 4)};
+    put_static(*pools, body_of(rectangle(2 * kCell, kHigh * kCell),
+                               {(kWide + 1) * kCell, kHigh / 2 * kCell}));
+    std::int32_t left = 0;
+    expect_ok(pools->fill({{0, 0}, {kWide * kCell, 16 * kCell}}, &left));
+    expect_ok(pools->fill({{(kWide + 2) * kCell, 0}, {(2 * kWide + 2) * kCell, 16 * kCell}}));
+    pools->step(kDt);
+    const double before = mean_height(*pools, kWide + 1);
+    const std::int32_t half = left / 2;
+    for (int k = 0; k < 240 && left > half; ++k) {
+        std::int32_t removed = 0;
+        expect_ok(pools->drain({{7 * kCell, 0}, {9 * kCell, kCell}}, &removed));
+        left -= removed;
+        pools->step(kDt);
+    }
+    EXPECT_LE(left, half);
+    EXPECT_GT(volume_left(*pools), 0.97);
+    EXPECT_GT(mean_height(*pools, kWide + 1), 0.99 * before);
+}
+
 /// A pool that is set up particle by particle is no inlet, nor is a block of liquid put into the air.
 TYPED_TEST(InletOf, NothingIsAskedForWhereNothingWas) {
     TestWorld<TypeParam> pool{pool_def(Pressure::projection)};

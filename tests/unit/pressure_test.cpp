@@ -109,6 +109,19 @@ TEST(PressureStart, IsNoFurtherThanNone) {
     }
 }
 
+/// Packed worlds keep of what adds energy half as much again as takes most away, in sixteenths.
+TEST(PressureStart, OfPackedLiquidAddsNoEnergy) {
+    const double wanted[] = {1.0, 0.5, 0.499, 0.25, 0.05, 0.04, 0.0, -1.0};
+    const double share[] = {1.0, 1.0, 0.6875, 0.375, 0.0625, 0.0, 0.0, 0.0};
+    for (int k = 0; k < 8; ++k) {
+        Product<SmallFixed> sum;
+        Product<SmallFixed> all;
+        sum.raw = static_cast<std::int64_t>(wanted[k] * 1000);
+        all.raw = 1000;
+        EXPECT_EQ(static_cast<double>(share_of_start<SmallFixed>(sum, all)), share[k]);
+    }
+}
+
 TEST(PressureStart, OfAMuchLongerStepIsLess) {
     const auto rescaled = [](float dt_s, float change) {
         PressureFields<float> fields;
