@@ -146,8 +146,7 @@ void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
 }
 
 /// Of a pressure that started further from the solution than none, and was swept: as much as leaves
-/// the velocity with no more energy than it came with. Of one that was nearer all, as no sweep takes
-/// it further away.
+/// the velocity with no more energy than it came with. One that was nearer stays so by itself.
 template <bool Solids, bool Mixed, class Real>
 void weigh_end(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
                PressureFields<Real>& fields) {
