@@ -55,8 +55,9 @@ void note_inlet(const GridShape& tank, const Walls<Real>& walls, Vec2<Real> plac
 template <class Real>
 void link_inlets(PressureFields<Real>& fields);
 
-/// Packed worlds, which have no bytes to remember where it was, ask for so many substeps for all
-/// that is too dense beneath liquid. For ever, what a splash presses together would gain energy.
+/// For so many substeps all that is too dense beneath liquid asks for room, after a body was put
+/// into it; in packed worlds, which have no bytes to remember where it was, also after liquid was
+/// added. For ever, what a splash presses together would gain energy.
 inline constexpr std::uint8_t kRoomTurns = 128;
 
 /// That something was added there: nothing if no liquid was over it in the last substep.

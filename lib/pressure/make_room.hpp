@@ -1,4 +1,4 @@
-// Asks the pressure for room: what free bodies have pressed together does.
+// Asks the pressure for room: what bodies have pressed together does.
 #pragma once
 
 #include "pressure/patches.hpp"
@@ -16,6 +16,9 @@ inline constexpr Real kMostTight = Real(0.1);
 /// most, which no particle feels as a blow.
 template <class Real>
 inline constexpr Real kRoomGain = Real(0.03);
+/// The same around a body that was put into the liquid, which takes a second for it and no longer.
+template <class Real>
+inline constexpr Real kRoomGainAround = Real(0.1);
 /// Nothing more is asked for under a column of so many tanks of liquid: where nothing yields, as in
 /// a tank that is full, the pressure would rise for ever.
 inline constexpr std::int32_t kMostColumns = 4;
@@ -56,11 +59,13 @@ inline void ask_for_outflow(std::int32_t c, Real outflow, PressureFields<Real>& 
 }
 
 /// The drift moves particles, not bodies: liquid that a crowd of them covers cannot rise by it, and
-/// is pressed together by their weight until they lie on each other. So each patch of 4 × 4 cells
-/// that is too full asks for an outflow, which lifts the bodies; the less the more pressure it has.
+/// is pressed together by their weight until they lie on each other; nor does it soon lift what a
+/// body that was put into a pool pressed together. So each patch of 4 × 4 cells that is too full
+/// asks for an outflow, which lifts both; the less the more pressure it has.
 /// Between the equations and their solve. Without gravity nothing is asked for.
 template <class Real>
-void make_room(const GridShape& s, Work work, PressureFields<Real>& fields) {
+[[gnu::noinline]] void make_room(const GridShape& s, Real gain, Work work,
+                                 PressureFields<Real>& fields) {
     const std::int32_t most_heads = kMostColumns * maximum(s.nx, s.ny);
     const Real weight = fields.cell_weight;
     const Real pace = pace_of_room(fields);
@@ -73,7 +78,7 @@ void make_room(const GridShape& s, Work work, PressureFields<Real>& fields) {
         if (!(tight > Real(0) && weight > Real(0))) {
             return;
         }
-        const Real outflow = (pace * (kRoomGain<Real> * tight)) / fields.last_dt;
+        const Real outflow = (pace * (gain * tight)) / fields.last_dt;
         for (std::int32_t y = 0; y < patch.height; ++y) {
             const std::int32_t first = s.index(patch.i, patch.j + y);
             for (std::int32_t c = first; c < first + patch.width; ++c) {

@@ -32,7 +32,8 @@ template <class Real>
 struct Solve {
     std::int32_t first_row = 0;  ///< these hold all the liquid
     std::int32_t last_row = -1;
-    std::int32_t cycles = 0;
+    std::int16_t cycles = 0;
+    bool makes_room = false;     ///< in one of `room_turns`, of which its substep may begin more
     Real rescale = Real(0);      ///< of the last pressure p, to start from
     Real share = Real(1);        ///< of that, in the end
     /// Packed: at least 16 if the old pressure is not the solution. Fixed, while it settles: how
@@ -87,7 +88,7 @@ struct PressureFields {
     /// Substeps since leaning surfaces were quieted, or were to be; kQuietEvery if there was none.
     /// In packed worlds viscosity rounds, and drift is paid for, by it.
     std::uint8_t quiet_turn = 0;
-    /// Packed: for so many substeps what is too dense asks for room (inlets.hpp).
+    /// For so many substeps what is too dense asks for room (inlets.hpp).
     std::uint8_t room_turns = 0;
     bool crowded = false;              ///< some of packed liquid, as the last drift found
     bool settling = false;             ///< liquid of fixed point is being led to rest

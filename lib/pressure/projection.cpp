@@ -3,6 +3,7 @@
 #include "pressure/build_packed.hpp"
 #include "pressure/coarse_correction.hpp"
 #include "pressure/equation_of_state.hpp"
+#include "pressure/make_room.hpp"
 #include "pressure/patch_drift.hpp"
 #include "pressure/project.hpp"
 #include "pressure/project_packed.hpp"
@@ -173,8 +174,9 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
     PressureFields<Real>& fields = domain.fields;
     build(weights, fields, work);
     if constexpr (Solids && !Stored<Real>::coarse) {  // packed worlds have no free bodies
-        if (coupled != nullptr) {
-            coupled->make_room(s, work, fields);
+        if (coupled != nullptr || fields.solve.makes_room || work.foreseeing()) {
+            const Real gain = coupled != nullptr ? kRoomGain<Real> : kRoomGainAround<Real>;
+            make_room(s, gain, work, fields);
         }
     }
     if (work.once(s.border())) {
@@ -182,7 +184,7 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
         extend_cells<!Solids>(borders, s, fields.pressure);
     }
     if constexpr (Stored<Real>::coarse) {
-        if ((fields.room_turns > 0 || work.foreseeing()) && work.once(s.size())) {
+        if ((fields.solve.makes_room || work.foreseeing()) && work.once(s.size())) {
             make_room_packed(s, fields);
         }
     }
@@ -265,7 +267,6 @@ void make_incompressible(const Domain<Real>& domain, Seconds<Real> dt_s, std::in
     const Borders<Real>& borders = domain.borders;
     if (work.once(1)) {
         fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
-        fields.room_turns = static_cast<std::uint8_t>(maximum(fields.room_turns - 1, 0));
     }
     const bool seams = !Solids && (borders.wrap_x || borders.wrap_y);
     if (seams && work.once(grid.shape.border())) {  // leaps look across, and what is carried

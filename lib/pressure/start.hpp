@@ -174,6 +174,8 @@ Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Re
     solve.first_row = rows;
     solve.cycles = cold ? kColdStart : 1;
     solve.rescale = rescale;
+    fields.room_turns = static_cast<std::uint8_t>(maximum(fields.room_turns - 1, 0));
+    solve.makes_room = fields.room_turns > 0;
     return solve;
 }
 

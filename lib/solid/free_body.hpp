@@ -14,8 +14,6 @@ namespace weir {
 
 template <class Real>
 struct FreeBodyStages;
-template <class Real>
-struct PressureFields;
 
 /// The pressure solve as the coupling sees it.
 template <class Real>
@@ -31,8 +29,6 @@ struct CoupledSolve {
     VelocityOf<Real>* divergence;        ///< with the bodies' velocities before the pressure
     VelocityOf<Real>* inverse_diagonal;  ///< 0 where a free body presses: those cells are ours
     Real* diagonal;  ///< of those cells, 0 elsewhere; valid in the bodies' rectangles
-    /// Between the equations and their solve (pressure/make_room.hpp).
-    void (*make_room)(const GridShape&, Work, PressureFields<Real>&);
 };
 
 template <class Real>

@@ -37,6 +37,12 @@ void note(const CollideResult<Real>& result, Simulation<Real>& simulation, StepR
     report.particles_reflected += result.reflected;
     report.particles_stuck += result.stuck;
     report.particles_removed_stuck += result.removed;
+    if (result.covered) {
+        simulation.pressure.room_turns = kRoomTurns;
+        if constexpr (Stored<Real>::coarse) {  // what is at rest drifts again
+            simulation.pressure.crowded = simulation.settings.volume_gain > Real(0);
+        }
+    }
     simulation.max_speed = maximum(simulation.max_speed, result.max_speed);
 #if WEIR_PARALLEL
     simulation.grid.knows_rows = simulation.grid.knows_rows && !result.leapt;

@@ -2,7 +2,6 @@
 
 #include "geometry/convex_decomposition.hpp"
 #include "geometry/moments.hpp"
-#include "pressure/make_room.hpp"
 #include "solid/moving_walls.hpp"
 #include "step/momentum_ledger.hpp"
 
@@ -138,15 +137,6 @@ void move_free_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, StepRepo
 }
 
 template <class Real>
-constexpr auto room_maker() -> decltype(CoupledSolve<Real>::make_room) {
-    if constexpr (Stored<Real>::shares_momentum) {
-        return nullptr;
-    } else {
-        return make_room<Real>;
-    }
-}
-
-template <class Real>
 CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Real> dt_s) {
     const PressureFields<Real>& fields = simulation.pressure;
     const StaggeredGrid<Real>& grid = simulation.grid;
@@ -160,8 +150,7 @@ CoupledSolve<Real> coupled_solve(const Simulation<Real>& simulation, Seconds<Rea
             fields.pressure,
             fields.divergence,
             fields.inverse_diagonal,
-            simulation.body_diagonal,
-            room_maker<Real>()};
+            simulation.body_diagonal};
 }
 
 /// Packed worlds have no free bodies, so no pieces.

@@ -123,9 +123,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     stream.member(drift_turn, 0, 0xFFFF);
     stream.member(quiet_turn, 0, kQuietEvery);
     stream.member(crowded, false, true);
-    if constexpr (Stored<Real>::coarse) {
-        stream.member(room_turns, 0, kRoomTurns);
-    }
+    stream.member(room_turns, 0, kRoomTurns);
     stream.member(still_s, 0.0F, def.sleep.after_s);
     stream.member(stepped_s, 0.0F, 1.0e9F);
     any_member(stream, still_gravity);

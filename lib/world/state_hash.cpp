@@ -155,9 +155,9 @@ std::uint64_t World<Real>::state_hash() const {
         if (simulation.look.substeps_left > 0) {
             hash.add(simulation.look.substeps_left);
         }
-        if (simulation.pressure.room_turns > 0) {
-            hash.add(static_cast<std::int32_t>(simulation.pressure.room_turns));
-        }
+    }
+    if (simulation.pressure.room_turns > 0) {
+        hash.add(static_cast<std::int32_t>(simulation.pressure.room_turns));
     }
     if constexpr (kHasInlets<Real>) {
         const Inlets<Real>& inlets = simulation.pressure.inlets;

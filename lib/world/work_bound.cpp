@@ -47,7 +47,7 @@ std::int64_t foresee(Simulation<Real>& simulation, const SubstepPlan<Real>& plan
     StepReport report;
     Progress progress;
     progress.foresee();
-    simulation.pressure.solve.cycles = cycles;
+    simulation.pressure.solve.cycles = static_cast<std::int16_t>(cycles);
     simulation.stages->substep(simulation, plan, Work(progress), report);
     // A part of the tank that was left is emptied, whatever the next one is.
     report.work[static_cast<std::int32_t>(Stage::particle_to_grid)] +=
