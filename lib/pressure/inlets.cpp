@@ -35,11 +35,15 @@ Real share_of_substep(const PressureFields<Real>& fields) {
     return clamp<Real>(share, Real(1.0 / 64.0), Real(0.25));
 }
 
-/// Whether a cell is wet, and all around it that is not behind a wall.
-template <class Real, class Wet>
-bool is_beneath(const GridShape& s, const Walls<Real>& walls, std::int32_t i, std::int32_t j,
-                const Wet& wet) {
+/// Whether a cell is wet, and all around it that is not behind a wall: what has a level over 0, or,
+/// without levels, had any pressure.
+template <class Real>
+[[gnu::noinline]] bool is_beneath(const GridShape& s, const Walls<Real>& walls, std::int32_t i,
+                                  std::int32_t j, const Real* level, const Real* pressure) {
     const std::int32_t c = s.index(i, j);
+    const auto wet = [&](std::int32_t at) {
+        return level != nullptr ? level[at] > Real(0) : pressure[at] != Real(0);
+    };
     const auto none_dry = [&](bool inside, const ShareOf<Real>* open, std::int32_t face,
                               std::int32_t next) {
         return !inside || wet(next) || (walls.active && !(Real(open[face]) > Real(0)));
@@ -59,9 +63,8 @@ bool wants_room(const Domain<Real>& domain, std::int32_t i, std::int32_t j) {
         return false;
     }
     const std::int32_t c = s.index(i, j);
-    const auto wet = [&](std::int32_t at) { return f.level[at] > Real(0); };
     return Real(f.density[c]) > kThin<Real> && !is_zero(Real(f.inverse_diagonal[c])) &&
-           is_beneath(s, domain.walls, i, j, wet);
+           is_beneath<Real>(s, domain.walls, i, j, f.level, f.pressure);
 }
 
 /// Whether there is hope for room.
@@ -189,8 +192,7 @@ void note_inlet([[maybe_unused]] const GridShape& tank, [[maybe_unused]] const W
         const GridShape stored = stored_part(walls, tank);
         const bool known = i >= stored.i0 && i < stored.i0 + stored.nx && j >= stored.j0 &&
                            j < stored.j0 + stored.ny;
-        const auto wet = [&](std::int32_t c) { return fields.pressure[c] != Real(0); };
-        if (!known || !is_beneath(tank, walls, i, j, wet)) {
+        if (!known || !is_beneath<Real>(tank, walls, i, j, nullptr, fields.pressure)) {
             return;
         }
         link_inlets(fields);
