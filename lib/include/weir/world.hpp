@@ -48,9 +48,10 @@ public:
     }
 
     /// A solid that never moves; it is rasterized once. Liquid found inside it is pushed out, and
-    /// pressed together around it: of the room that 10 × 10 cells take amid a pool a third is
-    /// missing 10 s later. If its place is drained first (`drain`) none is; a moving body that is
-    /// led in (`move_body`) costs 7 %.
+    /// pressed together around it until it has lifted what lies over it: of the room that 10 × 10
+    /// cells take amid a pool 7 % is missing a second later, as if a moving body were led in
+    /// (`move_body`); with an equation of state nearly all, and a third 10 s later. If its place is
+    /// drained first (`drain`) none is.
     Status add_static_body(const BodyDef& def, BodyId* id);
     /// A solid that moves as told; it is rasterized again in each step in which it moved. It may
     /// come in from outside the tank, where other bodies are refused.
