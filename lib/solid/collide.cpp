@@ -101,7 +101,7 @@ template <class Real>
     const Real distance = length(way);
     const Vec2<Real> normal = distance > Real(0) ? (Real(1) / distance) * way : Vec2<Real>{};
     ++scene.result.reflected;
-    scene.result.covered = scene.result.covered || distance > Real(0.5);
+    scene.result.covered |= distance > (body.kind == BodyKind::moving ? Real(1) : Real(0.5));
     if (distance > kFastestWayOut<Real>) {
         scene.particles.position[k] = from + kFastestWayOut<Real> * normal;
         blow(scene, k, slot, from, velocity_at(scene.walls, slot, from));

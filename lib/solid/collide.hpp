@@ -39,7 +39,8 @@ struct CollideResult {
     std::int32_t reflected = 0;  ///< particles behind a line, or stopped on their path
     std::int32_t stuck = 0;      ///< particles still inside a solid, on their way out
     std::int32_t removed = 0;    ///< particles that had no way out
-    bool covered = false;        ///< a body was put onto one: half a cell deep
+    bool covered = false;        ///< a body was put onto one: it was half a cell deep, or a whole
+                                 ///< one in what moves, between whose arms some are caught
     bool leapt = false;          ///< one went further than the gather lets any go
     Real max_speed = Real(0);    ///< of those that were answered, along an axis, cells/s
 };

@@ -251,11 +251,11 @@ void gather(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work wo
                 follow_bodies(thin, simulation.bodies);
             }
             gather_among_solids(simulation, transfer, work, clock, report);
+            clock.charge(Stage::collide);
         }
         if (kHasThinWalls<Real> && thin.capacity > 0 && work.once(simulation.bodies.capacity)) {
             forget_ways(thin, simulation.bodies);
         }
-        clock.charge(Stage::collide);
     }
 }
 
