@@ -103,7 +103,7 @@ TYPED_TEST(PutInto, APoolRises) {
         const double risen = pool.sums().potential_energy_m4ps2 - before;
         EXPECT_LT(pool.missing(block), Stored<TypeParam>::coarse ? 0.25 : 0.15) << block.name;
         EXPECT_LT(stirred, (Stored<TypeParam>::coarse ? 0.5 : 0.05) * risen) << block.name;
-        const double level = kDeep + block.width * block.height / kWide;
+        const auto level = static_cast<double>(kDeep + block.width * block.height / kWide);
         EXPECT_LT(highest, level + 1) << block.name;
         pool.run(240);
         EXPECT_LT(pool.missing(block), Stored<TypeParam>::coarse ? 0.2 : 0.12) << block.name;

@@ -1,15 +1,14 @@
 #include "unit/test_world.hpp"
 
+#include "math/scalar.hpp"
+
 namespace weir {
 
-template class TestWorld<float>;
-template class TestWorld<double>;
-template class TestWorld<Fixed>;
-template class TestWorld<SmallFixed>;
-template Layout layout<float>(const Capacity&);
-template Layout layout<double>(const Capacity&);
-template Layout layout<Fixed>(const Capacity&);
-template Layout layout<SmallFixed>(const Capacity&);
+#define WEIR_INSTANTIATE(Real)      \
+    template class TestWorld<Real>; \
+    template Layout layout<Real>(const Capacity&);
+WEIR_FOR_EACH_SCALAR(WEIR_INSTANTIATE)
+#undef WEIR_INSTANTIATE
 
 BodyDef body_of(const Ring& ring, Vec2f at_m, float angle_rad) {
     BodyDef def;
