@@ -124,7 +124,7 @@ void recut(Layers<Real>& layers, const NodeBox& changed) {
             part.j0 - rim.below};
     update_cut_cells(part, {box.i0 - part.i0, box.j0 - part.j0, box.i1 - part.i0, box.j1 - part.j0},
                      rim, layers.thin.capacity > 0, layers.scratch, walls);
-    if (layers.any_thin()) {
+    if (layers.any_thin() || walls.thin != nullptr) {  // or was, until now
         close_thin_faces(layers.shape, box, layers.thin, walls.open_u, walls.open_v,
                          walls.full_density);
     }

@@ -36,10 +36,12 @@ public:
 
     World<Real>& world() { return *world_; }
     std::int64_t tested() const { return tested_; }
+    BodyId paddle() const { return paddle_; }
+    static Capacity capacity() { return definition(false).capacity; }
 
 private:
     static WorldDef definition(bool watched) {
-        WorldDef def = tank_def(48, 40, 1600, 1, 2);
+        WorldDef def = tank_def(48, 40, 1600, 2, 8);
         def.capacity.two_way = watched;
         def.cell_m = kCell;
         def.capacity.wall_edges = 200;
@@ -68,6 +70,30 @@ TYPED_TEST(ThinAway, NobodyCanTellWhetherTheyAreLookedAt) {
         }
     }
     EXPECT_GT(pool.tested(), 0) << "it never dived";
+}
+
+/// The last one that goes takes its marks along: where it stood the next one is far away.
+TYPED_TEST(ThinAway, NorWhetherTheyWereThere) {
+    Pool<TypeParam> pool(false);
+    World<TypeParam>& world = pool.world();
+    pool.step(0);
+    expect_ok(world.remove_body(pool.paddle()));
+    const Ring line = {{-5.3F * kCell, 0}, {5.3F * kCell, 1.7F * kCell}};
+    BodyDef def = body_of(line, kCell * Vec2f{20, 4});
+    def.open = true;
+    const BodyId id = put_static(world, def);
+    world.step(kStep_s);
+    expect_ok(world.remove_body(id));
+    def.motion.position_m.x += 14 * kCell;
+    put_static(world, def);
+    Pool<TypeParam> other(false);
+    const std::vector<std::byte> kept = saved(world, pool.capacity());
+    expect_ok(other.world().restore(kept.data(), kept.size()));
+    for (int k = 0; k < 5; ++k) {
+        world.step(kStep_s);
+        other.world().step(kStep_s);
+        ASSERT_EQ(other.world().state_hash(), world.state_hash()) << k;
+    }
 }
 
 }  // namespace
