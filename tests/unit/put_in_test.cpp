@@ -62,8 +62,9 @@ public:
     }
     /// Of the room that the block takes, which part the liquid has not found elsewhere.
     double missing(const Block& block) {
-        const auto area = static_cast<double>(block.width * block.height * kCell * kCell);
-        return (1.0 - volume_left(**this)) * sums().mass_m2 / area;
+        const Diagnostics now = sums();
+        return (now.mass_m2 - now.volume_m2) /
+               static_cast<double>(block.width * block.height * kCell * kCell);
     }
     Diagnostics sums() {
         Diagnostics now;
