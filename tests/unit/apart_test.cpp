@@ -26,13 +26,6 @@ std::int32_t met(const World<Real>& world) {
     return world.particle_positions().size - static_cast<std::int32_t>(places.size());
 }
 
-template <class Real>
-void run(World<Real>& world, int steps) {
-    for (int step = 0; step < steps; ++step) {
-        world.step(1.0F / 60.0F);
-    }
-}
-
 const Ring kBall = {{0.04F, 0.0F},  {0.028F, 0.028F},   {0.0F, 0.04F},  {-0.028F, 0.028F},
                     {-0.04F, 0.0F}, {-0.028F, -0.028F}, {0.0F, -0.04F}, {0.028F, -0.028F}};
 
@@ -50,7 +43,7 @@ TYPED_TEST(ApartOf, ParticlesInTheCornersOfAThinWheel) {
         put_moving(*world, blade);
     }
     expect_ok(world->fill({{0.0F, 0.0F}, {0.64F, 0.18F}}));
-    run(*world, 900);
+    world.run(900);
     EXPECT_LE(met(*world), 12);
     EXPECT_GT(volume_left(*world), 0.94);
 }
@@ -64,7 +57,7 @@ TEST(ApartPacked, ParticlesOverABelt) {
     def.walls.bottom = {0.0F, 0.0F, true, 0.1F};
     TestWorld<SmallFixed> world(def);
     expect_ok(world->fill({{0.0F, 0.0F}, {0.16F, 0.08F}}));
-    run(*world, 120 * 60);
+    world.run(120 * 60);
     EXPECT_LE(met(*world), 2);
 }
 
@@ -89,9 +82,9 @@ TYPED_TEST(ApartInCrowdOf, ParticlesBetweenFreeBodies) {
             BodyDef body = body_of(shape, at, between(0.0F, 3.0F));
             body.density_ratio = 0.6F;
             bodies.push_back(put_free(*world, body));
-            run(*world, 20);
+            world.run(20);
         }
-        run(*world, 600);
+        world.run(600);
         for (const BodyId& id : bodies) {
             expect_ok(world->remove_body(id));
         }

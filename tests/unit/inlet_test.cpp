@@ -40,12 +40,7 @@ public:
         World<Real>& world = **this;
         put_static(world, body_of(rectangle(4 * kCell, 4 * kCell), {14 * kCell, 2 * kCell}));
         expect_ok(world.fill({{0, 0}, {kWide * kCell, 8 * kCell}}));
-        run(10);
-    }
-    void run(std::int32_t steps) {
-        for (std::int32_t k = 0; k < steps; ++k) {
-            (**this).step(kDt);
-        }
+        this->run(10);
     }
     /// What a box holds at rest is added again.
     void fill(const Box& cells) {
@@ -60,29 +55,10 @@ public:
         expect_ok((**this).add_particle({(place.at.x + along) * kCell, (place.at.y + up) * kCell},
                                         {place.speed_mps, 0}));
     }
-    Diagnostics sums() {
-        Diagnostics now;
-        expect_ok((**this).diagnose(&now));
-        return now;
-    }
 
 private:
     std::int32_t turn_ = 0;
 };
-
-/// Of what is on the right of a place, cells.
-template <class Real>
-double mean_height(const World<Real>& world, double from) {
-    double sum = 0;
-    int count = 0;
-    for (const auto at : world.particle_positions()) {
-        if (static_cast<double>(at.x) > from) {
-            sum += static_cast<double>(at.y);
-            ++count;
-        }
-    }
-    return sum / count;
-}
 
 WEIR_SUITE(InletOf, RoomyScalars);
 WEIR_SUITE(EveryInletOf, EveryScalar);

@@ -94,15 +94,6 @@ std::int32_t places(const World<Real>& world) {
     return static_cast<std::int32_t>(found.size());
 }
 
-template <class Real>
-double mean_height(const World<Real>& world) {
-    double sum = 0.0;
-    for (const auto& x : world.particle_positions()) {
-        sum += static_cast<double>(x.y);
-    }
-    return sum / world.particle_positions().size;
-}
-
 /// Those at one place are carried alike from then on.
 TYPED_TEST(LongRunOf, ParticlesStayApartWhileATankIsTurned) {
     using Real = TypeParam;

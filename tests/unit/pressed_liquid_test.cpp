@@ -10,16 +10,6 @@ namespace {
 
 constexpr float kCell = 0.02F;
 
-template <class Real>
-double mean_height(const World<Real>& world) {
-    double sum = 0;
-    const auto places = world.particle_positions();
-    for (const auto& x : places) {
-        sum += static_cast<double>(x.y);
-    }
-    return sum / places.size;
-}
-
 /// Packed worlds have no coarse grid: sweeps alone carry the weight of what is deep. With as many
 /// as asked for, pools of 40 rows collapsed by themselves, of 32 when they were kicked.
 TEST(PressedLiquid, DeepPoolsInSmallFixedStayDeep) {

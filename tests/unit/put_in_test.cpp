@@ -45,7 +45,7 @@ public:
             id_ = put_moving(world, body_of(ring_, {16 * kCell, 30 * kCell}));
         }
         expect_ok(world.fill({{0, 0}, {kWide * kCell, kDeep * kCell}}));
-        run(10);
+        this->run(10);
     }
     void put(const Block& block) {
         const BodyDef def = body_of(ring_, {block.at.x * kCell, block.at.y * kCell});
@@ -55,21 +55,11 @@ public:
             put_static(**this, def);
         }
     }
-    void run(std::int32_t steps) {
-        for (std::int32_t k = 0; k < steps; ++k) {
-            (**this).step(kDt);
-        }
-    }
     /// Of the room that the block takes, which part the liquid has not found elsewhere.
     double missing(const Block& block) {
-        const Diagnostics now = sums();
+        const Diagnostics now = this->sums();
         return (now.mass_m2 - now.volume_m2) /
                static_cast<double>(block.width * block.height * kCell * kCell);
-    }
-    Diagnostics sums() {
-        Diagnostics now;
-        expect_ok((**this).diagnose(&now));
-        return now;
     }
     /// Of the highest particle, cells.
     double top() {

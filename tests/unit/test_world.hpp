@@ -73,6 +73,17 @@ public:
 
     Status init_again() { return world_.init(def_, memory_.data(), memory_.size()); }
     std::byte* memory() { return memory_.data(); }
+    void run(std::int32_t steps, float dt_s = 1.0F / 60.0F) {
+        for (std::int32_t k = 0; k < steps; ++k) {
+            world_.step(dt_s);
+        }
+    }
+    Diagnostics sums() {
+        Diagnostics now;
+        const Status asked = world_.diagnose(&now);
+        EXPECT_EQ(asked, Status::ok) << status_text(asked);
+        return now;
+    }
     World<Real>* operator->() { return &world_; }
     const World<Real>* operator->() const { return &world_; }
     World<Real>& operator*() { return world_; }
@@ -156,6 +167,20 @@ double volume_left(World<Real>& world) {
     Diagnostics now;
     expect_ok(world.diagnose(&now));
     return now.volume_m2 / now.mass_m2;
+}
+
+/// Of what is on the right of a place; both in cells.
+template <class Real>
+double mean_height(const World<Real>& world, double from = 0) {
+    double sum = 0;
+    int count = 0;
+    for (const auto at : world.particle_positions()) {
+        if (static_cast<double>(at.x) >= from) {
+            sum += static_cast<double>(at.y);
+            ++count;
+        }
+    }
+    return sum / count;
 }
 
 /// Of all stages of a step.
