@@ -12,18 +12,4 @@ set(CMAKE_CXX_FLAGS_INIT ${CMAKE_C_FLAGS_INIT})
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-
-# Weir wants cstdint, cstddef, cstring, type_traits and new. Debian's compiler comes without C++
-# headers; those of its compiler for Arm, of the same version, are the same for both.
-execute_process(COMMAND ${CMAKE_COMMAND} -E echo "#include <cstdint>"
-  COMMAND ${weir_riscv_compiler} -E -x c++ - OUTPUT_QUIET ERROR_QUIET RESULT_VARIABLE weir_without)
-if(weir_without)
-  file(GLOB weir_headers /usr/include/newlib/c++/*)
-  if(NOT weir_headers)
-    message(FATAL_ERROR "${weir_riscv_compiler} has no C++ headers, and those of Debian's "
-      "libstdc++-arm-none-eabi-newlib are not there either (toolchains/install riscv)")
-  endif()
-  list(GET weir_headers -1 weir_headers)
-  string(APPEND CMAKE_CXX_FLAGS_INIT " -nostdinc++ -isystem ${weir_headers}"
-    " -isystem ${weir_headers}/arm-none-eabi -isystem /usr/include/newlib")
-endif()
+include(${CMAKE_CURRENT_LIST_DIR}/cxx_headers.cmake)

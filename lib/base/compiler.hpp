@@ -49,6 +49,12 @@
 #define WEIR_TRAILING_ZEROS weir::trailing_zeros
 #endif
 
+/// Processors that multiply into 32 bits and divide in software: a Cortex-M0, and an LX106.
+/// (Xtensas whose calls have windows make 64, and divide.)
+#if defined(__ARM_ARCH_6M__) || defined(__XTENSA_CALL0_ABI__)
+#define WEIR_SHORT_PRODUCTS
+#endif
+
 /// A condition that seldom holds.
 #if WEIR_GNU_COMPILER
 #define WEIR_SELDOM(condition) __builtin_expect(condition, 0)

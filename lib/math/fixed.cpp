@@ -65,7 +65,7 @@ WEIR_ALWAYS_INLINE Digit next_digit(std::uint32_t high, std::uint32_t next,
 
 }  // namespace
 
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
 // Upper halves with their signs: only the lower ones' product fills a word.
 std::int64_t wide_product(std::int32_t a, std::int32_t b) {
     const auto a_low = static_cast<std::int32_t>(a & 0xFFFF);
@@ -171,7 +171,7 @@ std::int32_t inverted(std::int32_t stored) {
                                             static_cast<std::uint32_t>(stored) >> 5U));
 }
 
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
 // Bit by bit: no division on this processor.
 Root root_below(std::uint32_t value) {
     std::uint32_t root = 0;

@@ -35,7 +35,7 @@ inline std::int32_t subtract(std::int32_t a, std::int32_t b) {
                                                      : difference;
 }
 #endif
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
 /// No product of 64 bits on this processor: out of four of 32, and not inlined.
 std::int32_t multiply(std::int32_t a, std::int32_t b, int shift);
 #else
@@ -54,7 +54,7 @@ inline std::uint32_t magnitude(std::int32_t a) {
 std::uint32_t divide(std::uint64_t numerator, std::uint32_t divisor);
 
 /// a · b, all 64 bits.
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
 std::int64_t wide_product(std::int32_t a, std::int32_t b);
 #else
 constexpr std::int64_t wide_product(std::int32_t a, std::int32_t b) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "base/compiler.hpp"
+
 namespace weir {
 
 /// By the upper byte of a divisor of 16 bits: 2^16 / (byte + 1), cut off, where its top bit is set,
@@ -39,7 +41,7 @@ inline std::uint32_t small_quotient(std::uint32_t size, std::uint32_t divisor) {
 
 /// The same on any processor.
 inline std::uint32_t small_quotient_of(std::uint32_t size, std::uint32_t divisor) {
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
     return small_quotient(size, divisor);
 #else
     return size / divisor;
@@ -77,7 +79,7 @@ inline bool is_short(std::uint32_t size, std::uint32_t divisor) {
 
 /// The same on any processor, of any quotient.
 inline std::uint32_t quotient_of(std::uint32_t size, std::uint32_t divisor) {
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
     if (is_short(size, divisor)) {
         return short_quotient(size, divisor);
     }

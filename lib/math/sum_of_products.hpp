@@ -6,8 +6,8 @@
 namespace weir {
 
 /// A sum of up to 2^16 products of 32 bits.
-#if defined(__ARM_ARCH_6M__)
-/// In two halves: this processor adds 64 bits out of its memory.
+#if defined(WEIR_SHORT_PRODUCTS)
+/// In two halves: a Cortex-M0 adds 64 bits out of its memory.
 struct SumOfProducts {
     std::int32_t high = 0;
     std::uint32_t low = 0;

@@ -39,7 +39,7 @@ inline std::int32_t through(std::int32_t open, std::int32_t pressure) {
     if (open == 128) {
         return pressure;
     }
-#if defined(__ARM_ARCH_6M__)  // without products of 64 bits
+#if defined(WEIR_SHORT_PRODUCTS)  // without products of 64 bits
     return (pressure >> 14) * open * 128 + (((pressure & 0x3FFF) * open) >> 7);
 #else
     return static_cast<std::int32_t>((std::int64_t{pressure} * open) >> 7);
@@ -68,7 +68,7 @@ inline std::int32_t neighbours_in_open(const Real* at, std::int32_t stride) {
 }
 inline std::int32_t less_diagonal(std::int32_t from, std::int32_t diagonal,
                                   std::int32_t pressure) {
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
     const std::int32_t high = (pressure >> 14) * diagonal;
     const std::int32_t sign = high >> 22;
     const std::int32_t all = high * 128 + (((pressure & 0x3FFF) * diagonal) >> 7);

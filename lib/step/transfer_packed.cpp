@@ -75,7 +75,7 @@ Clock clock_of(Seconds<Real> dt_s) {
     return {scale, shift};
 }
 
-#if defined(__ARM_ARCH_6M__)
+#if defined(WEIR_SHORT_PRODUCTS)
 /// How far that is what carries a particle, 2^−15 cells a second.
 using Pace = Clock;
 inline Pace pace_of(const Clock& clock) {

@@ -23,16 +23,17 @@ ALLOWED = 1.02
 SHARED = 64
 
 BOARD = {"cortex-m0": "microbit", "cortex-m3": "mps2-an385", "cortex-m4f": "netduinoplus2",
-         "riscv32": "virt"}
+         "riscv32": "virt", "lx106": "sim"}
 SCENES = {"0": "liquid", "1": "solid"}
 # Boards with the memory for the scenes of the paper's tables, with and without their solids.
-ROOMY = {"cortex-m3": "mps2-an385", "cortex-m4f": "mps2-an386", "riscv32": "virt"}
+ROOMY = {"cortex-m3": "mps2-an385", "cortex-m4f": "mps2-an386", "riscv32": "virt",
+         "lx106": "sim"}
 TRANSFERS = ("stage_particle_to_grid", "stage_grid_to_particle")
 
 # Cycles for an instruction, on average over the liquid scene: the instructions that were executed,
 # weighed with the processor's manual (loads and stores 2, taken branches and calls 3 on M0 and M3,
 # 2 to 3 on M4; divisions 2 to 12; flash without wait states). Of an M0 cycles_m0.cpp counts them.
-# Makers of RISC-V chips do not say what their instructions take: there an instruction a cycle is
+# Makers of RISC-V and Xtensa chips do not say what their instructions take: there an instruction a cycle is
 # the least, and steps a second the most that there can be.
 CYCLES = {"cortex-m0": 1.36, "cortex-m3": 1.59, "cortex-m4f": 1.44}
 
@@ -46,6 +47,7 @@ CHIPS = [
     ("Cortex-M0, 16 KB (nRF51, 16 MHz)", "cortex-m0", "smallfixed", 16, 16),
     ("Cortex-M0+, 32 KB (48 MHz)", "cortex-m0", "smallfixed", 48, 32),
     ("RISC-V, 20 KB (CH32V203, 144 MHz)", "riscv32", "smallfixed", 144, 20),
+    ("Xtensa, 80 KB (ESP8266, 80 MHz)", "lx106", "smallfixed", 80, 80),
     ("Cortex-M3, 8 KB (STM32F100, 24 MHz)", "cortex-m3", "smallfixed", 24, 8),
     ("Cortex-M3, 64 KB (LM3S6965, 50 MHz)", "cortex-m3", "smallfixed", 50, 64),
     ("Cortex-M4F, 64 KB (STM32L431, 80 MHz)", "cortex-m4f", "smallfixed", 80, 64),

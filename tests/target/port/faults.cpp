@@ -61,6 +61,10 @@ void go_wrong() {
   if (asked("undefined")) asm volatile(".inst.n 0xde00");  // UDF #0
   constexpr std::uint16_t kReturn = 0x4770;                // bx lr
   constexpr std::uintptr_t kOfCode = 1;                    // Thumb
+#elif defined(__XTENSA__)
+  if (asked("undefined")) asm volatile("ill");
+  constexpr std::uint16_t kReturn = 0xF00D;  // ret.n
+  constexpr std::uintptr_t kOfCode = 0;
 #else
 #if defined(__riscv)
   if (asked("undefined")) asm volatile("unimp");
