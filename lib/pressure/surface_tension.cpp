@@ -15,6 +15,12 @@ constexpr Real kSharpest = Real(1);
 template <class Real>
 constexpr Real kFlat = Real(1.0e-6);
 
+/// What the lines on both sides add to a second difference, by Simpson's rule: f is a step a few
+/// cells wide, of which a central difference tells the mean slope over two cells. Of its own line
+/// alone κ was 1.14 times as large along the axes and 0.88 along diagonals.
+template <class Real>
+constexpr Real kBeside = Real(1.0 / 6.0);
+
 /// Whether a contour or a thin wall is within a cell of some cells of a row.
 template <class Real>
 bool any_wall(const GridShape& s, const Walls<Real>& walls, const Part& columns, std::int32_t j) {
@@ -165,8 +171,15 @@ Real curvature(const Around<Real>& around) {
     if (!(steepness > kFlat<Real>)) {
         return Real(0);
     }
-    const Real fxx = (f[5] + f[3]) - Real(2) * f[4];
-    const Real fyy = (f[7] + f[1]) - Real(2) * f[4];
+    const auto bent = [f](std::int32_t k, std::int32_t along, std::int32_t across) {
+        const auto line = [f, along](std::int32_t at) {
+            return (f[at + along] + f[at - along]) - Real(2) * f[at];
+        };
+        return line(k) + kBeside<Real> * ((line(k + across) + line(k - across)) -
+                                          Real(2) * line(k));
+    };
+    const Real fxx = bent(4, 1, 3);
+    const Real fyy = bent(4, 3, 1);
     const Real fxy = Real(0.25) * ((f[8] + f[0]) - (f[6] + f[2]));
     const Real bend = (fxx * fy * fy + fyy * fx * fx) - Real(2) * fx * fy * fxy;
     return clamp(-bend / (steepness * square_root(steepness)), -kSharpest<Real>,

@@ -83,18 +83,19 @@ public:
         }
         return sum / count * static_cast<double>(world->pressure_scale());
     }
-    /// (Ixx − Iyy) / (Ixx + Iyy): twice the amplitude of mode 2 over the radius.
-    double stretch() const {
+    /// (Ixx − Iyy) / (Ixx + Iyy), x along an axis that is turned by `angle`: twice the amplitude
+    /// of mode 2 over the radius.
+    double stretch(double angle = 0.0) const {
         const Vec2<double> middle = centre();
-        double xx = 0.0;
-        double yy = 0.0;
+        double difference = 0.0;
+        double sum = 0.0;
         for (const Vec2<Real> at : world->particle_positions()) {
             const double x = static_cast<double>(at.x) - middle.x;
             const double y = static_cast<double>(at.y) - middle.y;
-            xx += x * x;
-            yy += y * y;
+            difference += (x * x - y * y) * std::cos(2 * angle) + 2 * x * y * std::sin(2 * angle);
+            sum += x * x + y * y;
         }
-        return (xx - yy) / (xx + yy);
+        return difference / sum;
     }
     double farthest() const {
         const Vec2<double> middle = centre();
@@ -134,7 +135,7 @@ void expect_rest(std::int32_t radius, std::int32_t steps) {
             EXPECT_LT(drop.rms_speed(), 0.04 * own_speed) << step;
         }
     }
-    EXPECT_NEAR(jump * drop.radius(), 1.0, 0.04);
+    EXPECT_NEAR(jump * drop.radius(), 1.0, 0.02);
     EXPECT_LT(drop.farthest(), drop.radius() + 1.0);
     EXPECT_NEAR(drop.centre().x, start.x, 0.7);
     EXPECT_NEAR(drop.centre().y, start.y, 0.7);
@@ -147,21 +148,24 @@ TEST(SurfaceTension, ADropAtRestHasItsPressureAndStaysAtRest) {
     expect_rest<float>(32, 400);
 }
 
-TEST(SurfaceTension, ADropSwingsWithLambsPeriod) {
+/// Its longer axis is turned by `angle`.
+void expect_lambs_period(double angle) {
     constexpr double kRadius = 16.0;
     constexpr double kAmplitude = 0.05;
-    Drop<float> drop(drop_def(50), 25.13, 24.79, [](double x, double y) {
-        return std::hypot(x, y) < kRadius * (1.0 + kAmplitude * std::cos(2 * std::atan2(y, x)));
+    SCOPED_TRACE(angle);
+    Drop<float> drop(drop_def(50), 25.13, 24.79, [angle](double x, double y) {
+        const double wave = std::cos(2 * (std::atan2(y, x) - angle));
+        return std::hypot(x, y) < kRadius * (1.0 + kAmplitude * wave);
     });
     const double radius = drop.radius();
     const double period = 2.0 * kPi * std::sqrt(radius * radius * radius / 6.0);
     std::vector<double> crossings;
-    double last = drop.stretch();
+    double last = drop.stretch(angle);
     double lowest = 0.0;
     double t = 0.0;
     while (t < 1.9 * period) {
         t += static_cast<double>(drop.world->step(kStep).dt_s);
-        const double now = drop.stretch();
+        const double now = drop.stretch(angle);
         if (last * now < 0.0) {
             crossings.push_back(t);
         }
@@ -169,9 +173,57 @@ TEST(SurfaceTension, ADropSwingsWithLambsPeriod) {
         last = now;
     }
     ASSERT_EQ(crossings.size(), 4U);
-    EXPECT_NEAR(crossings[2] - crossings[0], period, 0.03 * period);
-    EXPECT_NEAR(crossings[0], 0.25 * period, 0.03 * period);
+    EXPECT_NEAR(crossings[2] - crossings[0], period, 0.02 * period);
+    EXPECT_NEAR(crossings[0], 0.25 * period, 0.02 * period);
     EXPECT_LT(lowest, -0.85 * 2.0 * kAmplitude);  // little of it is lost in half a period
+}
+
+TEST(SurfaceTension, ADropSwingsWithLambsPeriodWhateverItsAxes) {
+    expect_lambs_period(0.0);
+    expect_lambs_period(0.25 * kPi);
+}
+
+/// Half a wave is 32 cells long and 0.3 high, tension pulls at it four times as strongly as weight.
+/// Before lines beside a cell's own told of its curvature, its period was 5 % too short, the more
+/// the finer the grid was.
+template <class Real>
+void expect_ripples_period() {
+    constexpr std::int32_t kHalf = 32;
+    constexpr double k = kPi / kHalf;
+    WorldDef def = drop_def(2 * kHalf);
+    def.gravity_mps2 = {0.0F, static_cast<float>(-0.25 * k * k)};
+    def.periodic_x = true;
+    TestWorld<Real> world(def);
+    for (double x = 0.25; x < 2 * kHalf; x += 0.5) {
+        for (double y = 0.25; y < kHalf; y += 0.5) {
+            const double most = 0.3 / std::sinh(k * kHalf);
+            const double right = -most * std::sin(k * x) * std::cosh(k * y);
+            const double up = most * std::cos(k * x) * std::sinh(k * y);
+            ASSERT_EQ(world->add_particle({float(x + right), float(y + up)}, {0, 0}), Status::ok);
+        }
+    }
+    const double period = 2.0 * kPi / std::sqrt(1.25 * k * k * k * std::tanh(k * kHalf));
+    std::vector<double> crossings;
+    double last = 1.0;
+    double t = 0.0;
+    while (t < 1.4 * period) {
+        t += static_cast<double>(world->step(1.0F).dt_s);
+        double now = 0.0;
+        for (const Vec2<Real> at : world->particle_positions()) {
+            now += static_cast<double>(at.y) * std::cos(k * static_cast<double>(at.x));
+        }
+        if (last * now < 0.0) {
+            crossings.push_back(t - now / (now - last));
+        }
+        last = now;
+    }
+    ASSERT_EQ(crossings.size(), 3U);
+    EXPECT_NEAR(crossings[2] - crossings[0], period, 0.015 * period);
+}
+
+TEST(SurfaceTension, ARippleSwingsAsTensionAndWeightSay) {
+    expect_ripples_period<float>();
+    expect_ripples_period<Fixed>();
 }
 
 /// Length of the line where the smoothed density is ½, by marching squares on cell centres.
