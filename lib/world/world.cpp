@@ -226,9 +226,14 @@ Settings<Real> settings_of(const WorldState<Real>& state) {
     settings.max_substeps = static_cast<std::int16_t>(def.max_substeps);
     Face<Real> sound_speed = pace * static_cast<Face<Real>>(def.sound_speed_mps);
     if (def.sound_speed_mps == 0.0F) {
+        // Liquid without weight is thrown about all the same, and may get its weight later.
+        constexpr Vec2f kUsual = WorldDef{}.gravity_mps2;
+        const bool weightless = def.gravity_mps2.x == 0.0F && def.gravity_mps2.y == 0.0F;
+        const Vec2<Face<Real>> pull =
+            weightless ? pull_of(state) * convert<Face<Real>>(kUsual) : gravity;
         const Face<Real> drop =
-            static_cast<Face<Real>>(def.capacity.cells_x) * absolute(gravity.x) +
-            static_cast<Face<Real>>(def.capacity.cells_y) * absolute(gravity.y);
+            static_cast<Face<Real>>(def.capacity.cells_x) * absolute(pull.x) +
+            static_cast<Face<Real>>(def.capacity.cells_y) * absolute(pull.y);
         sound_speed = Face<Real>(10) * square_root(Face<Real>(2) * drop);
     }
     settings.sound_speed = static_cast<Real>(sound_speed);

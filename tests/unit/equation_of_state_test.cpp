@@ -40,6 +40,33 @@ WEIR_SUITE(ElasticArithmetic, FixedScalars);
 
 constexpr float kBarAngle = 0.37F;
 
+/// Of a world that is defined without gravity the automatic sound had no speed, and liquid no
+/// pressure: thrown at a wall all of it lay in one line there, and a pool that got its weight later
+/// fell into its lowest row.
+TYPED_TEST(EquationOfState, HoldsWhatIsDefinedWithoutWeight) {
+    constexpr std::int32_t kSide = 8;
+    WorldDef def = elastic_def(24, 24, 4 * kSide * kSide);
+    def.gravity_mps2 = {};
+    for (const bool is_thrown : {true, false}) {
+        SCOPED_TRACE(is_thrown);
+        TestWorld<TypeParam> world{def};
+        const float left = is_thrown ? 8 * kCell : 0.0F;
+        expect_ok(world->fill({{left, 0}, {left + kSide * kCell, kSide * kCell}}));
+        if (is_thrown) {
+            expect_ok(world->stir({{0, 0}, {24 * kCell, 24 * kCell}}, {-0.5F, 0}, 1));
+        } else {
+            expect_ok(world->set_gravity({0, -9.81F}));
+        }
+        for (int k = 0; k < 60; ++k) {
+            world->step(1.0F / 60.0F);
+        }
+        Diagnostics found;
+        expect_ok(world->diagnose(&found));
+        const double room = kSide * kSide * static_cast<double>(kCell * kCell);
+        EXPECT_NEAR(found.volume_m2 / room, 1.0, 0.05);
+    }
+}
+
 TYPED_TEST(EquationOfState, HoldsUpAPoolWithoutLossOfVolume) {
     TestWorld<TypeParam> world{elastic_def(16, 20, 16 * 12 * 4)};
     expect_ok(world->fill({{0, 0}, {16 * kCell, 12 * kCell}}));

@@ -192,7 +192,8 @@ struct WorldDef {
     float volume_gain = 0.15F;
 
     /// Equation of state only: speed of sound, m/s; 0 = 10 times the speed of a fall through the
-    /// whole tank, which keeps the density within about 1 %.
+    /// whole tank, which keeps the density within about 1 %. By this definition's gravity, or by
+    /// 9.81 m/s² along y if it has none.
     float sound_speed_mps = 0.0F;
 
     /// Kinematic shear viscosity, m²/s; 0 (not computed) … 1e6 cells²/s. Water has 1e-6, which no
