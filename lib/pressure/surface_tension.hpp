@@ -13,7 +13,7 @@ namespace weir {
 /// cell's centre and interpolated to where the level is zero; an air cell holds the mean over its
 /// liquid neighbours, others 0. Walls and solids mirror the density: contact at a right angle.
 /// The fields' divergence and inverse diagonal are used as scratch.
-/// Order: by row. Cost: 8 operations a cell, 100 more beside walls, and 2 to 5 curvatures of 35 for
+/// Order: by row. Cost: 8 operations a cell, 100 more beside walls, and 2 to 5 curvatures of 55 for
 /// each air cell beside the liquid.
 template <class Real>
 void surface_tension(const Domain<Real>& domain, Real amount, Work work = {});
