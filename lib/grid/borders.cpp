@@ -11,8 +11,8 @@ namespace {
 /// here and below: borders may be other than slippery walls.
 template <bool Odd, class Mass, class Real>
 void fold_along(Mass* mass, Real* momentum, const Line& inside, const Line& ghost,
-                const SurfaceLaw<Real>& wall, Real sense) {
-    const bool sticks = Odd && wall.no_slip;
+                const Borders<Real>& b, const SurfaceLaw<Real>& wall, Real sense) {
+    const bool sticks = Odd && b.sticks(wall);
     const Real slide = sense * wall.conveyor;
     const std::int32_t end = inside.first + inside.count * inside.step;
     std::int32_t from = ghost.first;
@@ -126,8 +126,8 @@ template <class Real>
 
 template <bool Odd, class Velocity, class Real>
 void mirror_along(Velocity* velocity, const Line& ghost, const Line& inside,
-                  const SurfaceLaw<Real>& wall, Real sense) {
-    if (!Odd || !wall.no_slip) {
+                  const Borders<Real>& b, const SurfaceLaw<Real>& wall, Real sense) {
+    if (!Odd || !b.sticks(wall)) {
         copy(velocity, ghost, inside);
         return;
     }
@@ -150,9 +150,9 @@ void fold_component(const Borders<Real>& b, const GridShape& s, bool is_u, Veloc
         move_ghosts(mass, s, along, last, true);
         move_ghosts(momentum, s, along, last, true);
     } else {
-        fold_along<Odd>(mass, momentum, along(s, 0), along(s, -1), is_u ? b.bottom : b.left,
+        fold_along<Odd>(mass, momentum, along(s, 0), along(s, -1), b, is_u ? b.bottom : b.left,
                         sense);
-        fold_along<Odd>(mass, momentum, along(s, last), along(s, last + 1),
+        fold_along<Odd>(mass, momentum, along(s, last), along(s, last + 1), b,
                         is_u ? b.top : b.right, -sense);
     }
     fold_across(mass, momentum, across(s, 0), across(s, is_u ? s.nx : s.ny),
@@ -168,8 +168,9 @@ void extend_one(const Borders<Real>& b, const GridShape& s, bool is_u, VelocityO
     Line (*const along)(const GridShape&, std::int32_t) = is_u ? row : column;
     const std::int32_t last = (is_u ? s.ny : s.nx) - 1;
     const Real sense = Real(is_u ? 1 : -1);
-    mirror_along<Odd>(field, along(s, -1), along(s, 0), is_u ? b.bottom : b.left, sense);
-    mirror_along<Odd>(field, along(s, last + 1), along(s, last), is_u ? b.top : b.right, -sense);
+    mirror_along<Odd>(field, along(s, -1), along(s, 0), b, is_u ? b.bottom : b.left, sense);
+    mirror_along<Odd>(field, along(s, last + 1), along(s, last), b, is_u ? b.top : b.right,
+                      -sense);
 }
 
 }  // namespace

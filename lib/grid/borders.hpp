@@ -13,18 +13,21 @@ template <class Real>
 struct Borders {
     bool wrap_x = false;  ///< left and right side are one
     bool wrap_y = false;  ///< bottom and top are one
+    bool viscous = false;     ///< the liquid: otherwise nothing sticks
     SurfaceLaw<Real> bottom;  ///< its conveyor runs along x
     SurfaceLaw<Real> right;   ///< along y
     SurfaceLaw<Real> top;     ///< against x
     SurfaceLaw<Real> left;    ///< against y
     const detail::OddBorders<Real>* odd = nullptr;  ///< null: four slippery walls
+
+    bool sticks(const SurfaceLaw<Real>& wall) const { return viscous && wall.no_slip; }
 };
 
 /// Whether a wall drags viscous liquid along.
 template <class Real>
 bool any_wall_drags(const Borders<Real>& borders) {
-    const auto drags = [](const SurfaceLaw<Real>& wall) {
-        return wall.no_slip && wall.conveyor != Real(0);
+    const auto drags = [&](const SurfaceLaw<Real>& wall) {
+        return borders.sticks(wall) && wall.conveyor != Real(0);
     };
     return drags(borders.bottom) || drags(borders.right) || drags(borders.top) ||
            drags(borders.left);

@@ -23,4 +23,10 @@ SurfaceLaw<Real> surface_law(const Surface& surface, Face<Real> pace) {
             surface.no_slip};
 }
 
+template <class Real>
+bool alike(const SurfaceLaw<Real>& a, const SurfaceLaw<Real>& b) {
+    return a.restitution == b.restitution && a.friction == b.friction &&
+           a.conveyor == b.conveyor && a.no_slip == b.no_slip;
+}
+
 }  // namespace weir

@@ -10,8 +10,8 @@ namespace weir {
 /// Whether viscous liquid sticks to a wall of the tank.
 template <class Real>
 inline bool sticks_to_tank(const Borders<Real>& b) {
-    return (!b.wrap_y && (b.bottom.no_slip || b.top.no_slip)) ||
-           (!b.wrap_x && (b.left.no_slip || b.right.no_slip));
+    return (!b.wrap_y && (b.sticks(b.bottom) || b.sticks(b.top))) ||
+           (!b.wrap_x && (b.sticks(b.left) || b.sticks(b.right)));
 }
 
 /// Means by ¼ ½ ¼ of liquid cells and those `step` before and behind; what is no liquid, or behind

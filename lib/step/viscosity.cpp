@@ -48,12 +48,12 @@ void let_images_fall(const Borders<Real>& b, const GridShape& s, Vec2<Real> fall
         }
     };
     const auto floor = [&](const SurfaceLaw<Real>& wall, std::int32_t j) {
-        if (wall.no_slip && !b.wrap_y) {
+        if (b.sticks(wall) && !b.wrap_y) {
             add(grid.u, s.index(0, j), 1, s.nx, fall.x + fall.x);
         }
     };
     const auto side = [&](const SurfaceLaw<Real>& wall, std::int32_t i) {
-        if (wall.no_slip && !b.wrap_x) {
+        if (b.sticks(wall) && !b.wrap_x) {
             add(grid.v, s.index(i, 0), s.stride, s.ny, fall.y + fall.y);
         }
     };

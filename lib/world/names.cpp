@@ -141,6 +141,10 @@ const char* content_text(Status status) {
             return "SmallFixed has no room to solve for bodies: use Fixed, or move it yourself";
         case Status::regions_missing:
             return "regions: set capacity.sleeping_regions, and sleep.speed_mps above 0";
+        case Status::viscosity_missing:
+            return "the world was defined without viscosity: set viscosity_m2ps above 0";
+        case Status::surface_tension_missing:
+            return "the world was defined without tension: set surface_tension_m3ps2 above 0";
         case Status::output_missing: return "the pointer for the result is null";
         case Status::no_free_particle:
             return "no room for that many particles: raise capacity.particles";

@@ -34,6 +34,15 @@ void wake(detail::WorldState<Real>& state) {
     look_for_met(state.simulation);
 }
 
+/// What all liquid feels was changed.
+template <class Real>
+void wake_all(detail::WorldState<Real>& state) {
+    wake(state);
+    if (state.simulation.regions != nullptr) {
+        state.simulation.regions->wake_all();
+    }
+}
+
 /// A gravity that is not that of the time at rest, within what a sensor's noise may be.
 template <class Real>
 void wake_by_gravity(detail::WorldState<Real>& state, Vec2f gravity_mps2) {
@@ -41,10 +50,7 @@ void wake_by_gravity(detail::WorldState<Real>& state, Vec2f gravity_mps2) {
     const float most = state.def.sleep.gravity_mps2;
     if (absolute(off.x) > most || absolute(off.y) > most) {
         state.still_gravity_mps2 = gravity_mps2;
-        wake(state);
-        if (state.simulation.regions != nullptr) {
-            state.simulation.regions->wake_all();
-        }
+        wake_all(state);
     }
 }
 

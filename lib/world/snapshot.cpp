@@ -164,6 +164,8 @@ bool is_same_part(const GridShape& a, const GridShape& b) {
 /// or null if it is of another part of the tank.
 template <class Real>
 void redraw(Simulation<Real>& simulation, const Stale* picture) {
+    Settings<Real>& settings = simulation.settings;
+    settings.borders.viscous = settings.viscosity > Real(0);
     BodyTable<Real>& table = simulation.bodies;
     table.used = 0;
     for (std::int32_t slot = 0; slot < table.capacity; ++slot) {

@@ -9,7 +9,7 @@ namespace weir {
 
 inline constexpr std::uint32_t kSnapshotMagic = 0x52494557;  // "WEIR"
 /// Raised with every change of what is written. A changed `layout` shows by itself.
-inline constexpr std::uint32_t kSnapshotVersion = 14;
+inline constexpr std::uint32_t kSnapshotVersion = 15;
 inline constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 
 /// Which arithmetic wrote the numbers: how it writes 1.5.

@@ -50,6 +50,32 @@ void any_member(Stream& stream, Vec2<Real>& vector) {
     any_member(stream, vector.y);
 }
 
+template <class Real, class Stream>
+void law_members(Stream& stream, SurfaceLaw<Real>& law) {
+    auto& [restitution, friction, conveyor, no_slip] = law;
+    stream.member(restitution, Real(0), Real(1));
+    positive_member(stream, friction);
+    any_member(stream, conveyor);
+    stream.member(no_slip, false, true);
+}
+
+/// What calls change; the rest comes from the definition, which has to be the same. What a world is
+/// not linked for it has none of.
+template <class Real, class Stream>
+void settings_members(Stream& stream, bool viscous, bool tense, Settings<Real>& settings) {
+    [[maybe_unused]] auto& [gravity, rest_count, flip_ratio, volume_gain, full_sound, viscosity,
+                            surface_tension, second_density, borders, cfl, sweeps,
+                            max_substeps] = settings;
+    [[maybe_unused]] auto& [wrap_x, wrap_y, is_viscous, bottom, right, top, left, odd] = borders;
+    any_member(stream, gravity);
+    stream.member(viscosity, Real(0), viscous ? Believed<Real>::high : Real(0));
+    stream.member(surface_tension, Real(0), tense ? Believed<Real>::high : Real(0));
+    law_members(stream, bottom);
+    law_members(stream, right);
+    law_members(stream, top);
+    law_members(stream, left);
+}
+
 /// Whoever sleeps, but for tiles and what is kept of the grid, which are blocks.
 template <class Real, class Stream>
 void region_members(Stream& stream, std::int32_t particles, Regions<Real>& record) {
@@ -83,8 +109,7 @@ void inlet_members(Stream& stream, const GridShape& tank, Inlets<Real>& inlets) 
     }
 }
 
-/// Members of the world. Settings come from the definition, which has to be the same; of them only
-/// gravity changes by a call. Walls are drawn again from the bodies.
+/// Members of the world. Walls are drawn again from the bodies.
 template <class Real, class Stream>
 Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     auto& [simulation, def, cells_per_m, stepped_s, tag, stepping, density_stale, unit_exponent,
@@ -107,7 +132,7 @@ Extents world_members(Stream& stream, detail::WorldState<Real>& state) {
     [[maybe_unused]] auto& [active, binary, any_sticking, sticking, moving,
                             distance, nearest, cell_case, open_u, open_v, full_density, near,
                             wall_body, thin_walls, wall_load, particle_mass, stored] = walls;
-    any_member(stream, settings.gravity);
+    settings_members(stream, viscosity != nullptr, tension != nullptr, settings);
     positive_member(stream, max_speed);
     positive_member(stream, last_dt);
     if constexpr (Stored<Real>::coarse) {
@@ -158,17 +183,13 @@ void body_members(Stream& stream, std::int32_t most_places, const BodyTable<Real
     [[maybe_unused]] auto& [position, velocity, angle, spin, surface, radius, first_vertex,
                             vertex_count, room, rings, piece_length, drawn, left, met_position,
                             met_angle, generation, kind, moved, open, hollow, led, leapt] = record;
-    auto& [restitution, friction, conveyor, no_slip] = surface;
     stream.member(kind, BodyKind::free, BodyKind::moving);
     stream.member(generation, 0, 0xFFFF);
     any_member(stream, position);
     any_member(stream, velocity);
     angle_member(stream, angle);
     angle_member(stream, spin);
-    stream.member(restitution, Real(0), Real(1));
-    positive_member(stream, friction);
-    any_member(stream, conveyor);
-    stream.member(no_slip, false, true);
+    law_members(stream, surface);
     positive_member(stream, radius);
     stream.member(open, false, true);
     stream.member(led, Lead::none, Lead::held);

@@ -1,5 +1,6 @@
 // The hash of all that decides the future.
 #include "base/hash.hpp"
+#include "world/settings_of.hpp"
 #include "world/sleep.hpp"
 
 namespace weir {
@@ -113,6 +114,32 @@ void hash_bodies(Hash& hash, const BodyTable<Real>& table, bool thin_walls) {
     }
 }
 
+/// Two worlds of a definition differ by what calls made of it. What is as defined is no state.
+template <class Real>
+void hash_settings(Hash& hash, const detail::WorldState<Real>& state) {
+    const Settings<Real>& now = state.simulation.settings;
+    const WorldDef& def = state.def;
+    Borders<Real> defined;
+    set_laws(def.walls, pace_of(state), defined);
+    const Borders<Real>& b = now.borders;
+    if (now.viscosity == viscosity_of(state, def.viscosity_m2ps) &&
+        now.surface_tension == surface_tension_of(state, def.surface_tension_m3ps2) &&
+        alike(b.bottom, defined.bottom) && alike(b.right, defined.right) &&
+        alike(b.top, defined.top) && alike(b.left, defined.left)) {
+        return;
+    }
+    hash.add(now.viscosity);
+    hash.add(now.surface_tension);
+    const SurfaceLaw<Real>* const laws[] = {&b.bottom, &b.right, &b.top, &b.left};
+    for (const SurfaceLaw<Real>* law : laws) {
+        const Real numbers[] = {law->restitution, law->friction, law->conveyor};
+        for (const Real number : numbers) {
+            hash.add(number);
+        }
+        hash.add(static_cast<std::uint32_t>(law->no_slip));
+    }
+}
+
 }  // namespace
 
 template <class Real>
@@ -140,6 +167,7 @@ std::uint64_t World<Real>::state_hash() const {
     for (const Real number : numbers) {
         hash.add(number);
     }
+    hash_settings(hash, *state_);
     if (simulation.walls_behind_s > Seconds<Real>{}) {
         hash.add(simulation.walls_behind_s);
     }

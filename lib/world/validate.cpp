@@ -40,16 +40,15 @@ Status check_numerics(const WorldDef& def) {
                : Status::sound_speed_out_of_range;
 }
 
-Status check_liquids(const WorldDef& def) {
-    if (!within(def.viscosity_m2ps, 0.0F, 1.0e6F * def.cell_m * def.cell_m)) {
-        return Status::viscosity_out_of_range;
+Status check_liquids(const WorldDef& def, const Reach& reach) {
+    const Status viscosity = check_viscosity(def.viscosity_m2ps, def.cell_m);
+    if (viscosity != Status::ok) {
+        return viscosity;
     }
-    const float cell_volume = def.cell_m * def.cell_m * def.cell_m;
-    if (!within(def.surface_tension_m3ps2, 0.0F, 1.0e12F * cell_volume)) {
-        return Status::surface_tension_out_of_range;
-    }
-    if (def.surface_tension_m3ps2 > 0.0F && def.pressure != Pressure::projection) {
-        return Status::surface_tension_needs_projection;
+    const Status tension =
+        check_surface_tension(def.surface_tension_m3ps2, def.pressure, def.cell_m, reach);
+    if (tension != Status::ok) {
+        return tension;
     }
     if (!within(def.second_density_ratio, 0.01F, 100.0F)) {
         return Status::density_ratio_out_of_range;
@@ -61,13 +60,9 @@ Status check_liquids(const WorldDef& def) {
 }
 
 Status check_borders(const WorldDef& def, const Reach& reach) {
-    const Surface* const walls[] = {&def.walls.bottom, &def.walls.right, &def.walls.top,
-                                    &def.walls.left};
-    for (const Surface* wall : walls) {
-        const Status surface = check_surface(*wall, def.cell_m, reach);
-        if (surface != Status::ok) {
-            return surface;
-        }
+    const Status walls = check_walls(def.walls, def.cell_m, reach);
+    if (walls != Status::ok) {
+        return walls;
     }
     if ((def.periodic_x || def.periodic_y) && def.capacity.bodies > 0) {
         return Status::periodic_with_bodies;
@@ -130,16 +125,8 @@ Status check_reach(const WorldDef& def, const Reach& reach) {
     if (!reach.everything && def.capacity.second_liquid) {
         return Status::small_fixed_has_one_liquid;
     }
-    if (!reach.everything && def.capacity.wall_edges > 0) {
-        return Status::small_fixed_has_no_thin_walls;
-    }
-    if (!reach.everything && def.surface_tension_m3ps2 > 0.0F) {
-        return Status::small_fixed_has_no_tension;
-    }
-    const float cell_volume = def.cell_m * def.cell_m * def.cell_m;
-    return def.surface_tension_m3ps2 > reach.surface_tension * cell_volume
-               ? Status::surface_tension_out_of_range
-               : Status::ok;
+    return !reach.everything && def.capacity.wall_edges > 0 ? Status::small_fixed_has_no_thin_walls
+                                                            : Status::ok;
 }
 
 /// Names the first defect of an open polyline.
@@ -213,7 +200,7 @@ Status check_world(const WorldDef& def, const Reach& reach) {
         (def.contour != Contour::interpolated && def.contour != Contour::mid_edge)) {
         return Status::unknown_option;
     }
-    const Status liquids = check_liquids(def);
+    const Status liquids = check_liquids(def, reach);
     if (liquids != Status::ok) {
         return liquids;
     }
@@ -231,6 +218,39 @@ Status check_world(const WorldDef& def, const Reach& reach) {
     }
     const Status numerics = check_numerics(def);
     return numerics != Status::ok ? numerics : check_reach(def, reach);
+}
+
+Status check_viscosity(float viscosity_m2ps, float cell_m) {
+    return within(viscosity_m2ps, 0.0F, 1.0e6F * cell_m * cell_m) ? Status::ok
+                                                                  : Status::viscosity_out_of_range;
+}
+
+Status check_surface_tension(float tension_m3ps2, Pressure pressure, float cell_m,
+                             const Reach& reach) {
+    const float cell_volume = cell_m * cell_m * cell_m;
+    if (!within(tension_m3ps2, 0.0F, 1.0e12F * cell_volume)) {
+        return Status::surface_tension_out_of_range;
+    }
+    if (tension_m3ps2 > 0.0F && pressure != Pressure::projection) {
+        return Status::surface_tension_needs_projection;
+    }
+    if (tension_m3ps2 > 0.0F && !reach.everything) {
+        return Status::small_fixed_has_no_tension;
+    }
+    return tension_m3ps2 > reach.surface_tension * cell_volume
+               ? Status::surface_tension_out_of_range
+               : Status::ok;
+}
+
+Status check_walls(const TankWalls& walls, float cell_m, const Reach& reach) {
+    const Surface* const all[] = {&walls.bottom, &walls.right, &walls.top, &walls.left};
+    for (const Surface* wall : all) {
+        const Status surface = check_surface(*wall, cell_m, reach);
+        if (surface != Status::ok) {
+            return surface;
+        }
+    }
+    return Status::ok;
 }
 
 Status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {

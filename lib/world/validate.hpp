@@ -32,6 +32,10 @@ inline constexpr Reach kReach<SmallFixed>{kMaxCellsSmallFixed, kMaxSpeedSmallFix
 
 Status check_capacity(const Capacity& capacity);
 Status check_world(const WorldDef& def, const Reach& reach);
+Status check_viscosity(float viscosity_m2ps, float cell_m);
+Status check_surface_tension(float tension_m3ps2, Pressure pressure, float cell_m,
+                             const Reach& reach);
+Status check_walls(const TankWalls& walls, float cell_m, const Reach& reach);
 Status check_memory(const void* memory, std::size_t bytes, std::size_t needed);
 Status check_motion(const Motion& motion, float cell_m, const Reach& reach);
 Status check_body(const BodyDef& def, float cell_m, const Reach& reach);

@@ -8,7 +8,7 @@
 #include "math/lanes.hpp"
 #include "step/substep.hpp"
 #include "step/window.hpp"
-#include "world/world_state.hpp"
+#include "world/settings_of.hpp"
 
 namespace weir {
 
@@ -176,23 +176,6 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
     simulation.occupied = stored_part(simulation);
 }
 
-template <class Real>
-Borders<Real> borders_of(const WorldDef& def, Face<Real> pace) {
-    Borders<Real> borders;
-    borders.wrap_x = def.periodic_x;
-    borders.wrap_y = def.periodic_y;
-    const auto law = [&](const Surface& wall) {
-        SurfaceLaw<Real> result = surface_law<Real>(wall, pace);
-        result.no_slip = result.no_slip && def.viscosity_m2ps > 0.0F;  // otherwise nothing sticks
-        return result;
-    };
-    borders.bottom = law(def.walls.bottom);
-    borders.right = law(def.walls.right);
-    borders.top = law(def.walls.top);
-    borders.left = law(def.walls.left);
-    return borders;
-}
-
 /// After fewer a coarse correction may leave more energy; in its place packed worlds add two.
 template <class Real>
 constexpr std::int32_t kLeastSweeps = Stored<Real>::coarse ? 2 : 4;
@@ -206,7 +189,6 @@ template <class Real>
 Settings<Real> settings_of(const WorldState<Real>& state) {
     Settings<Real> settings;
     const WorldDef& def = state.def;
-    const Face<Real> cells_per_m = state.cells_per_m;
     const Face<Real> pace = pace_of(state);
     const Vec2<Face<Real>> gravity = pull_of(state) * convert<Face<Real>>(def.gravity_mps2);
     settings.gravity = convert<Real>(gravity);
@@ -215,12 +197,14 @@ Settings<Real> settings_of(const WorldState<Real>& state) {
     settings.flip_ratio =
         minimum(static_cast<Real>(def.flip_ratio), elastic ? kElasticFlip<Real> : Real(1));
     settings.volume_gain = static_cast<Real>(def.volume_gain);
-    settings.viscosity =
-        static_cast<Real>(cells_per_m * pace * static_cast<Face<Real>>(def.viscosity_m2ps));
-    settings.surface_tension = static_cast<Real>(
-        cells_per_m * pace * pace * static_cast<Face<Real>>(def.surface_tension_m3ps2));
+    settings.viscosity = viscosity_of(state, def.viscosity_m2ps);
+    settings.surface_tension = surface_tension_of(state, def.surface_tension_m3ps2);
     settings.second_density = static_cast<Real>(def.second_density_ratio);
-    settings.borders = borders_of<Real>(def, pace);
+    Borders<Real>& borders = settings.borders;
+    borders.wrap_x = def.periodic_x;
+    borders.wrap_y = def.periodic_y;
+    borders.viscous = settings.viscosity > Real(0);
+    set_laws(def.walls, pace, borders);
     settings.cfl = static_cast<Real>(def.cfl);
     settings.sweeps = static_cast<std::int16_t>(maximum(def.pressure_sweeps, kLeastSweeps<Real>));
     settings.max_substeps = static_cast<std::int16_t>(def.max_substeps);

@@ -242,6 +242,12 @@ const std::vector<Row>& uninitialised_rows() {
          [](Fixture&) { return World<float>().remove_particle(0); }, Status::not_initialised},
         {"set_gravity before init",
          [](Fixture&) { return World<float>().set_gravity({0, 0}); }, Status::not_initialised},
+        {"set_viscosity before init",
+         [](Fixture&) { return World<float>().set_viscosity(0); }, Status::not_initialised},
+        {"set_surface_tension before init",
+         [](Fixture&) { return World<float>().set_surface_tension(0); }, Status::not_initialised},
+        {"set_walls before init",
+         [](Fixture&) { return World<float>().set_walls({}); }, Status::not_initialised},
     };
     return rows;
 }

@@ -52,7 +52,7 @@ struct Tank {
     TransferResult<float> gather(float limit, bool wrap) {
         auto all = particles();
         const SurfaceLaw<float> wall{0.5F, 0.3F, 0.0F, false};
-        const Borders<float> borders{wrap, wrap, wall, wall, wall, wall};
+        const Borders<float> borders{wrap, wrap, false, wall, wall, wall, wall};
         Transfer<float> transfer{0.05F, 0.97F, limit, borders};
         transfer.near = 20.0F;
         prepare_gather(grid);

@@ -230,6 +230,7 @@ TEST(MassMatrix, SeesImagesBeyondWalls) {
         const Places w = carried(x, linear);
         Borders<double> sides;
         sides.odd = &detail::odd_borders<double>();
+        sides.viscous = true;
         sides.top.no_slip = no_slip;
         Faces<double> half(x, w, kHalf, sides);
         Places all = x;

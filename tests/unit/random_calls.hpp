@@ -221,15 +221,42 @@ Status change_gravity(World<Real>& world, Dice& dice, const RandomDef& random) {
     }
 }
 
+/// Any, whether the definition has some or none: for most worlds none is right, and it comes back.
+template <class Real>
+Status change_settings(World<Real>& world, Dice& dice, const RandomDef& random) {
+    const WorldDef& def = random.def;
+    const float c = def.cell_m;
+    const float share = dice.chance(0.3F) ? 0.0F : any_size(dice, 1.0e-2F, 1.0e2F);
+    const float fastest = 0.5F * random.speed_mps;
+    TankWalls walls = def.walls;
+    Surface* const sides[] = {&walls.bottom, &walls.right, &walls.top, &walls.left};
+    for (Surface* side : sides) {
+        *side = dice.chance(0.5F) ? call_surface(dice, fastest) : *side;
+    }
+    switch (dice.below(4)) {
+        case 0:
+            return world.set_viscosity(dice.chance(0.5F)
+                                           ? share * def.viscosity_m2ps
+                                           : c * c * any_size(dice, 1.0e-6F, 1.1e6F));
+        case 1: return world.set_viscosity(number(dice, 0.0F, 10.0F * c * c));
+        case 2:
+            return world.set_surface_tension(
+                dice.chance(0.5F) ? share * def.surface_tension_m3ps2
+                                  : number(dice, 0.0F, 3.1e4F * c * c * c));
+        default: return world.set_walls(dice.chance(0.2F) ? def.walls : walls);
+    }
+}
+
 template <class Real>
 Status call(World<Real>& world, Dice dice, const RandomDef& random) {
-    switch (dice.below(9)) {
+    switch (dice.below(10)) {
         case 0:
         case 1: return add_some_body(world, dice, random);
         case 2:
         case 3: return change_some_body(world, dice, random);
         case 4: return change_gravity(world, dice, random);
         case 5: return world.restore(&dice, sizeof dice);
+        case 6: return change_settings(world, dice, random);
         default: return change_liquid(world, dice, random);
     }
 }

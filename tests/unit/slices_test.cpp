@@ -121,6 +121,9 @@ TEST(Slices, NothingElseMayChangeTheWorldMeanwhile) {
     EXPECT_EQ((*f).add_particle({0.1F, 0.1F}, {}), refused);
     EXPECT_EQ((*f).remove_particle(0), refused);
     EXPECT_EQ((*f).set_gravity({1, 1}), refused);
+    EXPECT_EQ((*f).set_viscosity(0), refused);
+    EXPECT_EQ((*f).set_surface_tension(0), refused);
+    EXPECT_EQ((*f).set_walls({}), refused);
     EXPECT_EQ((*f).diagnose(&diagnostics), refused);
     EXPECT_EQ((*f).save(room, sizeof room), refused);
     Motion motion;

@@ -13,6 +13,9 @@ namespace weir {
 
 /// Rooms for what is written member by member; snapshot.cpp checks that they suffice.
 inline constexpr std::size_t kSnapshotFrameBytes = 192;
+/// Viscosity, surface tension and the surfaces of the tank's walls.
+template <class Real>
+inline constexpr std::size_t kSnapshotSettingsBytes = 14 * sizeof(Real) + 16;
 template <class Real>
 inline constexpr std::size_t kSnapshotBodyBytes = sizeof(Real) == 4 ? 128 : 192;
 inline constexpr std::size_t kSnapshotRegionsBytes = 96;
@@ -26,7 +29,8 @@ inline constexpr std::size_t kSnapshotInletsBytes =
 template <class Real>
 constexpr std::size_t snapshot_bytes(const Capacity& capacity) {
     const Layout plan = layout<Real>(capacity);
-    std::size_t bytes = kSnapshotFrameBytes + kSnapshotInletsBytes<Real> +
+    std::size_t bytes = kSnapshotFrameBytes + kSnapshotSettingsBytes<Real> +
+                        kSnapshotInletsBytes<Real> +
                         kSnapshotBodyBytes<Real> * static_cast<std::size_t>(capacity.bodies);
     bytes += capacity.sleeping_regions ? kSnapshotRegionsBytes : 0;
     for (std::int32_t block = 0; block < kBlockCount; ++block) {

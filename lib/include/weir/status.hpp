@@ -77,6 +77,8 @@ enum class [[nodiscard]] Status : std::uint8_t {
     two_way_missing,
     free_body_in_small_world,
     regions_missing,
+    viscosity_missing,
+    surface_tension_missing,
     // particles
     no_free_particle,
     no_such_particle,

@@ -153,6 +153,22 @@ public:
     /// finite is refused, gravity stays as it was, and that report says so, too.
     Status set_gravity(Vec2f gravity_mps2);
 
+    /// From now on: honey that is warmed or freezes over. As `WorldDef::viscosity_m2ps`, with its
+    /// range, and 0 costs nothing again. The stages for it are linked by the definition: a world
+    /// that was defined without any viscosity answers `Status::viscosity_missing` to all but 0.
+    /// Here and in the two calls below what is refused changes nothing, the value that there is
+    /// wakes nobody, and another one wakes all: a sensor that is read before each step is rounded
+    /// first. Snapshots keep these values; they go into worlds of the same definition, whatever
+    /// has been set there.
+    Status set_viscosity(float viscosity_m2ps);
+    /// The same for `WorldDef::surface_tension_m3ps2`: soap in water. Of a world that was defined
+    /// without any it is `Status::surface_tension_missing`.
+    Status set_surface_tension(float tension_m3ps2);
+    /// The surfaces of the tank's walls, as `WorldDef::walls`: a floor that ices over, a side that
+    /// becomes a belt. Any world may get any, but viscosity is what no slip shows with. Where
+    /// regions sleep those at the walls that changed wake.
+    Status set_walls(const TankWalls& walls);
+
     /// From now on liquid that lies apart from all other falls asleep by itself while the rest goes
     /// on: once nothing in it was faster than `def.sleep` says it is passed over, at next to no
     /// cost, `after_s` to twice that later. It wakes when gravity changes by more than
