@@ -129,7 +129,8 @@ constexpr TankWalls every_wall(const Surface& surface) {
 }
 
 /// When a world may stop: once nothing in it was faster for that long, its steps do nothing, at
-/// next to no cost, until gravity, a body or a particle is changed. `StepReport::asleep` tells.
+/// next to no cost, until gravity, viscosity, a wall, a body or a particle is changed.
+/// `StepReport::asleep` tells.
 /// Liquid that lies apart sleeps by itself after `World::let_regions_sleep`.
 struct Sleep {
     /// Of any particle along an axis, and of any free body, m/s; 0 (never sleeps) … kMaxSpeed
@@ -198,13 +199,14 @@ struct WorldDef {
 
     /// Kinematic shear viscosity, m²/s; 0 (not computed) … 1e6 cells²/s. Water has 1e-6, which no
     /// grid of centimetres can see; honey has 7e-3. Explicit: much of it costs substeps, any of it
-    /// twice a step's instructions in float.
+    /// twice a step's instructions in float. What is not 0 here may become anything later, 0 too
+    /// (`World::set_viscosity`).
     float viscosity_m2ps = 0.0F;
 
     /// Surface tension over density, m³/s²; 0 (not computed) … 1e12 cells³/s², in Fixed
     /// kMaxTensionFixed. Water has 7.3e-5, which shows on cells of a few millimetres and below.
     /// Solids and walls are met at a right angle. Explicit: on small cells it costs substeps. With
-    /// Pressure::projection only.
+    /// Pressure::projection only. What is not 0 may change (`World::set_surface_tension`).
     float surface_tension_m3ps2 = 0.0F;
 
     /// Density of the second liquid over that of the first; 0.01 … 100. Only with
@@ -214,7 +216,7 @@ struct WorldDef {
     /// heavy: 20 cells of a second liquid that is 100 times as heavy lose their height.
     float second_density_ratio = 1.0F;
 
-    TankWalls walls;
+    TankWalls walls;  ///< may change (`World::set_walls`)
 
     Sleep sleep;
 

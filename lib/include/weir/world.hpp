@@ -153,20 +153,17 @@ public:
     /// finite is refused, gravity stays as it was, and that report says so, too.
     Status set_gravity(Vec2f gravity_mps2);
 
-    /// From now on: honey that is warmed or freezes over. As `WorldDef::viscosity_m2ps`, with its
-    /// range, and 0 costs nothing again. The stages for it are linked by the definition: a world
-    /// that was defined without any viscosity answers `Status::viscosity_missing` to all but 0.
-    /// Here and in the two calls below what is refused changes nothing, the value that there is
-    /// wakes nobody, and another one wakes all: a sensor that is read before each step is rounded
-    /// first. Snapshots keep these values; they go into worlds of the same definition, whatever
-    /// has been set there.
+    /// From now on: honey that melts, or sets in the cold. In the range of
+    /// `WorldDef::viscosity_m2ps`; 0 costs nothing again. What a world can do is linked by its
+    /// definition: one without viscosity answers `Status::viscosity_missing` to all but 0.
+    /// Another value than there is wakes who sleeps: round what a sensor tells before each step.
+    /// Snapshots take it along, to any world of the same definition.
     Status set_viscosity(float viscosity_m2ps);
-    /// The same for `WorldDef::surface_tension_m3ps2`: soap in water. Of a world that was defined
-    /// without any it is `Status::surface_tension_missing`.
+    /// The same for `WorldDef::surface_tension_m3ps2`: soap in water. A world that was defined
+    /// without any answers `Status::surface_tension_missing` to all but 0.
     Status set_surface_tension(float tension_m3ps2);
-    /// The surfaces of the tank's walls, as `WorldDef::walls`: a floor that ices over, a side that
-    /// becomes a belt. Any world may get any, but viscosity is what no slip shows with. Where
-    /// regions sleep those at the walls that changed wake.
+    /// The same for `WorldDef::walls`: a floor that ices over, a side that becomes a belt. Every
+    /// world may get any. Of regions that sleep those at the walls that change wake.
     Status set_walls(const TankWalls& walls);
 
     /// From now on liquid that lies apart from all other falls asleep by itself while the rest goes
