@@ -50,11 +50,14 @@ void pour(World<Real>& world, const WorldDef& def) {
     }
 }
 
+/// Returns the work.
 template <class Real>
-void run(World<Real>& world, int steps) {
+std::int64_t run(World<Real>& world, int steps) {
+    std::int64_t work = 0;
     for (int k = 0; k < steps; ++k) {
-        world.step(k % 4 == 0 ? 0.5F * kDt : kDt);
+        work += work_of(world.step(k % 4 == 0 ? 0.5F * kDt : kDt));
     }
+    return work;
 }
 
 WorldDef changing_def() {
@@ -123,9 +126,11 @@ constexpr Change kChanges[] = {
     {"water, thin walls", thin_walls, to_water, true},
 };
 
+/// Whether a row is for that arithmetic; under sanitizers every third one is.
 template <class Real>
 bool has(const Change& change) {
-    return !change.roomy || !std::is_same_v<Real, SmallFixed>;
+    return (!change.roomy || !std::is_same_v<Real, SmallFixed>) &&
+           (!kSanitized || (&change - kChanges) % 3 == 0);
 }
 
 WEIR_SUITE(ChangedSettings, EveryScalar);
@@ -145,8 +150,9 @@ TYPED_TEST(ChangedSettings, BeforeTheFirstStepAreAsIfDefinedSo) {
         set_all(*changed, def);
         for (TestWorld<TypeParam>* world : {&changed, &unchanged, &defined}) {
             pour(**world, def);
-            run(**world, 40);
         }
+        EXPECT_EQ(run(*changed, 40), run(*defined, 40)) << "none is no work";
+        run(*unchanged, 40);
         EXPECT_EQ(particles_of(*changed), particles_of(*defined));
         EXPECT_NE(particles_of(*changed), particles_of(*unchanged)) << "or it tells nothing";
     }

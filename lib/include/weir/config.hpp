@@ -130,8 +130,8 @@ constexpr TankWalls every_wall(const Surface& surface) {
 
 /// When a world may stop: once nothing in it was faster for that long, its steps do nothing, at
 /// next to no cost, until gravity, viscosity, a wall, a body or a particle is changed.
-/// `StepReport::asleep` tells.
-/// Liquid that lies apart sleeps by itself after `World::let_regions_sleep`.
+/// `StepReport::asleep` tells. Liquid that lies apart sleeps by itself after
+/// `World::let_regions_sleep`.
 struct Sleep {
     /// Of any particle along an axis, and of any free body, m/s; 0 (never sleeps) … kMaxSpeed
     /// cells/s. Water without viscosity is long in calming down: try 0.02 √(gh), h the depth, and
