@@ -12,6 +12,9 @@ constexpr std::int32_t kSummed = 64;
 template <class Real>
 constexpr std::int32_t kLiquids = Stored<Real>::shares_momentum ? 1 : 2;
 
+template <class Real>
+constexpr bool kHasFreeBodies = !Stored<Real>::shares_momentum;
+
 /// Of either liquid.
 template <class Number>
 struct Sums {
@@ -34,31 +37,45 @@ Sums<Number> sums_of(const Particles<Real>& particles, std::int32_t first, std::
     return sums;
 }
 
+/// @param free of free bodies, too.
 template <class Real>
-Face<Real> size_of_received(const BodyLoad<Real>& load) {
-    return load.is_free() ? Face<Real>(0)
-                          : absolute(load.received.linear.x) + absolute(load.received.linear.y);
+Face<Real> size_of_received(const BodyLoad<Real>& load, bool free) {
+    return load.is_free() && !free
+               ? Face<Real>(0)
+               : absolute(load.received.linear.x) + absolute(load.received.linear.y);
 }
 
 template <class Real>
-Face<Real> sizes_of_received(const BodyTable<Real>& table) {
+Face<Real> sizes_of_received(const BodyTable<Real>& table, bool free) {
     Face<Real> all = Face<Real>(0);
     for (std::int32_t slot = 0; slot <= table.capacity; ++slot) {
-        all += size_of_received(table.load[slot]);
+        all += size_of_received(table.load[slot], free);
     }
     return all;
 }
 
+/// To whoever received anything. What has weight the tank bears in the end, and what lies in it is
+/// lifted by it: free bodies have a part if there is no gravity, or nobody else to take it. They
+/// answer it before the next pressure, as they do blows.
 template <class Real>
-void give(const BodyTable<Real>& table, Vec2<Face<Real>> rest) {
-    const Face<Real> all = sizes_of_received(table);
+void give(const BodyTable<Real>& table, Vec2<Real> gravity, Vec2<Face<Real>> rest) {
+    bool free = kHasFreeBodies<Real> && gravity.x == Real(0) && gravity.y == Real(0);
+    Face<Real> all = sizes_of_received(table, free);
+    if (kHasFreeBodies<Real> && !(all > Face<Real>(0))) {
+        free = true;
+        all = sizes_of_received(table, free);
+    }
     const bool any = all > Face<Real>(0);
     if (any || kLedgerRecords<Real> > 0) {
         settled(table) = settled(table) + rest;
     }
     for (std::int32_t slot = 0; any && slot <= table.capacity; ++slot) {
         BodyLoad<Real>& load = table.load[slot];
-        load.received.linear = load.received.linear + (size_of_received(load) / all) * rest;
+        const Vec2<Face<Real>> part = (size_of_received(load, free) / all) * rest;
+        load.received.linear = load.received.linear + part;
+        if (kHasFreeBodies<Real> && load.is_free()) {
+            load.blows.linear = load.blows.linear + part;
+        }
     }
 }
 
@@ -105,7 +122,8 @@ struct Ledger {
     void close(Seconds<Real> dt_s) {
         const Vec2<Face<Real>> gravity = (mass * static_cast<Face<Real>>(dt_s)) *
                                          convert<Face<Real>>(simulation.settings.gravity);
-        give(simulation.bodies, (before + gravity) - (sum + received_by_all()));
+        give(simulation.bodies, simulation.settings.gravity,
+             (before + gravity) - (sum + received_by_all()));
     }
 };
 
@@ -182,7 +200,8 @@ struct Ledger<Real, true> {
                                         fall(g.y.raw, dt_s.raw, book.owed.y)};
         book.gravity = book.gravity + gravity;
         book.received = book.received + gravity;
-        give(table, in_floats(book.received - counted_before(simulation, table.capacity + 1)));
+        give(table, g,
+             in_floats(book.received - counted_before(simulation, table.capacity + 1)));
         tank_received(table).linear =
             in_floats(book.received - counted_before(simulation, table.capacity));
     }
