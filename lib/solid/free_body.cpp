@@ -84,6 +84,13 @@ Overhang<Real> overhang(const GridShape& s, const BodyTable<Real>& table,
     return beyond;
 }
 
+/// What of an impulse a body does not take itself, as liquid that it takes along where the grid does
+/// not show it does: no particle has that, so it is to be settled (step/momentum_ledger.hpp).
+template <class Real>
+void pass_on(BodyLoad<Real>& load, Wide<Real> impulse) {
+    load.received.linear = load.received.linear - along_slides(load, impulse);
+}
+
 /// Particles bounce off a body as if it were too heavy to yield. One that is lighter than all that
 /// hit it takes only as much as brings it to their speed.
 template <class Real>
@@ -93,6 +100,7 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         const Twist<Real> blown = answer(load, load.blows);
         const Face<Real> share = load.blow_mass > load.mass ? load.mass / load.blow_mass
                                                             : Face<Real>(1);
+        pass_on(load, (Face<Real>(1) - share * load.ease) * load.blows.linear);
         load.forget_blows();
         load.ease = clamp(load.ease, Face<Real>(kLeastEase), Face<Real>(1));
         const Twist<Real> fall = falling(obstacles, load);
@@ -173,6 +181,7 @@ std::int32_t finish(const Obstacles<Real>& obstacles, const PressedCells<Real>& 
             pressure.next(obstacles.tank, table, obstacles.walls, slot, cells);
         pressed.add(film_impulse(obstacles, cells, slot));
         load.received.add(pressed);
+        pass_on(load, (Face<Real>(1) - load.ease) * pressed.linear);
         load.change = answer_stopped(load, pressed);
     });
     std::int32_t slowed = 0;

@@ -37,41 +37,36 @@ Sums<Number> sums_of(const Particles<Real>& particles, std::int32_t first, std::
     return sums;
 }
 
-/// @param free of free bodies, too.
+/// Of whom what is left is settled with. What has weight the tank bears in the end, and what lies in
+/// it is lifted by it: free bodies have a part only where there is no gravity.
 template <class Real>
-Face<Real> size_of_received(const BodyLoad<Real>& load, bool free) {
-    return load.is_free() && !free
+Face<Real> size_of_received(const BodyLoad<Real>& load, Vec2<Real> gravity) {
+    const bool weighs = gravity.x != Real(0) || gravity.y != Real(0);
+    return kHasFreeBodies<Real> && weighs && load.is_free()
                ? Face<Real>(0)
                : absolute(load.received.linear.x) + absolute(load.received.linear.y);
 }
 
 template <class Real>
-Face<Real> sizes_of_received(const BodyTable<Real>& table, bool free) {
+Face<Real> sizes_of_received(const BodyTable<Real>& table, Vec2<Real> gravity) {
     Face<Real> all = Face<Real>(0);
     for (std::int32_t slot = 0; slot <= table.capacity; ++slot) {
-        all += size_of_received(table.load[slot], free);
+        all += size_of_received(table.load[slot], gravity);
     }
     return all;
 }
 
-/// To whoever received anything. What has weight the tank bears in the end, and what lies in it is
-/// lifted by it: free bodies have a part if there is no gravity, or nobody else to take it. They
-/// answer it before the next pressure, as they do blows.
+/// Free bodies answer their part before the next pressure, as they do blows.
 template <class Real>
 void give(const BodyTable<Real>& table, Vec2<Real> gravity, Vec2<Face<Real>> rest) {
-    bool free = kHasFreeBodies<Real> && gravity.x == Real(0) && gravity.y == Real(0);
-    Face<Real> all = sizes_of_received(table, free);
-    if (kHasFreeBodies<Real> && !(all > Face<Real>(0))) {
-        free = true;
-        all = sizes_of_received(table, free);
-    }
+    const Face<Real> all = sizes_of_received(table, gravity);
     const bool any = all > Face<Real>(0);
     if (any || kLedgerRecords<Real> > 0) {
         settled(table) = settled(table) + rest;
     }
     for (std::int32_t slot = 0; any && slot <= table.capacity; ++slot) {
         BodyLoad<Real>& load = table.load[slot];
-        const Vec2<Face<Real>> part = (size_of_received(load, free) / all) * rest;
+        const Vec2<Face<Real>> part = (size_of_received(load, gravity) / all) * rest;
         load.received.linear = load.received.linear + part;
         if (kHasFreeBodies<Real> && load.is_free()) {
             load.blows.linear = load.blows.linear + part;
