@@ -84,8 +84,8 @@ Overhang<Real> overhang(const GridShape& s, const BodyTable<Real>& table,
     return beyond;
 }
 
-/// What of an impulse a body does not take itself, as liquid that it takes along where the grid does
-/// not show it does: no particle has that, so it is to be settled (step/momentum_ledger.hpp).
+/// What of an impulse a body does not take itself: liquid does that it takes along where the grid
+/// does not show it. No particle has that, so it is to be settled (step/momentum_ledger.hpp).
 template <class Real>
 void pass_on(BodyLoad<Real>& load, Wide<Real> impulse) {
     load.received.linear = load.received.linear - along_slides(load, impulse);

@@ -12,6 +12,7 @@ constexpr std::int32_t kSummed = 64;
 template <class Real>
 constexpr std::int32_t kLiquids = Stored<Real>::shares_momentum ? 1 : 2;
 
+/// Nor have they free bodies.
 template <class Real>
 constexpr bool kHasFreeBodies = !Stored<Real>::shares_momentum;
 
@@ -37,8 +38,8 @@ Sums<Number> sums_of(const Particles<Real>& particles, std::int32_t first, std::
     return sums;
 }
 
-/// Of whom what is left is settled with. What has weight the tank bears in the end, and what lies in
-/// it is lifted by it: free bodies have a part only where there is no gravity.
+/// Of those with whom the rest is settled. What has weight the tank bears in the end, and lifts what
+/// lies in it: free bodies have a part only where there is no gravity.
 template <class Real>
 Face<Real> size_of_received(const BodyLoad<Real>& load, Vec2<Real> gravity) {
     const bool weighs = gravity.x != Real(0) || gravity.y != Real(0);

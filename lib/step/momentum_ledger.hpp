@@ -46,7 +46,9 @@ void open_ledger(Simulation<Real>& simulation, Work work);
 /// At its end: what gravity gave, less what the liquid's momentum changed by and what was counted
 /// where it was exchanged, is what the method itself does to momentum. The tank and the bodies
 /// that move as told get it, each by the share of what it received in this step; it acts on their
-/// centres of mass. Free bodies have what moved them. Where nobody received any it is nobody's.
+/// centres of mass. Without gravity free bodies do, too, and are moved by it in the next substep:
+/// with it they would be by what the tank gives liquid at rest, and heavy crates stay down. Where
+/// nobody received any it is nobody's.
 ///
 /// In fixed point it balances to the last unit, step by step: what shares leave, and what would be
 /// nobody's, is the tank's. Gravity gives whole numbers, and what it owes with the next substep.
