@@ -7,7 +7,8 @@ namespace weir {
 
 /// Impulse over the last step, by pressure and by particles that hit. Over the first liquid's
 /// density and the depth of the tank: times kg/m³ and m it is N·s; divided by `dt_s`, a force.
-/// What hits a free body at a step's very end moves it with the next step.
+/// What hits a free body at a step's very end moves it with the next step, and so does what it gets
+/// without gravity for sums to be right.
 struct BodyForce {
     Vec2f impulse_m3ps;
     /// About the body's centre of mass, counter-clockwise. 0 for the tank.
