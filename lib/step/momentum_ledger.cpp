@@ -38,8 +38,8 @@ Sums<Number> sums_of(const Particles<Real>& particles, std::int32_t first, std::
     return sums;
 }
 
-/// Of those with whom the rest is settled. What has weight the tank bears, and it lifts what lies in
-/// it: free bodies have a part only where there is no gravity.
+/// Of those with whom the rest is settled. What has weight the tank bears, and it lifts what lies
+/// in it: free bodies have a part only where there is no gravity.
 template <class Real>
 Face<Real> size_of_received(const BodyLoad<Real>& load, Vec2<Real> gravity) {
     const bool weighs = gravity.x != Real(0) || gravity.y != Real(0);

@@ -95,8 +95,8 @@ public:
     /// What the liquid did to a body in the last step. Wants `capacity.two_way`. Whoever moves a
     /// body by it from step to step is stable only if the body is heavier than the liquid that it
     /// takes along; `add_free_body` knows no such limit. Momentum that the method itself loses or
-    /// gains is shared out to the tank and to bodies that are not free, without gravity to those that
-    /// are, too, so that sums are right.
+    /// gains is shared out to the tank and to bodies that are not free, without gravity to free
+    /// ones, too, so that sums are right.
     Status force(BodyId id, BodyForce* force) const;
     /// And to the tank: pressure on its walls, particles that hit them, drag of those without slip.
     /// The sum over tank and bodies is what gravity gave to the liquid less what its momentum
