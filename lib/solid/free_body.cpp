@@ -100,7 +100,7 @@ std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table
         const Twist<Real> blown = answer(load, load.blows);
         const Face<Real> share = load.blow_mass > load.mass ? load.mass / load.blow_mass
                                                             : Face<Real>(1);
-        pass_on(load, (Face<Real>(1) - share * load.ease) * load.blows.linear);
+        pass_on(load, (share * (Face<Real>(1) - load.ease)) * load.blows.linear);
         load.forget_blows();
         load.ease = clamp(load.ease, Face<Real>(kLeastEase), Face<Real>(1));
         const Twist<Real> fall = falling(obstacles, load);
