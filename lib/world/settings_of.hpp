@@ -21,10 +21,13 @@ Real surface_tension_of(const detail::WorldState<Real>& state, float tension_m3p
 
 template <class Real>
 void set_laws(const TankWalls& walls, Face<Real> pace, Borders<Real>& borders) {
-    borders.bottom = surface_law<Real>(walls.bottom, pace);
-    borders.right = surface_law<Real>(walls.right, pace);
-    borders.top = surface_law<Real>(walls.top, pace);
-    borders.left = surface_law<Real>(walls.left, pace);
+    const auto set = [pace](SurfaceLaw<Real>& law, const Surface& surface) {
+        law = surface_law<Real>(surface, pace);
+    };
+    set(borders.bottom, walls.bottom);
+    set(borders.right, walls.right);
+    set(borders.top, walls.top);
+    set(borders.left, walls.left);
 }
 
 }  // namespace weir
