@@ -21,7 +21,7 @@ inline std::int32_t rise(std::int32_t from, std::int32_t to) {
 }
 
 /// Between which two patches' centres a face lies, as `rises` says.
-inline void rises_between(const SmallFixed* excess, std::int32_t q, std::int32_t step,
+inline void rises_between(const VelocityOf<SmallFixed>* excess, std::int32_t q, std::int32_t step,
                           std::int32_t* on_face) {
     const std::int32_t before = rise(excess[q - step].raw, excess[q].raw);
     const std::int32_t after = rise(excess[q].raw, excess[q + step].raw);
@@ -35,6 +35,7 @@ inline void rises_between(const SmallFixed* excess, std::int32_t q, std::int32_t
 /// on it pays in full: a lattice that a wave passes has less.
 inline constexpr std::int32_t kOrderly = 32;
 inline constexpr std::int32_t kStirred = 128;
+inline constexpr std::int32_t kMostDisorder = kOrderly + kStirred;  ///< more tells nothing
 
 /// Over a patch's velocity, the most that it pays of it, and the most that comes back, for a drift:
 /// twice what others do in a substep (drift_price.hpp), since it drifts every other one. It pays

@@ -14,8 +14,8 @@ namespace weir {
 template <class Real>
 struct CoarseGrid {
     GridShape shape;  ///< of what the liquid is in, as the fine grid's
-    Real* correction = nullptr;
-    Real* residual = nullptr;
+    VelocityOf<Real>* correction = nullptr;  ///< the volume's: a patch's mean excess
+    VelocityOf<Real>* residual = nullptr;    ///< the volume's: a patch's disorder
     Real* inverse_diagonal = nullptr;  ///< 0 where there is no liquid
     Real* weight_u = nullptr;  ///< of the left face: open share / density / distance, summed
     Real* weight_v = nullptr;

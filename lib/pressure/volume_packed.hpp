@@ -73,7 +73,7 @@ std::int32_t average(const GridShape& s, const Walls<SmallFixed>& walls, const P
             }
         }
     }
-    f.coarse.residual[patch.q].raw = disorder;
+    f.coarse.residual[patch.q].raw = static_cast<std::int16_t>(minimum(disorder, kMostDisorder));
     if (count == 0) {
         return open ? 0 : kSolidPatch;
     }
@@ -112,7 +112,7 @@ void correct_packed(const Domain<SmallFixed>& domain, SmallFixed gain_per_s,
     const std::int32_t least = (fields.elasticity != nullptr ? 2 : 1) * packed::kCrowded;
     for_each_patch(s, big, work, [&](const Patch& patch) {
         const std::int32_t mean = packed::average<Solids>(s, walls, patch, fields, overfull);
-        fields.coarse.correction[patch.q].raw = mean;
+        fields.coarse.correction[patch.q].raw = static_cast<std::int16_t>(mean);
         fields.crowded = fields.crowded || packed::is_crowded(mean, least);
     });
     if (work.once(big.border())) {

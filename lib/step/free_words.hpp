@@ -1,9 +1,10 @@
-// What a packed world's pressure has needed is free once it is solved, and lies behind its
-// velocities: words for the stages that follow.
+// What the pressure needs is free before it is solved. In packed worlds, where it lies behind the
+// velocities, it is free again afterwards: words for other stages.
 #pragma once
 
 #include <cstdint>
 
+#include "base/array_view.hpp"
 #include "pressure/pressure_fields.hpp"
 
 namespace weir {
@@ -27,6 +28,20 @@ FreeWords free_words(const PressureFields<Real>& fields, const GridShape& tank) 
         first + static_cast<std::uintptr_t>(tank.size()) * sizeof(VelocityOf<Real>);
     return {reinterpret_cast<std::uint32_t*>(begin),
             static_cast<std::int32_t>((end - begin) / kWord)};
+}
+
+/// Two and more for each row.
+template <class Real>
+ArrayView<std::int32_t> words_before_pressure(const PressureFields<Real>& fields,
+                                              const GridShape& stored) {
+    if constexpr (Stored<Real>::shares_momentum) {
+        const FreeWords free = free_words(fields, stored);
+        return {reinterpret_cast<std::int32_t*>(free.first), free.count};
+    } else {
+        const std::int32_t rows = coarse_cells(stored.ny) + 2;
+        return {reinterpret_cast<std::int32_t*>(fields.coarse.correction),
+                kCoarseFields * fields.coarse.shape.stride * rows};
+    }
 }
 
 }  // namespace weir

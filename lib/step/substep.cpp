@@ -238,18 +238,12 @@ void skip_empty(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Wor
 /// Particles in the order of the rows that they are in, if the definition asks for it.
 template <class Real>
 void order_particles(Simulation<Real>& simulation, Work work) {
-    constexpr std::int32_t kFields =
-        Stored<Real>::shares_momentum ? kCoarseFieldsPacked : kCoarseFields;
     const detail::RowOrder<Real>* order = simulation.row_order;
     if (order != nullptr && work.once(2 * simulation.particles.count)) {
-        // The coarse grid is not in use before the pressure.
-        const CoarseGrid<Real>& coarse = simulation.pressure.coarse;
-        const std::int32_t rows = coarse_cells(stored_part(simulation).ny) + 2;
         const auto row_of = [](PositionOf<Real> y) { return static_cast<std::int32_t>(Real(y)); };
         const Extent<Real>& extent = simulation.extent;
         order->keep({row_of(extent.low.y), row_of(extent.high.y) + 1},
-                    {reinterpret_cast<std::int32_t*>(coarse.correction),
-                     kFields * coarse.shape.stride * rows},
+                    words_before_pressure(simulation.pressure, stored_part(simulation)),
                     simulation.particles, work);
     }
 }

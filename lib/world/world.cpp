@@ -90,26 +90,27 @@ void carve_solids(const Carver& carver, const Capacity& capacity, Simulation<Rea
 }
 
 template <class Real>
-void carve_coarse(const Carver& carver, const Capacity& capacity, CoarseGrid<Real>& coarse) {
-    const std::int32_t count = coarse_fields_of<Real>(capacity);
-    const std::int32_t entries = carver.elements(Block::coarse_cells) / count;
-    Real* next = nullptr;
-    carver.take(Block::coarse_cells, next);
-    Real** const fields[] = {&coarse.correction, &coarse.residual, &coarse.inverse_diagonal,
-                             &coarse.weight_u,   &coarse.weight_v, &coarse.centre_x,
-                             &coarse.centre_y,   &coarse.reach_u,  &coarse.reach_v};
-    if constexpr (Stored<Real>::shares_momentum) {
-        coarse.correction = next;
-        coarse.residual = next + entries;
-        return;
-    }
-    for (std::int32_t k = 0; k < count; ++k) {
-        *fields[k] = next;
-        next += entries;
-    }
-    if (!capacity.second_liquid) {
-        coarse.reach_u = coarse.weight_u;
-        coarse.reach_v = coarse.weight_v;
+void carve_coarse(const Carver& carver, const Capacity& capacity, PressureFields<Real>& pressure) {
+    CoarseGrid<Real>& coarse = pressure.coarse;
+    if constexpr (Stored<Real>::shares_momentum) {  // only the volume asks, after the pressure
+        coarse.correction = pressure.inverse_diagonal;
+        coarse.residual = pressure.inverse_diagonal + coarse_entries<Real>(capacity);
+    } else {
+        const std::int32_t count = coarse_fields_of<Real>(capacity);
+        const std::int32_t entries = carver.elements(Block::coarse_cells) / count;
+        Real* next = nullptr;
+        carver.take(Block::coarse_cells, next);
+        Real** const fields[] = {&coarse.correction, &coarse.residual, &coarse.inverse_diagonal,
+                                 &coarse.weight_u,   &coarse.weight_v, &coarse.centre_x,
+                                 &coarse.centre_y,   &coarse.reach_u,  &coarse.reach_v};
+        for (std::int32_t k = 0; k < count; ++k) {
+            *fields[k] = next;
+            next += entries;
+        }
+        if (!capacity.second_liquid) {
+            coarse.reach_u = coarse.weight_u;
+            coarse.reach_v = coarse.weight_v;
+        }
     }
 }
 
@@ -158,7 +159,7 @@ void carve(const Carver& carver, const Capacity& capacity, const Borders<Real>& 
     }
     carver.take(Block::density, simulation.pressure.density);
     carver.take(Block::level, simulation.pressure.level);
-    carve_coarse(carver, capacity, simulation.pressure.coarse);
+    carve_coarse(carver, capacity, simulation.pressure);
 #if WEIR_PARALLEL
     if constexpr (kHasLanes<Real>) {
         simulation.grid.spans = {simulation.pressure.coarse.correction,

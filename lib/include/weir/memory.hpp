@@ -31,7 +31,6 @@ inline constexpr std::int32_t kMeetingsPerBody = 6;
 inline constexpr std::int32_t kCoarseEdge = 4;
 inline constexpr std::int32_t kCoarseFields = 7;
 inline constexpr std::int32_t kCoarseFieldsOfTwoLiquids = 9;
-inline constexpr std::int32_t kCoarseFieldsPacked = 2;  ///< SmallFixed: for the volume only
 
 /// Coarse cells along an axis of so many cells.
 constexpr std::int32_t coarse_cells(std::int32_t cells) {
@@ -152,11 +151,12 @@ struct Layout {
     Kept kept[kBlockCount] = {};
 };
 
-/// Numbers of the pressure's coarse grid, for each of its cells.
+/// Numbers of the pressure's coarse grid, for each of its cells. Packed worlds have two, which
+/// stand where the inverse diagonal has.
 template <class Real>
 constexpr std::int32_t coarse_fields_of(const Capacity& capacity) {
     return Stored<Real>::shares_momentum
-               ? kCoarseFieldsPacked
+               ? 0
                : (capacity.second_liquid ? kCoarseFieldsOfTwoLiquids : kCoarseFields);
 }
 
