@@ -198,22 +198,25 @@ void press_on_bodies(const GridShape& shape, const Walls<Real>& walls, BodyTable
                      const PressedCells<Real>& cells);
 
 /// What a body takes at a point of the tank: the velocity that a mass of liquid lost there.
+/// @param bound how much of the impulse goes as the body's velocity at that point does, a mass:
+/// by that the body would yield too far if it were lighter.
 template <class Real>
 inline void receive(const Walls<Real>& walls, std::uint16_t slot, Face<Real> mass,
-                    Vec2<Real> point, Vec2<Real> lost) {
+                    Vec2<Real> point, Vec2<Real> lost, Face<Real> bound) {
     const Vec2<Face<Real>> impulse = mass * convert<Face<Real>>(lost);
     BodyLoad<Real>& load = walls.load[slot];
     const Vec2<Face<Real>> arm = convert<Face<Real>>(point) - load.at;
     load.received.add(impulse, arm);
     load.blows.add(impulse, arm);
-    load.blow_mass += mass;
+    load.blow_mass += bound;
 }
 
 /// A blow: the velocity that a particle lost.
 template <class Real>
 inline void receive_blow(const Walls<Real>& walls, std::uint16_t slot, Liquid kind,
                          Vec2<Real> point, Vec2<Real> lost) {
-    receive(walls, slot, walls.particle_mass[kind == Liquid::second ? 1 : 0], point, lost);
+    const Face<Real> mass = walls.particle_mass[kind == Liquid::second ? 1 : 0];
+    receive(walls, slot, mass, point, lost, mass);
 }
 
 /// Before a step.

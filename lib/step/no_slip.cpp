@@ -92,6 +92,7 @@ struct Pull {
     Real weight = Real(0);       ///< Σ 1/θ
     Real towards = Real(0);      ///< Σ (u_wall + fall)/θ
     Real liquid = Real(0);       ///< Σ of what faces in the liquid pull
+    Real beside = Real(0);       ///< and how many they are
     Real turning = Real(0);      ///< Σ of what turning walls are braked by besides
     std::uint16_t slot = kNoBody;
 };
@@ -137,7 +138,9 @@ Pull<Real> pull_on(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
         if (beyond > Real(0)) {
             const Real other = share.at(neighbour);
             const Real difference = Real(field[neighbour]) - here;
-            pull.liquid += other < own ? difference * (other / own) : difference;
+            const Real part = other < own ? other / own : Real(1);
+            pull.liquid += part * difference;
+            pull.beside += part;
             return;
         }
         const std::uint16_t slot = axis.sticking(neighbour);
@@ -189,8 +192,11 @@ void diffuse_component(const FaceAxis<Real>& axis, const FaceShare<Real>& share,
             if (slot != kNoBody) {
                 const auto mass = static_cast<Face<Real>>(share.at(face));
                 const Vec2<Real> place = axis.centre(i, j);
+                const Real stiff = amount * (is_bound ? pull.beside : pull.weight);
+                const Real yields = is_bound ? stiff : stiff / (Real(1) + stiff);
                 receive(axis.walls, slot, mass, place,
-                        axis.along(is_bound ? amount * pull.liquid : unbound - bound));
+                        axis.along(is_bound ? amount * pull.liquid : unbound - bound),
+                        mass * static_cast<Face<Real>>(yields));
                 brake(axis.walls, pull.slot, mass, place, axis.along(amount * pull.turning));
             }
         }

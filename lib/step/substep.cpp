@@ -301,6 +301,7 @@ void solve_on_grid(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, 
         const Vec2<Real> fall = settings.fall_in(dt_s);
         simulation.viscosity->diffuse(domain, plan.viscosity * dt_s, fall, tank, work);
     }
+    accelerate_free(simulation, dt_s, work);
     clock.charge(Stage::grid_update);
 
     solve_pressure<Solids>(simulation, domain, plan, work);
@@ -346,9 +347,7 @@ void substep(Simulation<Real>& simulation, const SubstepPlan<Real>& plan, Work w
     if (kLedgerWithin<Real> && two_way != nullptr) {
         two_way->open_ledger(simulation, work);
     }
-    if (Solids && two_way != nullptr) {
-        two_way->accelerate_bodies(simulation, dt_s, work);
-    }
+    locate_before<Solids>(simulation, work);
     report.particles_crowded += particle_to_grid<Real>(
         simulation.particles, settings.borders, settings.second_density, simulation.grid,
         simulation.layers.walls.thin, work);

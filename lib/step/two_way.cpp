@@ -68,19 +68,23 @@ Obstacles<Real> obstacles_of(const Simulation<Real>& simulation, Seconds<Real> d
 }
 
 template <class Real>
-void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work) {
-    const FreeBodyStages<Real>* free_bodies = simulation.free_bodies;
+void locate(Simulation<Real>& simulation, Work work) {
     if (work.once(simulation.bodies.capacity)) {
         locate_bodies(simulation.bodies);
-        if (free_bodies != nullptr) {
+        if (simulation.free_bodies != nullptr) {
             simulation.layers.walls.moving = &moving_walls<Real>();
-            work.spend(free_bodies->accelerate(obstacles_of(simulation, dt_s),
-                                               simulation.bodies));
         }
     }
-    if (free_bodies != nullptr && work.foreseeing()) {
-        work.expect(1, cost_with(simulation.bodies.capacity,
-                                 free_bodies->most_looks(simulation.bodies)));
+}
+
+template <class Real>
+void accelerate_bodies(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work) {
+    if (work.once(1)) {
+        work.spend(simulation.free_bodies->accelerate(obstacles_of(simulation, dt_s),
+                                                      simulation.bodies));
+    }
+    if (work.foreseeing()) {
+        work.expect(1, cost_with(1, simulation.free_bodies->most_looks(simulation.bodies)));
     }
 }
 
@@ -193,16 +197,16 @@ bool weigh(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& b
 template <bool Solids, class Real>
 const detail::TwoWay<Real>& detail::two_way() {
     if constexpr (Solids) {
-        static constexpr TwoWay<Real> kStages{open_ledger<Real>,   press_tank<Real>,
-                                              close_ledger<Real>,  accelerate_bodies<Real>,
-                                              coupled_solve<Real>, press_bodies<Real>,
-                                              move_free_bodies<Real>, decomposer<Real>(),
-                                              weigh<Real>};
+        static constexpr TwoWay<Real> kStages{
+            open_ledger<Real>,  press_tank<Real>,        close_ledger<Real>,
+            locate<Real>,       accelerate_bodies<Real>, coupled_solve<Real>,
+            press_bodies<Real>, move_free_bodies<Real>,  decomposer<Real>(),
+            weigh<Real>};
         return kStages;
     } else {
         static constexpr TwoWay<Real> kStages{open_ledger<Real>, press_tank<Real>,
                                               close_ledger<Real>, nullptr, nullptr, nullptr,
-                                              nullptr, nullptr, nullptr};
+                                              nullptr, nullptr, nullptr, nullptr};
         return kStages;
     }
 }

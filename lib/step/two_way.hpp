@@ -18,7 +18,11 @@ struct detail::TwoWay {
     /// At the end.
     void (*close_ledger)(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work);
 
-    /// Before the pressure: free bodies take up gravity and blows.
+    /// Before anything that bodies receive is counted: where they are.
+    void (*locate_bodies)(Simulation<Real>& simulation, Work work);
+    /// After viscosity, before the pressure: free bodies take up gravity, blows, and what pulled at
+    /// them. Viscosity is to meet them without what they fall, as it meets those that are led: it
+    /// lets liquid fall past both alike (step/no_slip.cpp).
     void (*accelerate_bodies)(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work);
     /// The pressure solve, as free bodies share in it.
     CoupledSolve<Real> (*coupled_solve)(const Simulation<Real>& simulation, Seconds<Real> dt_s);
@@ -34,6 +38,22 @@ struct detail::TwoWay {
     bool (*weigh)(const BodyDef& def, const BodyTable<Real>& table, const Body<Real>& body,
                   BodyLoad<Real>& load);
 };
+
+/// Before particles are scattered, and what bodies receive of them is counted.
+template <bool Solids, class Real>
+inline void locate_before(Simulation<Real>& simulation, Work work) {
+    if (Solids && simulation.two_way != nullptr) {
+        simulation.two_way->locate_bodies(simulation, work);
+    }
+}
+
+/// Free bodies take up what they fell and received since the last substep.
+template <class Real>
+inline void accelerate_free(Simulation<Real>& simulation, Seconds<Real> dt_s, Work work) {
+    if (simulation.free_bodies != nullptr) {
+        simulation.two_way->accelerate_bodies(simulation, dt_s, work);
+    }
+}
 
 /// Free bodies move, as the pressure has left them.
 template <class Real>
