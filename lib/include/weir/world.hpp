@@ -89,6 +89,7 @@ public:
     /// Where a body is now, after the steps that were taken.
     Status motion(BodyId id, Motion* motion) const;
     /// From now on: a belt that is switched on, a floor that becomes slippery. Any kind of body.
+    /// It wakes who sleeps, also if nothing is different: call it when something is.
     Status set_surface(BodyId id, const Surface& surface);
     Status remove_body(BodyId id);
 
