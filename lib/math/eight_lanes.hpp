@@ -95,30 +95,50 @@ struct EightLanes : WideGroups<8> {
         return reinterpret_cast<Four>(Halves{both, 0.0});
     }
     /// In two loads. Each finds what it reads in one store; a load across the last two waits for
-    /// both. (A compiler would make one load of two.)
+    /// both. (A compiler would make one load of two.) What is loaded twice side by side and blended
+    /// takes no shuffle, for which, and for sums, processors have two places.
     static Four load_halves(const float* from) {
         struct Pair {
             float first, second;
         };
-        Four lanes = load_two(from);
-        __asm__("vmovhps %1, %0, %0"
-                : "+x"(lanes)
-                : "m"(*reinterpret_cast<const Pair*>(from + 2)));
-        return lanes;
+        Four low;
+        Four high;
+        __asm__("vmovq %1, %0" : "=x"(low) : "m"(*reinterpret_cast<const Pair*>(from)));
+        __asm__("vmovddup %1, %0" : "=x"(high) : "m"(*reinterpret_cast<const Pair*>(from + 2)));
+        return __builtin_ia32_blendps(low, high, 0xC);
     }
     static Floats one_a_group(const float* from) {
         const Four two = load_two(from);
         return __builtin_shufflevector(two, two, 0, 0, 0, 0, 1, 1, 1, 1);
     }
-    static Floats load_pairs(const float* from, const std::uint32_t* at) {
-        return __builtin_shufflevector(load_four(from + 2 * static_cast<std::size_t>(at[0])),
-                                       load_four(from + 2 * static_cast<std::size_t>(at[1])), 0,
-                                       1, 2, 3, 4, 5, 6, 7);
+    struct Rows {
+        Floats a;
+        Floats b;
+    };
+    static Rows load_rows(const float* u, const float* v, const std::uint32_t* at) {
+        const auto row = [&](std::int32_t k) {
+            return __builtin_shufflevector(
+                load_four(u + 2 * static_cast<std::size_t>(at[k])),
+                load_four(v + 2 * static_cast<std::size_t>(at[2 + k])), 0, 1, 2, 3, 4, 5, 6, 7);
+        };
+        return {row(0), row(1)};
     }
-    static Floats spread_pairs(const float* from) {
-        const Four both = load_four(from);
-        return __builtin_shufflevector(both, both, 0, 1, 0, 1, 2, 3, 2, 3);
+    template <int G>
+    static void add_rows(float* u, float* v, const Rows& rows) {
+        const Floats sums = G == 0 ? rows.a : rows.b;
+        add_group<0>(u, sums);
+        add_group<1>(v, sums);
     }
+    static void store_kinds(float* to, Floats u, Floats v) { store_in_turn(to, u, v); }
+    static void store_kinds(std::uint32_t* to, Ints a) {
+        __builtin_memcpy(to, &a, sizeof a);
+    }
+    static Floats ones_before_kinds(const float* from) {
+        const Four two = load_four(from);
+        const Floats lanes = __builtin_shufflevector(two, two, 0, 0, 0, 2, 0, 1, 0, 3);
+        return __builtin_shufflevector(all(1.0F), lanes, 0, 9, 2, 11, 4, 13, 6, 15);
+    }
+    static Floats by_particle(Floats a) { return in_order(a); }
     template <int G>
     static void add_group(float* to, Floats a) {
         const Four lanes = load_halves(to) + group<G>(a);

@@ -41,12 +41,40 @@ struct FourLanes {
     static void store(float* to, Floats lanes) { store_lanes(to, lanes); }
     /// A number for each group.
     static Floats one_a_group(const float* from) { return all_lanes(*from); }
-    /// For each group the four numbers from pair `at` on.
-    static Floats load_pairs(const float* from, const std::uint32_t* at) {
-        return load_lanes(from + 2 * static_cast<std::size_t>(*at));
+    /// Rows of stencils, four numbers each, of as many particles as groups: of one particle on u and
+    /// on v; of two each with its row on u in the first group and the one on v in the second.
+    struct Rows {
+        Floats a;
+        Floats b;
+    };
+    /// From pairs `at` on, in the order of `store_kinds`.
+    static Rows load_rows(const float* u, const float* v, const std::uint32_t* at) {
+        return {load_lanes(u + 2 * static_cast<std::size_t>(at[0])),
+                load_lanes(v + 2 * static_cast<std::size_t>(at[1]))};
     }
-    /// A pair for each group, in its lanes 0 and 1.
-    static Floats spread_pairs(const float* from) { return load_pair(from); }
+    /// Adds those of one particle.
+    template <int G>
+    static void add_rows(float* u, float* v, const Rows& rows) {
+        add_group<G>(u, rows.a);
+        add_group<G>(v, rows.b);
+    }
+    /// Pairs on u and on v of particles → of as many as groups all on u, all on v.
+    static void store_kinds(float* to, Floats u, Floats v) {
+        store_lanes(to, weir::shuffle<0, 1, 4, 5>(u, v));
+        store_lanes(to + 4, weir::shuffle<2, 3, 6, 7>(u, v));
+    }
+    /// The same of numbers, of which each group has two on u, then two on v.
+    static void store_kinds(std::uint32_t* to, Ints a) {
+        const Ints lanes = __builtin_shufflevector(a, a, 0, 2, 1, 3);
+        __builtin_memcpy(to, &lanes, sizeof lanes);
+    }
+    /// Components of as many velocities as groups, in the order of `store_kinds`, after a 1 each.
+    static Floats ones_before_kinds(const float* from) {
+        return weir::shuffle<0, 4, 1, 5>(all(1.0F), load_pair(from));
+    }
+    /// Pairs in the order of `store_kinds` → for each particle first numbers on u and v, then second
+    /// ones.
+    static Floats by_particle(Floats a) { return weir::shuffle<0, 2, 1, 3>(a, a); }
     template <int G>
     static void add_group(float* to, Floats lanes) {
         store_lanes(to, load_lanes(to) + lanes);

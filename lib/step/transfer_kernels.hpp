@@ -12,12 +12,11 @@ namespace weir {
 /// takes ninety cycles from its place to its next one: more than a processor looks ahead.
 inline constexpr std::int32_t kRun = 64;
 
-/// Between the parts, for each particle of a run.
+/// Between the parts. Bases and weights are of as many particles as groups all on u, all on v.
 struct Run {
-    std::uint32_t u[kRun];   ///< bases of the stencils, before what first_u and first_v add
-    std::uint32_t v[kRun];
-    float weight[kRun][4];   ///< fx and fy of u, of v
-    float found[kRun][4];    ///< velocity along the way, change
+    std::uint32_t base[2 * kRun];  ///< of stencils, before what first_u and first_v add
+    float weight[kRun][4];         ///< fx and fy
+    float found[kRun][4];          ///< of each particle: velocity along the way, change
 };
 
 /// Two fields of pairs, side by side for each face: {mass, momentum} or {velocity, change}.
@@ -100,10 +99,8 @@ inline void find_stencils(std::int32_t stride, const float* position, std::int32
         const auto f_u = on_u - L::floats(node_u);
         const auto f_v = on_v - L::floats(node_v);
         const auto bases = L::sums_of_products(node_u, node_v, factors);
-        const auto even = L::template shuffle<0, 1, 4, 5>(f_u, f_v);
-        const auto odd = L::template shuffle<2, 3, 6, 7>(f_u, f_v);
-        L::store_halves(run.u + k, run.v + k, bases);
-        L::store_in_turn(run.weight[k], even, odd);
+        L::store_kinds(run.base + 2 * k, bases);
+        L::store_kinds(run.weight[k], f_u, f_v);
     }
 }
 
@@ -118,18 +115,17 @@ inline void sample_run(const Pairs<const float>& pairs, std::int32_t count, Run&
         const auto f = L::load(run.weight[k]);
         const auto fx = L::template shuffle<0, 0, 2, 2>(f, f);
         const auto fy = L::template shuffle<1, 1, 3, 3>(f, f);
-        const auto low_u = L::load_pairs(first_u, run.u + k);
-        const auto low_v = L::load_pairs(first_v, run.v + k);
-        const auto high_u = L::load_pairs(first_u + up, run.u + k);
-        const auto high_v = L::load_pairs(first_v + up, run.v + k);
-        const auto low_left = L::template shuffle<0, 1, 4, 5>(low_u, low_v);
-        const auto high_left = L::template shuffle<0, 1, 4, 5>(high_u, high_v);
-        const auto low_slope = L::template shuffle<2, 3, 6, 7>(low_u, low_v) - low_left;
-        const auto high_slope = L::template shuffle<2, 3, 6, 7>(high_u, high_v) - high_left;
+        const std::uint32_t* const base = run.base + 2 * k;
+        const auto below = L::load_rows(first_u, first_v, base);
+        const auto above = L::load_rows(first_u + up, first_v + up, base);
+        const auto low_left = L::template shuffle<0, 1, 4, 5>(below.a, below.b);
+        const auto high_left = L::template shuffle<0, 1, 4, 5>(above.a, above.b);
+        const auto low_slope = L::template shuffle<2, 3, 6, 7>(below.a, below.b) - low_left;
+        const auto high_slope = L::template shuffle<2, 3, 6, 7>(above.a, above.b) - high_left;
         const auto low = low_left + fx * low_slope;
         const auto high = high_left + fx * high_slope;
         const auto value = low + fy * (high - low);
-        L::store(run.found[k], L::template shuffle<0, 2, 1, 3>(value, value));
+        L::store(run.found[k], L::by_particle(value));
     }
 }
 
@@ -199,19 +195,17 @@ inline Gathered gather_all(const GatherTask& task) {
     return {fastest.largest(fastest.speed), fastest.largest(fastest.along)};
 }
 
-/// What particles, one a group, add to the rows of their stencils: mass and momentum of the left
-/// face, then of the right one.
+/// What particles, one a group, add to rows of their stencils: mass and momentum of the left face,
+/// then of the right one.
 template <class L>
 struct Contribution {
-    typename L::Floats lower_u;
-    typename L::Floats upper_u;
-    typename L::Floats lower_v;
-    typename L::Floats upper_v;
+    typename L::Rows lower;
+    typename L::Rows upper;
 };
 
-/// `velocities`: pairs in lanes 0 and 1 of each group.
+/// `given`: 1 and the velocity, each as often as there are fx and fy.
 template <class L>
-inline Contribution<L> contribution(const float* weights, typename L::Floats velocities) {
+inline Contribution<L> contribution(const float* weights, typename L::Floats given) {
     const auto f = L::load(weights);
     const auto fx = L::template shuffle<0, 0, 2, 2>(f, f);
     const auto fy = L::template shuffle<1, 1, 3, 3>(f, f);
@@ -220,16 +214,14 @@ inline Contribution<L> contribution(const float* weights, typename L::Floats vel
     const auto right = fx - w1;
     const auto upper = fy - w1;
     const auto w0 = (one - fx) - upper;
-    // Each weight once as it is and once with the velocity.
-    const auto given = L::template shuffle<0, 4, 1, 5>(one, velocities);
     const auto left_lower = w0 * given;
     const auto right_lower = right * given;
     const auto left_upper = upper * given;
     const auto right_upper = w1 * given;
-    return {L::template shuffle<0, 1, 4, 5>(left_lower, right_lower),
-            L::template shuffle<0, 1, 4, 5>(left_upper, right_upper),
-            L::template shuffle<2, 3, 6, 7>(left_lower, right_lower),
-            L::template shuffle<2, 3, 6, 7>(left_upper, right_upper)};
+    return {{L::template shuffle<0, 1, 4, 5>(left_lower, right_lower),
+             L::template shuffle<2, 3, 6, 7>(left_lower, right_lower)},
+            {L::template shuffle<0, 1, 4, 5>(left_upper, right_upper),
+             L::template shuffle<2, 3, 6, 7>(left_upper, right_upper)}};
 }
 
 /// All rows of the arrays are added to.
@@ -269,12 +261,11 @@ inline void scatter_all(const float* position, const float* velocity, std::int32
     float* const first_u = pairs.first_u();
     float* const first_v = pairs.first_v();
     const auto add = [&](std::int32_t k, const Contribution<L>& what, auto group) {
-        float* const u = first_u + 2 * static_cast<std::size_t>(run.u[k + group]);
-        float* const v = first_v + 2 * static_cast<std::size_t>(run.v[k + group]);
-        L::template add_group<group>(rows.u(u), what.lower_u);
-        L::template add_group<group>(rows.u(u + up), what.upper_u);
-        L::template add_group<group>(rows.v(v), what.lower_v);
-        L::template add_group<group>(rows.v(v + up), what.upper_v);
+        const std::uint32_t* const base = run.base + 2 * k + group;
+        float* const u = first_u + 2 * static_cast<std::size_t>(base[0]);
+        float* const v = first_v + 2 * static_cast<std::size_t>(base[L::kGroups]);
+        L::template add_rows<group>(rows.u(u), rows.v(v), what.lower);
+        L::template add_rows<group>(rows.u(u + up), rows.v(v + up), what.upper);
     };
     for (std::int32_t first = 0; first < count; first += kRun) {
         const std::int32_t some = count - first < kRun ? count - first : kRun;
@@ -282,13 +273,12 @@ inline void scatter_all(const float* position, const float* velocity, std::int32
         find_stencils<L>(pairs.stride, position + 2 * first, some, run);
         std::int32_t k = 0;
         for (; k + L::kGroups <= some; k += L::kGroups) {
-            const auto what = contribution<L>(run.weight[k], L::spread_pairs(v + 2 * k));
+            const auto what = contribution<L>(run.weight[k], L::ones_before_kinds(v + 2 * k));
             L::each_group([&](auto group) { add(k, what, group); });
         }
-        for (; k < some; ++k) {
-            const auto what =
-                contribution<L>(run.weight[k], L::load_some(v + 2 * k, 2));
-            add(k, what, L::kFirstGroup);
+        if (k < some) {
+            const float last[4] = {v[2 * k], v[2 * k + 1]};
+            add(k, contribution<L>(run.weight[k], L::ones_before_kinds(last)), L::kFirstGroup);
         }
     }
 }
@@ -307,19 +297,20 @@ inline void scatter_component(const float* position, const float* velocity, std:
     const auto middle =
         OnU ? L::repeat(0.0F, 0.5F, 0.0F, 0.5F) : L::repeat(0.5F, 0.0F, 0.5F, 0.0F);
     const auto add = [&](std::int32_t k, const Contribution<L>& what, auto group, bool both) {
-        float* const a = faces + 2 * static_cast<std::size_t>(run.u[k + 2 * group]);
-        L::template add_group<group>(a, what.lower_u);
-        L::template add_group<group>(a + up, what.upper_u);
+        float* const a = faces + 2 * static_cast<std::size_t>(run.base[k + 2 * group]);
+        L::template add_group<group>(a, what.lower.a);
+        L::template add_group<group>(a + up, what.upper.a);
         if (both) {
-            float* const b = faces + 2 * static_cast<std::size_t>(run.u[k + 2 * group + 1]);
-            L::template add_group<group>(b, what.lower_v);
-            L::template add_group<group>(b + up, what.upper_v);
+            float* const b = faces + 2 * static_cast<std::size_t>(run.base[k + 2 * group + 1]);
+            L::template add_group<group>(b, what.lower.b);
+            L::template add_group<group>(b + up, what.upper.b);
         }
     };
     const auto given = [&](std::int32_t k, typename L::Floats velocities) {
+        const auto of_kind = OnU ? L::template shuffle<0, 2, 0, 2>(velocities, velocities)
+                                 : L::template shuffle<1, 3, 1, 3>(velocities, velocities);
         return contribution<L>(weights + 2 * k,
-                               OnU ? L::template shuffle<0, 2, 0, 2>(velocities, velocities)
-                                   : L::template shuffle<1, 3, 1, 3>(velocities, velocities));
+                               L::template shuffle<0, 4, 1, 5>(L::all(1.0F), of_kind));
     };
     for (std::int32_t first = 0; first < count; first += kRun) {
         const std::int32_t some = count - first < kRun ? count - first : kRun;
@@ -333,7 +324,8 @@ inline void scatter_component(const float* position, const float* velocity, std:
             const auto at = load(x, k) + middle;
             const auto node = L::whole(at);
             L::store(weights + 2 * k, at - L::floats(node));
-            L::store_halves(run.u + k, run.v + k, L::sums_of_products(node, node, factors));
+            L::store_halves(run.base + k, run.base + kRun + k,
+                            L::sums_of_products(node, node, factors));
         }
         std::int32_t k = 0;
         for (; k + kStep <= some; k += kStep) {
