@@ -138,7 +138,14 @@ struct EightLanes : WideGroups<8> {
         const Floats lanes = __builtin_shufflevector(two, two, 0, 0, 0, 2, 0, 1, 0, 3);
         return __builtin_shufflevector(all(1.0F), lanes, 0, 9, 2, 11, 4, 13, 6, 15);
     }
-    static Floats by_particle(Floats a) { return in_order(a); }
+    static Floats first_of_kinds(Floats a, Floats b) {
+        const Floats v = second_groups(a, b);
+        return __builtin_ia32_blendps256(first_groups(a, b), shuffle<0, 0, 2, 2>(v, v), 0xAA);
+    }
+    static Floats second_of_kinds(Floats a, Floats b) {
+        const Floats u = first_groups(a, b);
+        return __builtin_ia32_blendps256(shuffle<1, 1, 3, 3>(u, u), second_groups(a, b), 0xAA);
+    }
     template <int G>
     static void add_group(float* to, Floats a) {
         const Four lanes = load_halves(to) + group<G>(a);
@@ -151,9 +158,15 @@ struct EightLanes : WideGroups<8> {
         __builtin_memcpy(first, &low, sizeof low);
         __builtin_memcpy(second, &high, sizeof high);
     }
+    static Floats first_groups(Floats a, Floats b) {
+        return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+    }
+    static Floats second_groups(Floats a, Floats b) {
+        return __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+    }
     static void store_in_turn(float* to, Floats a, Floats b) {
-        store(to, __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11));
-        store(to + 8, __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15));
+        store(to, first_groups(a, b));
+        store(to + 8, second_groups(a, b));
     }
     /// Appends those of a set, the last one first: their numbers, from `first` on, and what
     /// `store_halves` would store of them. Returns how many. Writes eight of either.
@@ -222,12 +235,6 @@ struct EightLanes : WideGroups<8> {
     }
     static Floats every_other(Floats a, Floats b) {
         return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
-    }
-    static Floats first_pairs(Floats a, Floats b) {
-        return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
-    }
-    static Floats last_pairs(Floats a, Floats b) {
-        return __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
     }
     static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
     static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }

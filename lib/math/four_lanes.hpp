@@ -41,8 +41,8 @@ struct FourLanes {
     static void store(float* to, Floats lanes) { store_lanes(to, lanes); }
     /// A number for each group.
     static Floats one_a_group(const float* from) { return all_lanes(*from); }
-    /// Rows of stencils, four numbers each, of as many particles as groups: of one particle on u and
-    /// on v; of two each with its row on u in the first group and the one on v in the second.
+    /// Rows of stencils, four numbers each, of as many particles as groups: of one on u and on v;
+    /// of two particles each with its row on u in the first group and the one on v in the second.
     struct Rows {
         Floats a;
         Floats b;
@@ -68,13 +68,14 @@ struct FourLanes {
         const Ints lanes = __builtin_shufflevector(a, a, 0, 2, 1, 3);
         __builtin_memcpy(to, &lanes, sizeof lanes);
     }
-    /// Components of as many velocities as groups, in the order of `store_kinds`, after a 1 each.
+    /// Components of as many velocities as groups, in that order, after a 1 each.
     static Floats ones_before_kinds(const float* from) {
         return weir::shuffle<0, 4, 1, 5>(all(1.0F), load_pair(from));
     }
-    /// Pairs in the order of `store_kinds` → for each particle first numbers on u and v, then second
-    /// ones.
-    static Floats by_particle(Floats a) { return weir::shuffle<0, 2, 1, 3>(a, a); }
+    /// Of pairs in that order, of as many particles as groups here and there: first numbers on u
+    /// and v of each, and second ones.
+    static Floats first_of_kinds(Floats a, Floats b) { return weir::shuffle<0, 2, 4, 6>(a, b); }
+    static Floats second_of_kinds(Floats a, Floats b) { return weir::shuffle<1, 3, 5, 7>(a, b); }
     template <int G>
     static void add_group(float* to, Floats lanes) {
         store_lanes(to, load_lanes(to) + lanes);
@@ -127,9 +128,6 @@ struct FourLanes {
     /// Lanes 0, 2 … of a, then of b; 1, 3 …
     static Floats every_second(Floats a, Floats b) { return weir::shuffle<0, 2, 4, 6>(a, b); }
     static Floats every_other(Floats a, Floats b) { return weir::shuffle<1, 3, 5, 7>(a, b); }
-    /// Lanes 0 and 1 of each group of a, then of b.
-    static Floats first_pairs(Floats a, Floats b) { return weir::shuffle<0, 1, 4, 5>(a, b); }
-    static Floats last_pairs(Floats a, Floats b) { return weir::shuffle<2, 3, 6, 7>(a, b); }
     static Ints whole(Floats a) { return __builtin_convertvector(a, Ints); }
     static Floats floats(Ints a) { return __builtin_convertvector(a, Floats); }
     /// Numbers first, second … of a table, for the bytes at some places.

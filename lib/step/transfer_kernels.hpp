@@ -12,11 +12,11 @@ namespace weir {
 /// takes ninety cycles from its place to its next one: more than a processor looks ahead.
 inline constexpr std::int32_t kRun = 64;
 
-/// Between the parts. Bases and weights are of as many particles as groups all on u, all on v.
+/// Between the parts: of as many particles as there are groups all on u, then all on v.
 struct Run {
     std::uint32_t base[2 * kRun];  ///< of stencils, before what first_u and first_v add
     float weight[kRun][4];         ///< fx and fy
-    float found[kRun][4];          ///< of each particle: velocity along the way, change
+    float found[kRun][4];          ///< velocity along the way and change
 };
 
 /// Two fields of pairs, side by side for each face: {mass, momentum} or {velocity, change}.
@@ -71,7 +71,8 @@ struct GatherTask {
     float limit;       ///< cells/s
     float flip_ratio;
     float dt;
-    /// Moves particle k, which is too fast or leaves the tank; `found`: as in Run.
+    /// Moves particle k, which is too fast or leaves the tank; `found`: velocity along the way,
+    /// change.
     void (*move_one)(void* context, std::int32_t k, const float* found);
     void* context;
 };
@@ -104,8 +105,7 @@ inline void find_stencils(std::int32_t stride, const float* position, std::int32
     }
 }
 
-/// The second part of a gather: bilinear values of velocity and change on both kinds of faces,
-/// lanes u, change of u, v, change of v.
+/// The second part of a gather: bilinear values of velocity and change on both kinds of faces.
 template <class L>
 inline void sample_run(const Pairs<const float>& pairs, std::int32_t count, Run& run) {
     const float* const first_u = pairs.first_u();
@@ -125,7 +125,7 @@ inline void sample_run(const Pairs<const float>& pairs, std::int32_t count, Run&
         const auto low = low_left + fx * low_slope;
         const auto high = high_left + fx * high_slope;
         const auto value = low + fy * (high - low);
-        L::store(run.found[k], L::by_particle(value));
+        L::store(run.found[k], value);
     }
 }
 
@@ -155,15 +155,19 @@ inline void move_run(const GatherTask& task, std::int32_t first, std::int32_t co
     float* const v = task.velocity + 2 * first;
     const auto one_by_one = [&](std::int32_t k, std::int32_t end) {
         for (; k < end; ++k) {
-            task.move_one(task.context, first + k, run.found[k]);
+            constexpr std::int32_t kOnV = 2 * L::kGroups;
+            const float* const pair = run.found[k / L::kGroups * L::kGroups] + k % L::kGroups * 2;
+            const float found[4] = {pair[0], pair[kOnV], pair[1], pair[kOnV + 1]};
+            task.move_one(task.context, first + k, found);
         }
     };
     std::int32_t k = 0;
     for (; k + 2 * L::kGroups <= count; k += 2 * L::kGroups) {
         const auto a = L::load(run.found[k]);
         const auto b = L::load(run.found[k + L::kGroups]);
-        const auto along = L::first_pairs(a, b);
-        const auto faster = L::all(task.flip_ratio) * L::load(v + 2 * k) + L::last_pairs(a, b);
+        const auto along = L::first_of_kinds(a, b);
+        const auto faster =
+            L::all(task.flip_ratio) * L::load(v + 2 * k) + L::second_of_kinds(a, b);
         const auto speed = L::absolute(faster);
         const auto way = L::absolute(along);
         const auto moved = L::load(x + 2 * k) + L::all(task.dt) * along;
