@@ -32,6 +32,16 @@ static_assert(world_bytes<float>(kReadme) == layout<float>(kReadme).total_bytes,
 static_assert(world_bytes<float>(kReadme) < world_bytes<double>(kReadme), "a double is larger");
 static_assert(world_bytes<float>(kReadme) % world_alignment == 0, "worlds can stand in an array");
 
+/// Of a cell of the tank or of the ring around it.
+template <class Real>
+constexpr double bytes_a_cell(std::int32_t bodies) {
+    const std::size_t small = world_bytes<Real>(capacity(64, 30, 30, bodies, 0));
+    const std::size_t large = world_bytes<Real>(capacity(64, 62, 62, bodies, 0));
+    return static_cast<double>(large - small) / (64 * 64 - 32 * 32);
+}
+static_assert(bytes_a_cell<SmallFixed>(0) == 18, "no coarse grid of their own");
+static_assert(bytes_a_cell<SmallFixed>(2) < 28.5 && bytes_a_cell<float>(0) < 38.5, "as told");
+
 const Capacity kCapacities[] = {
     Capacity{},
     kReadme,

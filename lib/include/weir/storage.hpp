@@ -79,8 +79,8 @@ struct Stored {
     static constexpr int particle_mass = 1;  ///< on faces: 2 saves a bit of a velocity's format
 };
 
-/// 8 bytes a particle and 19 a cell (26 with static solids, 29 with moving ones, or for one body 25
-/// and 27): positions to 1/256 of a cell, velocities to 1/128 cell/s below 256 cells/s, so a
+/// 8 bytes a particle and 18 a cell (25 with static solids, 28 with moving ones, or for one body 24
+/// and 26): positions to 1/256 of a cell, velocities to 1/128 cell/s below 256 cells/s, so a
 /// world of at most 255 × 255 cells.
 template <>
 struct Stored<SmallFixed> {
