@@ -42,13 +42,13 @@ struct BodyLoad {
     Face<Real> inverse_mass = Face<Real>(0);
     Face<Real> inverse_inertia = Face<Real>(0);  ///< on a hinge about that; 0: held
     /// Its mass over that and what it takes along of the liquid where the grid does not show it
-    /// (solid/immersion.hpp), as of the last substep.
+    /// (solid/immersion.hpp), as of the last substep; from `accelerate` on also of what sticks to it.
     Face<Real> ease = Face<Real>(1);
     /// 1 along axes along which it moves, 0 where it is held: along both by a hinge.
     Vec2<Face<Real>> slides{Face<Real>(1), Face<Real>(1)};
     Impulse<Real> received;    ///< in this step, about the centre of mass
     Impulse<Real> blows;       ///< of particles, which a free body has not answered yet
-    Face<Real> blow_mass = Face<Real>(0);  ///< of those particles
+    Face<Real> blow_mass = Face<Real>(0);  ///< of those particles, and what sticks pulls as
     Twist<Real> unpressed;     ///< free bodies: before the pressure
     Twist<Real> change;        ///< and what the pressure adds to it, and whatever stops it
     Twist<Real> stopped;       ///< that part of the change which is due to what stops it

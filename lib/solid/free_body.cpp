@@ -92,22 +92,34 @@ void pass_on(BodyLoad<Real>& load, Wide<Real> impulse) {
 }
 
 /// Particles bounce off a body as if it were too heavy to yield. One that is lighter than all that
-/// hit it takes only as much as brings it to their speed.
+/// hit it takes only as much as brings it to their speed. Viscous liquid that sticks to it pulls
+/// by its speed: what of that is heavier than the body counts with its mass until the substep is
+/// done, against pressure and gravity too, so that at one speed it gets all that it is told.
 template <class Real>
 std::int32_t accelerate(const Obstacles<Real>& obstacles, BodyTable<Real>& table) {
+    using Number = Face<Real>;
+    const bool viscous = obstacles.walls.sticking != nullptr;
     for_each_free(table, [&](Body<Real>& body, BodyLoad<Real>& load) {
         Twist<Real> twist = twist_of(body, load);
         const Twist<Real> blown = answer(load, load.blows);
-        const Face<Real> share = load.blow_mass > load.mass ? load.mass / load.blow_mass
-                                                            : Face<Real>(1);
-        pass_on(load, (share * (Face<Real>(1) - load.ease)) * load.blows.linear);
+        const bool sticks = viscous && body.surface.no_slip;
+        const bool light = load.blow_mass > load.mass;
+        const Number bound = sticks && light ? load.blow_mass - load.mass : Number(0);
+        const Number ease = clamp(load.ease, Number(kLeastEase), Number(1));
+        const Number whole = load.mass / ease;
+        const Number yields = whole / (whole + bound);
+        const Number share = light && !sticks ? load.mass / load.blow_mass : yields;
+        const Number left = sticks ? Number(1) - share * load.ease
+                                   : share * (Number(1) - load.ease);
+        pass_on(load, left * load.blows.linear);
         load.forget_blows();
-        load.ease = clamp(load.ease, Face<Real>(kLeastEase), Face<Real>(1));
+        load.ease = ease;
         const Twist<Real> fall = falling(obstacles, load);
-        const Face<Real> carried = (load.mass / load.ease) * (Face<Real>(1) - load.ease);
-        receive_from_tank(obstacles.bodies, (-carried) * obstacles.fall, load);
-        twist.velocity = (twist.velocity + fall.velocity) + share * blown.velocity;
-        twist.spin = (twist.spin + fall.spin) + share * blown.spin;
+        receive_from_tank(obstacles.bodies, (-(whole * (Number(1) - ease))) * obstacles.fall, load);
+        pass_on(load, (yields * bound) * fall.velocity);
+        load.ease = yields * ease;
+        twist.velocity = (twist.velocity + yields * fall.velocity) + share * blown.velocity;
+        twist.spin = (twist.spin + yields * fall.spin) + share * blown.spin;
         load.unpressed = twist;
         load.change = load.stopped = Twist<Real>{};
     });
