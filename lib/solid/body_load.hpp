@@ -42,7 +42,7 @@ struct BodyLoad {
     Face<Real> inverse_mass = Face<Real>(0);
     Face<Real> inverse_inertia = Face<Real>(0);  ///< on a hinge about that; 0: held
     /// Its mass over that and what it takes along of the liquid where the grid does not show it
-    /// (solid/immersion.hpp), as of the last substep; from `accelerate` on also of what sticks to it.
+    /// (solid/immersion.hpp), as of the last substep; since `accelerate` also of what sticks to it.
     Face<Real> ease = Face<Real>(1);
     /// 1 along axes along which it moves, 0 where it is held: along both by a hinge.
     Vec2<Face<Real>> slides{Face<Real>(1), Face<Real>(1)};

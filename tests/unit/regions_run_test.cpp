@@ -155,5 +155,34 @@ TYPED_TEST(RegionsRun, HasTheSameBitsInAnyWay) {
     EXPECT_GT(mixed, 20) << "steps in which some slept and others did not";
 }
 
+WEIR_SUITE(RegionsAtRest, EveryScalar);
+
+/// Nothing that is gone keeps liquid awake: what a wheel has stirred that was then taken away sleeps
+/// once nobody is fast. Marks are wiped once in `after_s`, 30 steps, so within twice as long.
+TYPED_TEST(RegionsAtRest, SleepsOnceItRestsWhereAWheelHasTurned) {
+    WorldDef def = pools_def();
+    def.viscosity_m2ps = 1.0e-3F;
+    Pools<TypeParam> pools(def);
+    pools.add_spinner();
+    const Ring blade = rectangle(4 * kCell, 1.2F * kCell);
+    BodyDef wheel = body_of(blade, {46 * kCell, 4.8F * kCell});
+    wheel.motion.spin_radps = 3.0F;
+    const BodyId id = put_moving(*pools.world, wheel);
+    for (int step = 0; step < 60; ++step) {
+        ASSERT_EQ(pools->step(kDt).particles_asleep, 0);
+    }
+    expect_ok(pools->remove_body(id));
+    std::int32_t last_fast = -1;
+    StepReport report;
+    std::int32_t step = 0;
+    for (; step < 900 && report.particles_asleep < pools.right; ++step) {
+        report = pools->step(kDt);
+        last_fast = report.max_speed_mps > def.sleep.speed_mps ? step : last_fast;
+    }
+    ASSERT_EQ(report.particles_asleep, pools.right);
+    EXPECT_GE(last_fast, 0) << "it had stirred them";
+    EXPECT_LE(step - last_fast, 62);
+}
+
 }  // namespace
 }  // namespace weir
