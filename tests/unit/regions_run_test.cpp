@@ -157,7 +157,7 @@ TYPED_TEST(RegionsRun, HasTheSameBitsInAnyWay) {
 
 WEIR_SUITE(RegionsAtRest, EveryScalar);
 
-/// Nothing that is gone keeps liquid awake: what a wheel has stirred that was then taken away sleeps
+/// Nothing that is gone keeps liquid awake: what a wheel has stirred that was taken away sleeps
 /// once nobody is fast. Marks are wiped once in `after_s`, 30 steps, so within twice as long.
 TYPED_TEST(RegionsAtRest, SleepsOnceItRestsWhereAWheelHasTurned) {
     WorldDef def = pools_def();
