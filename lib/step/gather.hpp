@@ -96,6 +96,8 @@ public:
         std::memcpy(bytes_, from, static_cast<std::size_t>(count) * sizeof(Value));
         return reinterpret_cast<const Value*>(bytes_);
     }
+    /// For who leaves them there himself. (g++ would warn of what it does not see written.)
+    Value* room() { return whole(reinterpret_cast<Value*>(bytes_)); }
 
 private:
     // Also of words, so that small values are copied by words.
@@ -144,13 +146,20 @@ void gather_block(Simulation<Real>& simulation, Transfer<Real>& transfer, const 
     constexpr bool kLeft = Stored<Real>::coarse;  // by the gather, on one thread
     Copies<Vec2<PositionOf<Real>>, kLeft ? 1 : kBlock<Real>> copies;
     const auto* before = static_cast<const Vec2<PositionOf<Real>>*>(transfer.ways);
-    if constexpr (!kLeft) {
+    const bool in_lanes = kHasLanes<Real> && simulation.grid.pairs != nullptr;
+    Transfer<Real> leaving = transfer;  // threads share the other one
+    if (in_lanes) {
+        auto* const left = copies.room();
+        leaving.ways = left;
+        before = left;
+    } else if constexpr (!kLeft) {
         before = copies.of(particles.position + first, count);
     }
+    const Transfer<Real>& how = in_lanes ? leaving : transfer;
     Particles<Real> block = particles.part(first, count);
     moved = walls.thin != nullptr
-                ? move_past_walls(simulation, transfer, before, block)
-                : grid_to_particle(simulation.grid, transfer, block);
+                ? move_past_walls(simulation, how, before, block)
+                : grid_to_particle(simulation.grid, how, block);
     if (clock != nullptr) {
         clock->charge(Stage::grid_to_particle);
     }

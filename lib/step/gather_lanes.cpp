@@ -34,7 +34,9 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
     const GridShape& s = grid.shape;
     const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
     TransferResult<float> result;
-    const auto gather = [&](Particles<float> some, [[maybe_unused]] bool wide) {
+    auto* const left = static_cast<float*>(transfer.ways);
+    const auto gather = [&](std::int32_t first, std::int32_t end, [[maybe_unused]] bool wide) {
+        Particles<float> some = particles.part(first, end - first);
         OneByOne rest{transfer, size, some};
         const GatherTask task{{grid.pairs, grid.as_pairs(grid.u), s.stride},
                               &some.position->x,
@@ -46,7 +48,8 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
                               transfer.flip_ratio,
                               transfer.dt_s,
                               OneByOne::move,
-                              &rest};
+                              &rest,
+                              left != nullptr ? left + 2 * first : nullptr};
 #if WEIR_HAS_WIDE_LANES
         const Gathered fastest = wide ? gather_wide(task) : gather_all<FourLanes>(task);
 #else
@@ -60,12 +63,12 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
     // Of the last two one may be missing, and is looked up where the tank begins: that must exist.
     const std::int32_t paired =
         grid.origin != 0 && has_wide_lanes() ? particles.count & ~1 : particles.count;
-    gather(particles.part(0, paired), has_wide_lanes());
+    gather(0, paired, has_wide_lanes());
 #else
     const std::int32_t paired = 0;
 #endif
     if (paired < particles.count) {
-        gather(particles.part(paired, particles.count - paired), false);
+        gather(paired, particles.count, false);
     }
     return result;
 }

@@ -38,7 +38,8 @@ struct Transfer {
     Real max_speed = Real(0);  ///< of particles before these: a root only for who is faster
     void* ways = nullptr;      ///< words of scratch, one for each of some particles; null: none
     std::int32_t room = 0;     ///< so many
-    bool keeps_places = false; ///< the places where particles come from are left there
+    /// The places where particles come from are left in `ways`. In lanes: if it is not null.
+    bool keeps_places = false;
 };
 
 /// Gathers both fields with the weights of particle-to-grid, moves the particle straight on,

@@ -17,6 +17,7 @@ struct Run {
     std::uint32_t base[2 * kRun];  ///< of stencils, before what first_u and first_v add
     float weight[kRun][4];         ///< fx and fy
     float found[kRun][4];          ///< velocity along the way and change
+    float left[kRun][2];           ///< places
 };
 
 /// Two fields of pairs, side by side for each face: {mass, momentum} or {velocity, change}.
@@ -75,6 +76,7 @@ struct GatherTask {
     /// change.
     void (*move_one)(void* context, std::int32_t k, const float* found);
     void* context;
+    float* left;  ///< the places that particles come from are left there; null: nobody asks
 };
 
 /// The largest components of the velocities of those that nothing was in the way of, and of what
@@ -145,16 +147,20 @@ struct Fastest {
 };
 
 /// The third part: particles move, two a group, unless something is in the way of one of them.
+/// The places that they come from are left in the run where nobody asks: sooner than told.
 template <class L>
 inline void move_run(const GatherTask& task, std::int32_t first, std::int32_t count,
-                     const Run& run, Fastest<L>& fastest) {
+                     Run& run, Fastest<L>& fastest) {
     const auto lowest = L::all(task.gap);
     const auto highest =
         L::repeat(task.size[0], task.size[1], task.size[0], task.size[1]) - lowest;
     float* const x = task.position + 2 * first;
     float* const v = task.velocity + 2 * first;
+    float* const left = task.left != nullptr ? task.left + 2 * first : run.left[0];
     const auto one_by_one = [&](std::int32_t k, std::int32_t end) {
         for (; k < end; ++k) {
+            left[2 * k] = x[2 * k];
+            left[2 * k + 1] = x[2 * k + 1];
             constexpr std::int32_t kOnV = 2 * L::kGroups;
             const float* const pair = run.found[k / L::kGroups * L::kGroups] + k % L::kGroups * 2;
             const float found[4] = {pair[0], pair[kOnV], pair[1], pair[kOnV + 1]};
@@ -170,7 +176,9 @@ inline void move_run(const GatherTask& task, std::int32_t first, std::int32_t co
             L::all(task.flip_ratio) * L::load(v + 2 * k) + L::second_of_kinds(a, b);
         const auto speed = L::absolute(faster);
         const auto way = L::absolute(along);
-        const auto moved = L::load(x + 2 * k) + L::all(task.dt) * along;
+        const auto from = L::load(x + 2 * k);
+        const auto moved = from + L::all(task.dt) * along;
+        L::store(left + 2 * k, from);
         // A way that is no number is lost in the maximum, but it leads nowhere.
         if (L::all_true((L::maximum(speed, way) <= L::all(task.limit)) & (moved >= lowest) &
                         (moved <= highest))) {

@@ -23,6 +23,7 @@ struct Tank {
     GridShape shape{kWide, kHigh, kWide + 2};
     std::vector<float> memory;
     std::vector<Vec2f> position, velocity;
+    std::int32_t count = kCount;
     StaggeredGrid<float> grid;
 
     explicit Tank(bool lanes) : memory(static_cast<std::size_t>(6 * shape.size())) {
@@ -40,7 +41,7 @@ struct Tank {
         }
     }
     Particles<float> particles() {
-        return {position.data(), velocity.data(), kCount, kCount};
+        return {position.data(), velocity.data(), count, kCount};
     }
     void fill_fields() {
         std::mt19937 random(11);
@@ -49,12 +50,13 @@ struct Tank {
             memory[static_cast<std::size_t>(k)] = speed(random);
         }
     }
-    TransferResult<float> gather(float limit, bool wrap) {
+    TransferResult<float> gather(float limit, bool wrap, Vec2f* left = nullptr) {
         auto all = particles();
         const SurfaceLaw<float> wall{0.5F, 0.3F, 0.0F, false};
         const Borders<float> borders{wrap, wrap, false, wall, wall, wall, wall};
         Transfer<float> transfer{0.05F, 0.97F, limit, borders};
         transfer.near = 20.0F;
+        transfer.ways = left;
         prepare_gather(grid);
         return grid_to_particle(grid, transfer, all);
     }
@@ -99,6 +101,25 @@ TEST_P(GatherInLanes, HasThePlainLoopsBits) {
         EXPECT_EQ(result[0].slowed > 0, limit < 10.0F);
         EXPECT_EQ(result[0].far, result[1].far);
         EXPECT_EQ(result[0].max_speed, result[1].max_speed);
+    }
+}
+TEST_P(GatherInLanes, LeavesThePlacesThatParticlesComeFrom) {
+    if (!kHasLanes<float>) {
+        GTEST_SKIP() << "no lanes on this processor";
+    }
+    for (const float limit : {100.0F, 4.0F}) {
+        Tank lanes(true), leaving(true);
+        lanes.count = leaving.count = kCount - 1;  // the last ones are no whole group
+        std::vector<Vec2f> left(kCount - 1);
+        std::vector<Vec2f> before = leaving.position;
+        before.pop_back();
+        lanes.fill_fields();
+        leaving.fill_fields();
+        lanes.gather(limit, GetParam());
+        leaving.gather(limit, GetParam(), left.data());
+        EXPECT_TRUE(same(left, before));
+        EXPECT_TRUE(same(lanes.position, leaving.position));
+        EXPECT_TRUE(same(lanes.velocity, leaving.velocity));
     }
 }
 #if WEIR_HAS_LANES
