@@ -9,10 +9,7 @@
 
 namespace weir {
 
-struct FreeWords {
-    std::uint32_t* first;
-    std::int32_t count;
-};
+using FreeWords = ArrayView<std::uint32_t>;
 
 /// The smallest tank has room for so many.
 template <class Real>
@@ -36,7 +33,7 @@ ArrayView<std::int32_t> words_before_pressure(const PressureFields<Real>& fields
                                               const GridShape& stored) {
     if constexpr (Stored<Real>::shares_momentum) {
         const FreeWords free = free_words(fields, stored);
-        return {reinterpret_cast<std::int32_t*>(free.first), free.count};
+        return {reinterpret_cast<std::int32_t*>(free.data), free.size};
     } else {
         const std::int32_t rows = coarse_cells(stored.ny) + 2;
         return {reinterpret_cast<std::int32_t*>(fields.coarse.correction),

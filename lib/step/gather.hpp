@@ -130,8 +130,8 @@ void lend_scratch(const PressureFields<Real>& fields, const GridShape& tank,
                   Transfer<Real>& transfer) {
     static_assert(kFewestFreeWords<Real> >= kBlock<Real>, "or the smallest tank has too little");
     const FreeWords words = free_words(fields, tank);
-    transfer.ways = words.first;
-    transfer.room = words.count;
+    transfer.ways = words.data;
+    transfer.room = words.size;
 }
 
 /// Moves a block of particles and lets them meet the solids.

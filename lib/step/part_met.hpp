@@ -44,16 +44,16 @@ public:
     Group(const PressureFields<SmallFixed>& fields, const GridShape& tank)
         : words_(free_words(fields, tank)) {}
 
-    void clear() const { put_word(words_.first, 0); }
-    std::int32_t count() const { return static_cast<std::int32_t>(word_at(words_.first)); }
+    void clear() const { put_word(words_.data, 0); }
+    std::int32_t count() const { return static_cast<std::int32_t>(word_at(words_.data)); }
     std::int32_t operator[](std::int32_t n) const {
-        return static_cast<std::int32_t>(word_at(words_.first + n + 1));
+        return static_cast<std::int32_t>(word_at(words_.data + n + 1));
     }
     void add(std::int32_t number) const {
         const std::int32_t n = count();
-        if (n < minimum(kMostMet, words_.count - 1)) {
-            put_word(words_.first + n + 1, static_cast<std::uint32_t>(number));
-            put_word(words_.first, static_cast<std::uint32_t>(n + 1));
+        if (n < minimum(kMostMet, words_.size - 1)) {
+            put_word(words_.data + n + 1, static_cast<std::uint32_t>(number));
+            put_word(words_.data, static_cast<std::uint32_t>(n + 1));
         }
     }
 
