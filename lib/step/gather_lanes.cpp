@@ -34,7 +34,7 @@ TransferResult<float> gather_in_lanes(const StaggeredGrid<float>& grid,
     const GridShape& s = grid.shape;
     const Vec2<float> size{static_cast<float>(s.nx), static_cast<float>(s.ny)};
     TransferResult<float> result;
-    auto* const left = static_cast<float*>(transfer.ways);
+    auto* const left = transfer.keeps_places ? static_cast<float*>(transfer.ways) : nullptr;
     const auto gather = [&](std::int32_t first, std::int32_t end, [[maybe_unused]] bool wide) {
         Particles<float> some = particles.part(first, end - first);
         OneByOne rest{transfer, size, some};

@@ -38,8 +38,7 @@ struct Transfer {
     Real max_speed = Real(0);  ///< of particles before these: a root only for who is faster
     void* ways = nullptr;      ///< words of scratch, one for each of some particles; null: none
     std::int32_t room = 0;     ///< so many
-    /// The places where particles come from are left in `ways`. In lanes: if it is not null.
-    bool keeps_places = false;
+    bool keeps_places = false; ///< the places where particles come from are left there
 };
 
 /// Gathers both fields with the weights of particle-to-grid, moves the particle straight on,

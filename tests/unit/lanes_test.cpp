@@ -57,6 +57,7 @@ struct Tank {
         Transfer<float> transfer{0.05F, 0.97F, limit, borders};
         transfer.near = 20.0F;
         transfer.ways = left;
+        transfer.keeps_places = left != nullptr;
         prepare_gather(grid);
         return grid_to_particle(grid, transfer, all);
     }
