@@ -29,48 +29,44 @@ void clear(Real* field, const GridShape& shape) {
     clear_rows(shape, {0, shape.ny + 2}, field);
 }
 
-#if WEIR_HAS_LANES
-/// Adds what the cells of a patch add, one after the other. `step`: from one cell's terms to the
-/// next one's.
-void add_terms(const float* terms, std::int32_t step, const Patch& patch, const Targets& targets,
-               CoarseGrid<float>& coarse) {
-    float* const own = coarse.residual + patch.q;
-    const std::int32_t up = coarse.shape.stride;
-    const bool own_row = targets.has(patch.q);
-    // Rows from here on lie above the centre.
-    const std::int32_t turn =
-        minimum(patch.height, static_cast<std::int32_t>(coarse.centre_y[patch.q]) + 1);
-    Lanes sums{0.0F, own_row ? own[-1] : 0.0F, own_row ? own[1] : 0.0F, 0.0F};
-    for (std::int32_t y = 0; y < patch.height;) {
-        const bool below = y < turn;
-        const std::int32_t end = below ? turn : patch.height;
-        const std::int32_t vertical = below ? patch.q - up : patch.q + up;
-        const bool counted = targets.has(vertical);
-        sums[3] = counted ? coarse.residual[vertical] : 0.0F;
-        for (; y < end; ++y, terms += 4 * step) {
-            sums += load_lanes(terms);
-            sums += load_lanes(terms + step);
-            sums += load_lanes(terms + 2 * step);
-            sums += load_lanes(terms + 3 * step);
-        }
-        if (counted) {
-            coarse.residual[vertical] = sums[3];
-        }
+/// What is left of a cell's equation.
+template <bool Solids, bool Mixed, class Real>
+WEIR_ALWAYS_INLINE Real residual_of(const FaceWeights<Solids, Mixed, Real>& weights, const Real* p,
+                                    std::int32_t c, Real inverse, Real flow) {
+    const bool wide = bound_key(inverse) == bound_key(stored_quarter<Real>());
+    return (weights.weighted(p, c, inverse) - flow) -
+           (wide ? Real(4) * *p : over_inverse<Real>(*p, Solids ? absolute(inverse) : inverse));
+}
+
+/// Residuals of a patch's cells that are cut off: from its coarse cell, where all go at first.
+template <bool Solids, bool Mixed, class Real>
+WEIR_ALWAYS_INLINE void move_cut_off(const FaceWeights<Solids, Mixed, Real>& weights,
+                                     const PressureFields<Real>& fields, const Patch& patch,
+                                     const Targets& targets, CoarseGrid<Real>& coarse) {
+    if (!Solids || !is_parted(coarse, patch.q)) {
+        return;
     }
-    if (own_row) {
-        *own += sums[0];
-        own[-1] = sums[1];
-        own[1] = sums[2];
+    const GridShape& s = weights.grid.shape;
+    for (std::uint32_t rest = coarse.cut_off[patch.q].cells; rest != 0; rest &= rest - 1) {
+        const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
+        const std::int32_t c = s.index(patch.i + bit % kCoarseEdge, patch.j + bit / kCoarseEdge);
+        const Real residual = residual_of(weights, fields.pressure + c, c,
+                                          Real(fields.inverse_diagonal[c]),
+                                          Real(fields.divergence[c]));
+        move_residual(patch.q, bit, residual, targets, coarse);
     }
 }
 
+#if WEIR_HAS_LANES
 /// `gather_residual` of the patches of a row that are of full width. Returns how many they are.
-std::int32_t gather_in_lanes(const PressureFields<float>& fields, const Walls<float>* walls,
-                             const GridShape& s, std::int32_t row, const Targets& targets,
-                             CoarseGrid<float>& coarse) {
+template <bool Solids>
+std::int32_t gather_in_lanes(const FaceWeights<Solids, false, float>& weights,
+                             const PressureFields<float>& fields, std::int32_t row,
+                             const Targets& targets, CoarseGrid<float>& coarse) {
     static_assert(kCoarseEdge == 4, "a row of a patch is four lanes");
-    const float* open_u = walls != nullptr ? walls->open_u : nullptr;
-    const float* open_v = walls != nullptr ? walls->open_v : nullptr;
+    const GridShape& s = weights.grid.shape;
+    const float* open_u = Solids ? weights.walls.open_u : nullptr;
+    const float* open_v = Solids ? weights.walls.open_v : nullptr;
     return for_whole_patches<kTerms>(
         s, coarse.shape, row,
         [&](const Patch& patch) { return coarse.inverse_diagonal[patch.q] != 0.0F; },
@@ -81,6 +77,7 @@ std::int32_t gather_in_lanes(const PressureFields<float>& fields, const Walls<fl
         },
         [&](const Patch& patch, const float* terms, std::int32_t step) {
             add_terms(terms, step, patch, targets, coarse);
+            move_cut_off(weights, fields, patch, targets, coarse);
         });
 }
 #endif
@@ -110,12 +107,7 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
             if (is_zero(inverse)) {
                 return;
             }
-            const Real held = p[x];
-            const Real residual =
-                (weights.weighted(p + x, row + x, inverse) - flow[x]) -
-                (bound_key(inverse) == bound_key(stored_quarter<Real>())
-                     ? Real(4) * held
-                     : over_inverse<Real>(held, Solids ? absolute(inverse) : inverse));
+            const Real residual = residual_of(weights, p + x, row + x, inverse, flow[x]);
             const Real beside = to.of_beside[x] * residual;
             const Real above = of_above * residual;
             own += residual - (beside + above);
@@ -138,6 +130,7 @@ void gather_residual(const FaceWeights<Solids, Mixed, Real>& weights,
         sums[0] += own;
         sums[1] = right;
     }
+    move_cut_off(weights, fields, patch, targets, coarse);
 }
 
 /// Of some rows of patches.
@@ -150,8 +143,7 @@ void gather_residuals(const FaceWeights<Solids, Mixed, Real>& weights,
         const Part columns = patches_in(s, coarse.shape, row);
         std::int32_t column = columns.first;
         if constexpr (kHasLanes<Real> && !Mixed) {
-            column = gather_in_lanes(fields, Solids ? &weights.walls : nullptr, s, row, targets,
-                                     coarse);
+            column = gather_in_lanes(weights, fields, row, targets, coarse);
         }
         for (; column < columns.end; ++column) {
             const Patch patch = patch_of(s, coarse.shape, column, row);
@@ -273,10 +265,28 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
             clear(coarse.reach_u, big);
             clear(coarse.reach_v, big);
         }
+        coarse.parted = false;
+        if constexpr (Solids) {
+            clear(coarse.cut_off, big);
+        }
     }
     share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
-        find_centre(s, fields, patch, coarse);
+        if (find_centre<Solids>(s, fields, patch, coarse) && Solids) {
+            cut_patch(weights.walls, s, fields, patch, coarse);
+        }
     });
+    if constexpr (Solids) {
+        if (work.once(big.size())) {
+            coarse.parted = any_cut_off(coarse);
+        }
+        if (coarse.parted || work.foreseeing()) {
+            share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
+                if (coarse.cut_off[patch.q].cells != 0) {
+                    join_cut_off(weights.walls, fields, s, patch);
+                }
+            });
+        }
+    }
     if (work.once(3 * big.border())) {
         extend_cells(weights.borders, big, coarse.residual);
         extend_cells(weights.borders, big, coarse.centre_x);
@@ -337,7 +347,12 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
     sweep(weights.borders, work, coarse);
     const std::int32_t cost = kCoarseEdge * s.nx;
     work.share(work.take(big.ny, cost), cost, 1,
-               [&](const Part& rows, std::int32_t) { add_corrections(s, rows, fields); });
+               [&](const Part& rows, std::int32_t) {
+        add_corrections(s, rows, fields);
+        if (Solids && coarse.parted) {
+            correct_cut_off(s, rows, fields);
+        }
+    });
 }
 
 template <class Real>
@@ -348,7 +363,11 @@ void add_again(const GridShape& shape, Real factor, PressureFields<Real>& fields
             coarse.correction[q] = factor * coarse.correction[q];
         }
     });
-    add_corrections(shape, {0, coarse.shape.ny}, fields);
+    const Part all{0, coarse.shape.ny};
+    add_corrections(shape, all, fields);
+    if (coarse.parted) {
+        correct_cut_off(shape, all, fields);
+    }
 }
 
 #define WEIR_INSTANTIATE_FOR(Solids, Mixed, Real)                                                \

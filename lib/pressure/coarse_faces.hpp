@@ -3,27 +3,25 @@
 #pragma once
 
 #include "pressure/coarse_faces_lanes.hpp"
+#include "pressure/cut_off.hpp"
 #include "pressure/face_weights.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/projection.hpp"
 
 namespace weir {
 
-/// What `residual` holds during the set-up: 0 for an empty patch, 1 for a full one, and this.
-template <class Real>
-constexpr Real kPartly = Real(0.5);
-
 inline bool is_square(const Patch& patch) {
     return patch.width == kCoarseEdge && patch.height == kCoarseEdge;
 }
 
-/// Centre of a patch's liquid.
-template <class Real>
-void find_centre(const GridShape& s, const PressureFields<Real>& fields, const Patch& patch,
+/// Centre of a patch's liquid. Returns whether a wall touches some of it.
+template <bool Solids, class Real>
+bool find_centre(const GridShape& s, const PressureFields<Real>& fields, const Patch& patch,
                  CoarseGrid<Real>& coarse) {
     std::int32_t count = 0;
     std::int32_t columns = 0;
     std::int32_t rows = 0;
+    bool at_wall = false;
     bool counted = false;
     if constexpr (kHasLanes<Real>) {
         if (patch.width == kCoarseEdge) {
@@ -32,16 +30,18 @@ void find_centre(const GridShape& s, const PressureFields<Real>& fields, const P
             count = cells.count;
             columns = cells.columns;
             rows = cells.rows;
+            at_wall = cells.at_wall;
             counted = true;
         }
     }
     for (std::int32_t y = 0; !counted && y < patch.height; ++y) {
-        const Real* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
+        const auto* inverse = fields.inverse_diagonal + s.index(patch.i, patch.j + y);
         for (std::int32_t x = 0; x < patch.width; ++x) {
             if (!is_zero(Real(inverse[x]))) {
                 count += 1;
                 columns += x;
                 rows += y;
+                at_wall |= Solids && inverse[x] < VelocityOf<Real>(0);
             }
         }
     }
@@ -49,12 +49,12 @@ void find_centre(const GridShape& s, const PressureFields<Real>& fields, const P
         coarse.residual[patch.q] = Real(0);
         coarse.centre_x[patch.q] = Real(0);
         coarse.centre_y[patch.q] = Real(0);
-        return;
+        return false;
     }
     const bool full = count == patch.width * patch.height;
     coarse.residual[patch.q] = full ? Real(1) : kPartly<Real>;
-    coarse.centre_x[patch.q] = part_of(static_cast<Real>(columns), count);
-    coarse.centre_y[patch.q] = part_of(static_cast<Real>(rows), count);
+    put_centre(patch.q, count, columns, rows, coarse);
+    return at_wall;
 }
 
 template <class Real>
@@ -112,6 +112,7 @@ struct PatchSides {
     bool mixed;
     bool has_left;
     bool has_lower;
+    CutFaces cut;
 };
 
 /// Calls add_u(c, column) and add_v(c, row) for those faces before cells of a patch that the coarse
@@ -133,6 +134,10 @@ inline void each_face_that_counts(const Patch& patch, const Level* level, std::i
         std::uint32_t on_v = sides.mixed ? here ^ under : 0;
         if (y == 0) {
             on_v = sides.has_lower ? here | under : 0;
+        }
+        if (WEIR_SELDOM((sides.cut.u | sides.cut.v) != 0)) {
+            on_u &= ~(sides.cut.u >> static_cast<std::uint32_t>(kCoarseEdge * y));
+            on_v &= ~(sides.cut.v >> static_cast<std::uint32_t>(kCoarseEdge * y));
         }
         for (; on_u != 0; on_u &= on_u - 1) {
             const std::int32_t x = WEIR_TRAILING_ZEROS(on_u);
@@ -256,7 +261,9 @@ WEIR_ALWAYS_INLINE void add_patch(const FaceWeights<Solids, Mixed, Real>& weight
     const bool has_left = weights.has_left(patch.i);
     const bool has_lower = weights.has_lower(patch.j);
     const std::int32_t first = s.index(patch.i, patch.j);
-    const PatchSides sides{mixed, has_left, has_lower};
+    const PatchSides sides{mixed, has_left, has_lower,
+                           Solids && coarse.parted ? cut_faces(coarse, patch.q)
+                                                  : CutFaces{}};
     if constexpr (kHasLanes<Real>) {
         if (patch.width == kCoarseEdge) {
             each_face_that_counts(
@@ -300,7 +307,10 @@ std::int32_t add_patches_in_lanes(const FaceWeights<Solids, false, float>& weigh
             const auto find = two ? wide_cells()->find_face_terms : find_face_terms<FourLanes>;
             told = find(task, patch, terms);
         },
-        [&](const Patch& patch, const float* terms, std::int32_t step) {
+        [&](const Patch& patch, float* terms, std::int32_t step) {
+            if (Solids && coarse.parted) {
+                empty_cut_faces(cut_faces(coarse, patch.q), terms, step);
+            }
             add_face_terms(told, terms, step, patch, targets, coarse);
         });
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pressure/coarse_lanes.hpp"
+#include "pressure/cut_off.hpp"
 #include "pressure/patches.hpp"
 #include "pressure/system_lanes.hpp"
 
@@ -111,6 +112,19 @@ inline std::uint32_t find_face_terms(const CoarseFacesTask& task, const Patch& p
         below = here;
     }
     return told;
+}
+
+/// Takes out what such faces add. `terms`, `step`: as `add_face_terms` has them.
+inline void empty_cut_faces(const CutFaces& cut, float* terms, std::int32_t step) {
+    const auto empty = [&](std::uint32_t faces, float* first) {
+        for (; faces != 0; faces &= faces - 1) {
+            const std::int32_t bit = WEIR_TRAILING_ZEROS(faces);
+            float* const four = first + (bit % kCoarseEdge + bit / kCoarseEdge * 8) * step;
+            four[0] = four[1] = four[2] = four[3] = 0.0F;
+        }
+    };
+    empty(cut.u, terms);
+    empty(cut.v, terms + 4 * step);
 }
 
 /// Adds what the faces of a patch add, one after the other. `told`: by `find_face_terms`; `step`:

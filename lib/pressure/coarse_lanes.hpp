@@ -15,26 +15,31 @@ struct LiquidCells {
     std::int32_t count;
     std::int32_t columns;
     std::int32_t rows;
+    bool at_wall;  ///< a wall touches some of them
 };
 inline LiquidCells count_liquid(const float* inverse, std::int32_t stride, std::int32_t c,
                                 std::int32_t rows) {
     LaneMask liquid{};  // by column
     LaneMask of_rows{};
+    Lanes least{};
     for (std::int32_t y = 0; y < rows; ++y) {
-        const LaneMask wet = load_lanes(inverse + c + y * stride) != all_lanes(0.0F);
+        const Lanes of_row = load_lanes(inverse + c + y * stride);
+        const LaneMask wet = of_row != all_lanes(0.0F);
+        least = minimum(of_row, least);
         liquid -= wet;  // 0 or −1
         of_rows += wet & (LaneMask{} + y);
     }
     if (all_true(liquid == 0)) {
-        return {0, 0, 0};
+        return {0, 0, 0, false};
     }
+    const bool touched = any_negative(least);
     if (all_true(liquid == kCoarseEdge)) {
         constexpr std::int32_t kSum = kCoarseEdge * (kCoarseEdge - 1) / 2 * kCoarseEdge;
-        return {kCoarseEdge * kCoarseEdge, kSum, kSum};
+        return {kCoarseEdge * kCoarseEdge, kSum, kSum, touched};
     }
     return {(liquid[0] + liquid[1]) + (liquid[2] + liquid[3]),
             (liquid[1] + 2 * liquid[2]) + 3 * liquid[3],
-            (of_rows[0] + of_rows[1]) + (of_rows[2] + of_rows[3])};
+            (of_rows[0] + of_rows[1]) + (of_rows[2] + of_rows[3]), touched};
 }
 
 /// Which cells of a patch's row hold liquid, a bit each.
@@ -147,6 +152,40 @@ inline void find_terms(const PressureFields<float>& fields, const float* open_u,
         L::store(terms + 2 * L::kLanes, cells[2]);
         L::store(terms + 3 * L::kLanes, cells[3]);
         terms += 4 * L::kLanes;
+    }
+}
+
+/// Adds what the cells of a patch add, one after the other. `step`: from one cell's terms to the
+/// next one's.
+inline void add_terms(const float* terms, std::int32_t step, const Patch& patch,
+                      const Targets& targets, CoarseGrid<float>& coarse) {
+    float* const own = coarse.residual + patch.q;
+    const std::int32_t up = coarse.shape.stride;
+    const bool own_row = targets.has(patch.q);
+    // Rows from here on lie above the centre.
+    const std::int32_t turn =
+        minimum(patch.height, static_cast<std::int32_t>(coarse.centre_y[patch.q]) + 1);
+    Lanes sums{0.0F, own_row ? own[-1] : 0.0F, own_row ? own[1] : 0.0F, 0.0F};
+    for (std::int32_t y = 0; y < patch.height;) {
+        const bool below = y < turn;
+        const std::int32_t end = below ? turn : patch.height;
+        const std::int32_t vertical = below ? patch.q - up : patch.q + up;
+        const bool counted = targets.has(vertical);
+        sums[3] = counted ? coarse.residual[vertical] : 0.0F;
+        for (; y < end; ++y, terms += 4 * step) {
+            sums += load_lanes(terms);
+            sums += load_lanes(terms + step);
+            sums += load_lanes(terms + 2 * step);
+            sums += load_lanes(terms + 3 * step);
+        }
+        if (counted) {
+            coarse.residual[vertical] = sums[3];
+        }
+    }
+    if (own_row) {
+        *own += sums[0];
+        own[-1] = sums[1];
+        own[1] = sums[2];
     }
 }
 

@@ -10,6 +10,14 @@
 
 namespace weir {
 
+/// Cells of a patch that a wall parts from the patch's other liquid, a bit each, 4 a row.
+struct CutOff {
+    std::uint16_t cells = 0;
+    std::uint16_t beside = 0;  ///< those that go with the coarse cell on the left or right
+    std::uint16_t above = 0;   ///< with the one below or above
+};
+static_assert(sizeof(CutOff) == kCutOffBytes, "see kCutOffBytes");
+
 /// The tank in cells four times as large, with its own ring of ghost cells.
 template <class Real>
 struct CoarseGrid {
@@ -23,6 +31,8 @@ struct CoarseGrid {
     Real* reach_v = nullptr;
     Real* centre_x = nullptr;  ///< mean of the liquid cells' columns within the coarse cell, 0 … 3
     Real* centre_y = nullptr;
+    CutOff* cut_off = nullptr;  ///< null: there is no room for bodies
+    bool parted = false;        ///< some of that is not empty
     std::int16_t first_row = 0;  ///< of those that hold liquid
     std::int16_t last_row = -1;
 };

@@ -166,8 +166,9 @@ void advance(const Domain<Real>& domain, Work work) {
 
 /// The pressure of an incompressible liquid, as near as so many sweeps bring it.
 template <bool Solids, bool Mixed, class Real>
-void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<Real>* coupled,
+void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<Real>* free_bodies,
            Work work) {
+    const CoupledSolve<Real>* const coupled = Solids ? free_bodies : nullptr;
     const auto weights = domain.template face_weights<Solids, Mixed>();
     const GridShape& s = domain.grid.shape;
     const Borders<Real>& borders = domain.borders;

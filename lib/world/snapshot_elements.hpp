@@ -154,6 +154,7 @@ bool harmless(Block block, const Simulation<Real>& world, const std::byte* from,
         case Block::density:
         case Block::level:
         case Block::coarse_cells:
+        case Block::coarse_cut:
         case Block::regions:
         case Block::count: break;
     }

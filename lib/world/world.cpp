@@ -100,6 +100,9 @@ void carve_coarse(const Carver& carver, const Capacity& capacity, PressureFields
         const std::int32_t entries = carver.elements(Block::coarse_cells) / count;
         Real* next = nullptr;
         carver.take(Block::coarse_cells, next);
+        if (capacity.bodies > 0) {
+            carver.take(Block::coarse_cut, coarse.cut_off);
+        }
         Real** const fields[] = {&coarse.correction, &coarse.residual, &coarse.inverse_diagonal,
                                  &coarse.weight_u,   &coarse.weight_v, &coarse.centre_x,
                                  &coarse.centre_y,   &coarse.reach_u,  &coarse.reach_v};

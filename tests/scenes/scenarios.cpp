@@ -199,7 +199,7 @@ constexpr bool all_fit() {
     return true;
 }
 static_assert(all_fit(), "a scene must leave room on a 128 KB part");
-static_assert(weir::world_bytes<float>(kTable<float>[0].def.capacity) <= 10080,
+static_assert(weir::world_bytes<float>(kTable<float>[0].def.capacity) <= 10272,
               "the cup fits 16 KB parts");
 
 }  // namespace

@@ -70,36 +70,50 @@ double pressure_off(const World<Real>& world, const Wall& wall, double off) {
     return sum * static_cast<double>(world.pressure_scale());
 }
 
-/// Half a drop on a wall has the pressure σ/R and stays there. Along solids that lean it ran, faster
-/// and faster; from thin walls it jumped off.
+/// Means of the last steps, and where half a drop is in the end.
+struct HalfDrop {
+    double pressure = 0;  ///< over σ/R
+    double along = 0;     ///< from where it was poured, cells
+    double off = 0;       ///< from the wall, over what half a disc's is, cells
+};
+
 template <class Real>
-void expect_half_a_drop_stays(const Ring& ring, double lean) {
-    SCOPED_TRACE(lean);
-    const bool thin = ring.size() == 2;
-    const Wall wall{lean, {18.1F, 14.2F}};
-    TestWorld<Real> world(wetting_def(thin));
+HalfDrop half_drop(const Ring& ring, const Wall& wall) {
+    TestWorld<Real> world(wetting_def(ring.size() == 2));
     put_static(*world, wall.body(ring));
     const int count = pour(*world, wall, [](Vec2<double> place) {
         return std::hypot(place.x, place.y) < 8;
     });
     const double radius = std::sqrt(count / (2 * kPi));
-    double pressure = 0;
+    HalfDrop drop;
     constexpr int kSteps = 300;
     constexpr int kMean = 200;
     for (int step = 0; step < kSteps; ++step) {
         world->step(kStep);
-        pressure += step >= kSteps - kMean ? pressure_off(*world, wall, 3) / kMean : 0;
+        drop.pressure += step >= kSteps - kMean ? radius * pressure_off(*world, wall, 3) / kMean : 0;
     }
-    EXPECT_NEAR(pressure * radius, 1, 0.25);
-    double along = 0;
-    double off = 0;
     for (const auto& at : world->particle_positions()) {
         const Vec2<double> place = wall.seen(static_cast<double>(at.x), static_cast<double>(at.y));
-        along += place.x / count;
-        off += place.y / count;
+        drop.along += place.x / count;
+        drop.off += place.y / count;
+    }
+    drop.off -= 4 * radius / (3 * kPi);
+    return drop;
+}
+
+/// Half a drop on a wall has the pressure σ/R and stays there. Along solids that lean it ran, faster
+/// and faster; from thin walls it jumped off. How far one creeps is chance: the mean of three.
+template <class Real>
+void expect_half_a_drop_stays(const Ring& ring, double lean) {
+    SCOPED_TRACE(lean);
+    double along = 0;
+    for (const float x : {18.1F, 18.4F, 18.7F}) {
+        const HalfDrop drop = half_drop<Real>(ring, {lean, {x, 14.2F}});
+        EXPECT_NEAR(drop.pressure, 1, 0.25) << x;
+        EXPECT_NEAR(drop.off, 0, 1.2) << x;
+        along += drop.along / 3;
     }
     EXPECT_NEAR(along, 0, 1.5);
-    EXPECT_NEAR(off, 4 * radius / (3 * kPi), 1.2);
 }
 
 WEIR_SUITE(Wetting, RoomyScalars);

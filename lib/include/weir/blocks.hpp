@@ -75,6 +75,7 @@ enum class Block : std::uint8_t {
     density,
     level,
     coarse_cells,  ///< numbers for each cell of the pressure's coarse grid
+    coarse_cut,    ///< what walls cut off from them
     regions,       ///< what is known of sleeping regions, in one record
     region_tile,   ///< for each 4 × 4 cells the number of the region that sleeps there
     kept_pressure,  ///< of sleeping liquid
@@ -110,12 +111,13 @@ inline constexpr std::size_t kWorldStateBytes =
     (sizeof(Real) == 4
         ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 944 : 912) : 1312) +
               (std::is_same_v<Real, Fixed> ? 16 : 0) +
-              (std::is_same_v<Real, SmallFixed> ? 0 : 72 + 2 * sizeof(void*))
-        : 1680);
+              (std::is_same_v<Real, SmallFixed> ? 0 : 72 + 4 * sizeof(void*))
+        : 1696);
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
 inline constexpr std::size_t kRowSpanBytes = 24;
+inline constexpr std::size_t kCutOffBytes = 6;
 template <class Real>
 inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
@@ -188,6 +190,7 @@ inline constexpr BlockKind kBlockKinds[kBlockCount] = {
     {Owner::pressure, Kept::nothing, sizeof(DensityOf<Real>)},
     {Owner::pressure, Kept::nothing, sizeof(LevelOf<Real>)},
     {Owner::pressure, Kept::nothing, sizeof(Real)},
+    {Owner::pressure, Kept::nothing, kCutOffBytes},
     {Owner::world, Kept::members, kRegionsBytes<Real>},
     {Owner::world, Kept::whole, 1},
     {Owner::pressure, Kept::whole, sizeof(Real)},

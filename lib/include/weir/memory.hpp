@@ -223,6 +223,8 @@ constexpr Layout layout(const Capacity& capacity) {
         Block::level);
     any(mixed ? cells : 0, Block::inverse_density_u, Block::inverse_density_v);
     any(coarse_fields_of<Real>(capacity) * coarse_entries<Real>(capacity), Block::coarse_cells);
+    any(Stored<Real>::shares_momentum || capacity.bodies == 0 ? 0 : coarse_entries<Real>(capacity),
+        Block::coarse_cut);
     any(sleeps ? 1 : 0, Block::regions);
     any(sleeps ? coarse_cells(capacity.cells_x) * coarse_cells(capacity.cells_y) : 0,
         Block::region_tile);

@@ -36,6 +36,7 @@ struct Fields {
     float open_u[kEntries];
     float open_v[kEntries];
     float coarse[weir::kCoarseFields][kCoarseEntries];
+    weir::CutOff cut_off[kCoarseEntries];
     weir::Vec2<float> position[kParticles];
     weir::Vec2<float> velocity[kParticles];
 };
@@ -132,6 +133,7 @@ weir::PressureFields<float> pressure() {
     coarse.weight_v = coarse.reach_v = g_fields.coarse[4];
     coarse.centre_x = g_fields.coarse[5];
     coarse.centre_y = g_fields.coarse[6];
+    coarse.cut_off = g_fields.cut_off;
     return fields;
 }
 
