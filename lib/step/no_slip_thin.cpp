@@ -42,8 +42,8 @@ SlipBefore<Real> slip_before(const ThinWalls<Real>& thin, const StaggeredGrid<Re
     if (on_u == 0 || on_v == 0) {
         return {};
     }
-    const StandIns faces_u(on_u);
-    const StandIns faces_v(on_v);
+    const StandIns<Real> faces_u(on_u, at_u);
+    const StandIns<Real> faces_v(on_v, at_v);
     const Vec2<Real> tangent{-n.y, n.x};
     const Vec2<Real> liquid{sample_seen<Real>(grid.u, 1, s.stride, at_u, faces_u).value,
                             sample_seen<Real>(grid.v, 1, s.stride, at_v, faces_v).value};

@@ -146,8 +146,8 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
         const Stencil<Real> at_v = stencil_v(s, x);
         const std::uint32_t seen_u = seen & kAllFour;
         const std::uint32_t seen_v = seen >> 4U;
-        const StandIns faces_u(seen_u);
-        const StandIns faces_v(seen_v);
+        const StandIns<Real> faces_u(seen_u, at_u);
+        const StandIns<Real> faces_v(seen_v, at_v);
         TowardsWall<Real> near;
         if (seen_u != 0 && seen_v != 0 && !(density[cell_seen(s, walls, x)] < kSparse<Real>)) {
             near = near_wall(walls, s, x, way_to_sample(at_u, faces_u),
@@ -161,7 +161,7 @@ TransferResult<Real> gather_past_walls(const StaggeredGrid<Real>& grid,
                         : Sample<Real>{was.y + fall.y, Real(0), Real(0)};
         const Real flip = transfer.flip_ratio;
         const auto change = [&](const Component<Real>& on, const Stencil<Real>& at,
-                                std::uint32_t sees, const StandIns& faces, Real before_it,
+                                std::uint32_t sees, const StandIns<Real>& faces, Real before_it,
                                 Real falls) {
             return sees != 0 ? sample_seen<Real>(on.change, on.step, s.stride, at, faces).value
                              : (before_it - flip * before_it) + falls;
@@ -208,8 +208,8 @@ bool liquid_at(const ThinWalls<Real>& thin, const StaggeredGrid<Real>& liquid, V
     if (on_u == 0 || on_v == 0) {
         return false;
     }
-    velocity = {sample_seen<Real>(liquid.u, 1, s.stride, at_u, StandIns(on_u)).value,
-                sample_seen<Real>(liquid.v, 1, s.stride, at_v, StandIns(on_v)).value};
+    velocity = {sample_seen<Real>(liquid.u, 1, s.stride, at_u, StandIns<Real>(on_u, at_u)).value,
+                sample_seen<Real>(liquid.v, 1, s.stride, at_v, StandIns<Real>(on_v, at_v)).value};
     return true;
 }
 
