@@ -99,6 +99,19 @@ template <class Fields>
     fields.inverse_diagonal[c].raw = short_of(diagonal);
 }
 
+/// Of a row whose liquid ends there.
+template <class Diagonal>
+inline void note_length(const Diagonal* diagonal, std::int32_t end, Solve<SmallFixed>& solve) {
+    if (solve.longest_row == solve.kNotAsked) {
+        return;
+    }
+    std::int32_t first = 0;
+    while (diagonal[first].raw == 0) {
+        ++first;
+    }
+    solve.longest_row = maximum(solve.longest_row, static_cast<std::int16_t>(end - first));
+}
+
 /// Puts up the equations of some rows: flow out of each cell, its diagonal, pressure to start from.
 template <bool Solids, class Weights, class Fields>
 void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
@@ -152,6 +165,7 @@ void build_packed(const Weights& weights, const Part& rows, Fields& fields) {
         if (end != row) {
             fields.solve.first_row = minimum(fields.solve.first_row, j);
             fields.solve.last_row = j;
+            note_length(fields.inverse_diagonal + row, end - row, fields.solve);
         }
     }
 }

@@ -17,11 +17,11 @@ namespace {
 /// Sweeps over the coarse cells, from nothing: they see 64 rows of cells as 16.
 constexpr std::int32_t kCoarseSweeps = 16;
 
-/// Best for liquid n rows deep, closed below and with its surface on top: 2 / (1 + sin(π / 2n))
-/// (Young 1954), and sin x ≈ x. Beyond 32 rows the best factor is too much for a few sweeps.
+/// Best for liquid n cells deep, closed below and with its surface on top: 2 / (1 + sin(π / 2n))
+/// (Young 1954), and sin x ≈ x. Beyond 32 cells the best factor is too much for a few sweeps.
 template <class Real>
-Real over_relaxation(std::int32_t rows) {
-    return Real(2) / (Real(1) + Real(1.5707963) / static_cast<Real>(clamp(rows, 4, 32)));
+Real over_relaxation(std::int32_t depth) {
+    return Real(2) / (Real(1) + Real(1.5707963) / static_cast<Real>(clamp(depth, 4, 32)));
 }
 
 template <class Real>
@@ -223,24 +223,25 @@ void relax(const Part& rows, std::int32_t colour, Real omega, CoarseGrid<Real>& 
 }
 
 template <class Real>
-void sweep(const Borders<Real>& borders, Work work, CoarseGrid<Real>& coarse) {
+void sweep(const Borders<Real>& borders, const Solve<Real>& solve, Work work,
+           CoarseGrid<Real>& coarse) {
     const GridShape& s = coarse.shape;
     const std::int32_t lowest = coarse.first_row;
-    const std::int32_t depth = maximum(0, coarse.last_row - lowest + 1);
-    const Real omega = over_relaxation<Real>(depth);
-    const Part part = work.take(2 * kCoarseSweeps * depth, (s.nx + 1) / 2);
+    const std::int32_t rows = maximum(0, coarse.last_row - lowest + 1);
+    const Real omega = over_relaxation<Real>(solve.depth(rows));
+    const Part part = work.take(2 * kCoarseSweeps * rows, (s.nx + 1) / 2);
     if constexpr (kHasLanes<Real>) {
-        if (part.first == 0 && part.end == 2 * kCoarseSweeps * depth && depth > 0) {
+        if (part.first == 0 && part.end == 2 * kCoarseSweeps * rows && rows > 0) {
             sweep_apart(borders, 2 * kCoarseSweeps, omega, coarse);
             return;
         }
     }
     for (std::int32_t at = part.first; at < part.end;) {
-        const std::int32_t colour = at / depth;
-        const std::int32_t begin = colour * depth;
-        const std::int32_t end = minimum(part.end, begin + depth);
+        const std::int32_t colour = at / rows;
+        const std::int32_t begin = colour * rows;
+        const std::int32_t end = minimum(part.end, begin + rows);
         relax({lowest + at - begin, lowest + end - begin}, colour, omega, coarse);
-        if (end == begin + depth) {
+        if (end == begin + rows) {
             extend_cells(borders, s, coarse.correction);
         }
         at = end;
@@ -309,8 +310,11 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
         coarse.first_row = static_cast<std::int16_t>(big.ny);
         coarse.last_row = -1;
     }
+    std::int16_t& longest = fields.solve.longest_row;
     const Part rows = work.take(big.ny, big.nx);
     for (std::int32_t j = rows.first; j < rows.end; ++j) {
+        std::int32_t first = -1;
+        std::int32_t last = -1;
         for (std::int32_t i = 0; i < big.nx; ++i) {
             const std::int32_t q = big.index(i, j);
             const Real diagonal =
@@ -322,7 +326,12 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
             if (wet) {
                 coarse.last_row = static_cast<std::int16_t>(j);
                 coarse.first_row = minimum(coarse.first_row, coarse.last_row);
+                first = first < 0 ? i : first;
+                last = i;
             }
+        }
+        if (last >= 0 && longest != Solve<Real>::kNotAsked) {
+            longest = maximum(longest, static_cast<std::int16_t>(last - first + 1));
         }
     }
 }
@@ -344,7 +353,7 @@ void correct_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFie
     if (work.once(big.border())) {
         join_cells(weights.borders, big, coarse.residual);
     }
-    sweep(weights.borders, work, coarse);
+    sweep(weights.borders, fields.solve, work, coarse);
     const std::int32_t cost = kCoarseEdge * s.nx;
     work.share(work.take(big.ny, cost), cost, 1,
                [&](const Part& rows, std::int32_t) {

@@ -13,6 +13,7 @@ struct Domain {
     PressureFields<Real>& fields;
     const Borders<Real>& borders;
     const Walls<Real>& walls;
+    bool sideways = false;  ///< gravity pulls more along rows than across: as deep as they are long
 
     template <bool Solids, bool Mixed>
     FaceWeights<Solids, Mixed, Real> face_weights() const {

@@ -40,9 +40,14 @@ struct CoarseGrid {
 /// One solve, between its parts.
 template <class Real>
 struct Solve {
+    static constexpr std::int16_t kNotAsked = -1;
+
     std::int32_t first_row = 0;  ///< these hold all the liquid
     std::int32_t last_row = -1;
-    std::int16_t cycles = 0;
+    /// Cells from the first to the last liquid one of a row, where that is most: of the coarse grid
+    /// if there is one. kNotAsked: gravity pulls across rows.
+    std::int16_t longest_row = kNotAsked;
+    std::int8_t cycles = 0;
     bool makes_room = false;     ///< in one of `room_turns`, of which its substep may begin more
     Real rescale = Real(0);      ///< of the last pressure p, to start from
     Real share = Real(1);        ///< of that, in the end
@@ -51,6 +56,12 @@ struct Solve {
     std::uint32_t off = 0;
     Product<Real> wanted{};      ///< pᵀb, of the equations Ap = b
     Product<Real> there{};       ///< pᵀAp, but for its diagonal at first
+
+    /// How deep liquid is that takes so many rows, cells along gravity's axis: from there errors
+    /// have to come to the surface, which takes sweeps.
+    std::int32_t depth(std::int32_t rows) const {
+        return longest_row == kNotAsked ? rows : longest_row;
+    }
 };
 
 /// Fixed point goes on for ever about its last digits, unless it is led to rest.

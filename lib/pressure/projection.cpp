@@ -105,28 +105,29 @@ void sweep(const FaceWeights<Solids, Mixed, Real>& weights, std::int32_t sweeps,
            const CoupledSolve<Real>* coupled, Work work, PressureFields<Real>& fields) {
     const GridShape& s = weights.grid.shape;
     const std::int32_t lowest = fields.solve.first_row;
-    const std::int32_t depth = maximum(0, fields.solve.last_row - lowest + 1);
-    const Part part = work.take(2 * sweeps * depth, (s.nx + 1) / 2);
+    const std::int32_t height = rows_of(fields.solve);
+    const Part part = work.take(2 * sweeps * height, (s.nx + 1) / 2);
     if constexpr (kHasLanes<Real>) {  // those have a cache
         const bool seams = weights.wraps_x() || weights.wraps_y();
-        if (coupled == nullptr && !seams && part.first == 0 && part.end == 2 * sweeps * depth) {
+        if (coupled == nullptr && !seams && part.first == 0 && part.end == 2 * sweeps * height) {
             sweep_in_fronts(weights, 2 * sweeps, work, fields);
             return;
         }
     }
     [[maybe_unused]] const Real omega =
-        Stored<Real>::shares_momentum ? best_relaxation<Real>(depth, sweeps) : kRelaxation<Real>;
+        Stored<Real>::shares_momentum ? best_relaxation<Real>(fields.solve.depth(height), sweeps)
+                                      : kRelaxation<Real>;
     for (std::int32_t at = part.first; at < part.end;) {
-        const std::int32_t half_sweep = at / depth;
-        const std::int32_t begin = half_sweep * depth;
-        const std::int32_t end = minimum(part.end, begin + depth);
+        const std::int32_t half_sweep = at / height;
+        const std::int32_t begin = half_sweep * height;
+        const std::int32_t end = minimum(part.end, begin + height);
         const Part rows{lowest + at - begin, lowest + end - begin};
         if constexpr (Stored<Real>::shares_momentum) {
             relax_packed(weights, rows, half_sweep & 1, omega, fields);
         } else {
             relax(weights, rows, half_sweep & 1, fields);
         }
-        if (end == begin + depth) {
+        if (end == begin + height) {
             if (coupled != nullptr) {
                 coupled->stages->relax(*coupled, kRelaxation<Real>, half_sweep & 1);
             }
@@ -195,7 +196,7 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
     if constexpr (Stored<Real>::shares_momentum) {
         const Solve<Real>& from = fields.solve;
         const std::int32_t all = from.cycles * (sweeps + kSweepsForCoarse);
-        const std::int32_t depth = from.last_row - from.first_row + 1;
+        const std::int32_t depth = from.depth(rows_of(from));
         sweep(weights, sweeps_of_depth(depth, all, from.cycles > 1), coupled, work, fields);
         weigh_end(weights, work, fields);
     } else {
@@ -267,7 +268,7 @@ void make_incompressible(const Domain<Real>& domain, Seconds<Real> dt_s, std::in
     PressureFields<Real>& fields = domain.fields;
     const Borders<Real>& borders = domain.borders;
     if (work.once(1)) {
-        fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
+        fields.solve = begin_solve(grid.shape.ny, dt_s, domain.sideways, fields);
     }
     const bool seams = !Solids && (borders.wrap_x || borders.wrap_y);
     if (seams && work.once(grid.shape.border())) {  // leaps look across, and what is carried

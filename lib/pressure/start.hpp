@@ -100,7 +100,7 @@ template <bool Solids, bool Mixed, class Real>
 
 /// Rows that hold liquid.
 template <class Real>
-std::int32_t depth_of(const Solve<Real>& solve) {
+std::int32_t rows_of(const Solve<Real>& solve) {
     return maximum(0, solve.last_row - solve.first_row + 1);
 }
 
@@ -112,7 +112,7 @@ void scale(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
     const Solve<Real>& solve = fields.solve;
     Real* p = fields.pressure;
     const bool all = solve.share == Real(1);
-    const Part scaled = work.take(all ? 0 : depth_of(solve), s.nx);
+    const Part scaled = work.take(all ? 0 : rows_of(solve), s.nx);
     for (std::int32_t at = scaled.first; at < scaled.end; ++at) {
         const std::int32_t j = solve.first_row + at;
         const Part columns = s.columns(j);
@@ -139,7 +139,7 @@ void scale(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
 template <bool Solids, bool Mixed, class Real>
 void weigh_start(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
                  PressureFields<Real>& fields) {
-    weigh(weights, depth_of(fields.solve), work, fields);
+    weigh(weights, rows_of(fields.solve), work, fields);
     if constexpr (!Stored<Real>::shares_momentum) {
         scale(weights, work, fields);
     }
@@ -151,7 +151,7 @@ template <bool Solids, bool Mixed, class Real>
 void weigh_end(const FaceWeights<Solids, Mixed, Real>& weights, Work work,
                PressureFields<Real>& fields) {
     const Solve<Real>& solve = fields.solve;
-    weigh(weights, solve.share == Real(1) ? 0 : depth_of(solve), work, fields);
+    weigh(weights, solve.share == Real(1) ? 0 : rows_of(solve), work, fields);
     scale(weights, work, fields);
 }
 
@@ -163,7 +163,8 @@ inline constexpr Real kMostStretch = Real(std::is_floating_point<Real>::value ? 
 
 /// What a solve starts from.
 template <class Real>
-Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Real>& fields) {
+Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, bool sideways,
+                        PressureFields<Real>& fields) {
     const bool cold = !(fields.last_dt > Seconds<Real>{});
     const Real most = fields.elasticity != nullptr ? kMostStretch<Real> : kMostRescale<Real>;
     const Real rescale =
@@ -172,6 +173,7 @@ Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Re
     fields.last_dt = dt_s;
     Solve<Real> solve;
     solve.first_row = rows;
+    solve.longest_row = sideways ? 0 : Solve<Real>::kNotAsked;
     solve.cycles = cold ? kColdStart : 1;
     solve.rescale = rescale;
     fields.room_turns = static_cast<std::uint8_t>(maximum(fields.room_turns - 1, 0));

@@ -26,6 +26,8 @@ struct Settings {
     }
     /// What gravity makes of a velocity in so long.
     Vec2<Real> fall_in(Seconds<Real> dt_s) const { return dt_s * gravity; }
+    /// Whether liquid is as deep as its rows are long.
+    bool pulls_sideways() const { return absolute(gravity.x) > absolute(gravity.y); }
     /// By how much a step of so long presses more from a cell to the next, along the stronger axis.
     Real cell_weight(Seconds<Real> dt_s) const {
         return dt_s * larger_part(gravity);

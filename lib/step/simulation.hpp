@@ -82,7 +82,7 @@ struct Simulation {
 template <class Real>
 Domain<Real> domain_of(Simulation<Real>& simulation) {
     return {simulation.grid, simulation.pressure, simulation.settings.borders,
-            simulation.layers.walls};
+            simulation.layers.walls, simulation.settings.pulls_sideways()};
 }
 
 template <class Real>

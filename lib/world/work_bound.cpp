@@ -31,6 +31,9 @@ void fill_up(const GridShape& stored, Simulation<Real>& simulation) {
     coarse.last_row = static_cast<std::int16_t>(coarse.shape.ny - 1);
     fields.solve.first_row = 0;
     fields.solve.last_row = stored.ny - 1;
+    fields.solve.longest_row = simulation.settings.pulls_sideways()
+                                   ? static_cast<std::int16_t>(stored.nx)
+                                   : Solve<Real>::kNotAsked;
     fields.solve.share = Real(0);  // of the last pressure: scaled
     fields.on_surface = kNoTension;
     Walls<Real>& walls = simulation.layers.walls;
@@ -47,7 +50,7 @@ std::int64_t foresee(Simulation<Real>& simulation, const SubstepPlan<Real>& plan
     StepReport report;
     Progress progress;
     progress.foresee();
-    simulation.pressure.solve.cycles = static_cast<std::int16_t>(cycles);
+    simulation.pressure.solve.cycles = static_cast<std::int8_t>(cycles);
     simulation.stages->substep(simulation, plan, Work(progress), report);
     // A part of the tank that was left is emptied, whatever the next one is.
     report.work[static_cast<std::int32_t>(Stage::particle_to_grid)] +=
