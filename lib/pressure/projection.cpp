@@ -268,7 +268,10 @@ void make_incompressible(const Domain<Real>& domain, Seconds<Real> dt_s, std::in
     PressureFields<Real>& fields = domain.fields;
     const Borders<Real>& borders = domain.borders;
     if (work.once(1)) {
-        fields.solve = begin_solve(grid.shape.ny, dt_s, domain.sideways, fields);
+        fields.solve = begin_solve(grid.shape.ny, dt_s, fields);
+        if (domain.sideways) {
+            fields.solve.longest_row = 0;
+        }
     }
     const bool seams = !Solids && (borders.wrap_x || borders.wrap_y);
     if (seams && work.once(grid.shape.border())) {  // leaps look across, and what is carried

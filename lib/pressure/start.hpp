@@ -163,8 +163,7 @@ inline constexpr Real kMostStretch = Real(std::is_floating_point<Real>::value ? 
 
 /// What a solve starts from.
 template <class Real>
-Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, bool sideways,
-                        PressureFields<Real>& fields) {
+Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, PressureFields<Real>& fields) {
     const bool cold = !(fields.last_dt > Seconds<Real>{});
     const Real most = fields.elasticity != nullptr ? kMostStretch<Real> : kMostRescale<Real>;
     const Real rescale =
@@ -173,7 +172,6 @@ Solve<Real> begin_solve(std::int32_t rows, Seconds<Real> dt_s, bool sideways,
     fields.last_dt = dt_s;
     Solve<Real> solve;
     solve.first_row = rows;
-    solve.longest_row = sideways ? 0 : Solve<Real>::kNotAsked;
     solve.cycles = cold ? kColdStart : 1;
     solve.rescale = rescale;
     fields.room_turns = static_cast<std::uint8_t>(maximum(fields.room_turns - 1, 0));

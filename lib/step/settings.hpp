@@ -26,8 +26,10 @@ struct Settings {
     }
     /// What gravity makes of a velocity in so long.
     Vec2<Real> fall_in(Seconds<Real> dt_s) const { return dt_s * gravity; }
-    /// Whether liquid is as deep as its rows are long.
-    bool pulls_sideways() const { return absolute(gravity.x) > absolute(gravity.y); }
+    /// Whether liquid is as deep as its rows are long. Where these have no end nothing is deep.
+    bool pulls_sideways() const {
+        return absolute(gravity.x) > absolute(gravity.y) && !borders.wrap_x;
+    }
     /// By how much a step of so long presses more from a cell to the next, along the stronger axis.
     Real cell_weight(Seconds<Real> dt_s) const {
         return dt_s * larger_part(gravity);
