@@ -171,8 +171,9 @@ struct WorldDef {
     /// Red-black relaxation sweeps per substep, after one correction on cells four times as large;
     /// 1 … 1000, of which 4 are always made: after fewer, energy might rise. What is left of the
     /// divergence falls to a fiftieth with 6, a sixteenth with 4. `SmallFixed` makes two more in
-    /// place of that correction, 4 at least, and where liquid is over 24 rows deep more: 5 at 40
-    /// rows, 18 at 64, 82 at 128. Only the ladder's rungs (`kRungs`) make fewer.
+    /// place of that correction, 4 at least, and where liquid is over 24 cells deep more: 5 at 40
+    /// cells, 18 at 64, 82 at 128, along the axis that gravity pulls along more. Only the ladder's
+    /// rungs (`kRungs`) make fewer.
     std::int32_t pressure_sweeps = 6;
 
     /// Longest way of a particle within one substep, cells; 0.1 … 2. The step is cut accordingly,
