@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "pressure/coarse_faces.hpp"
+#include "pressure/coarse_residual.hpp"
 #include "pressure/coarse_seams.hpp"
 #include "pressure/coarse_shares.hpp"
 #include "pressure/coarse_sweep_lanes.hpp"
@@ -27,34 +28,6 @@ Real over_relaxation(std::int32_t depth) {
 template <class Real>
 void clear(Real* field, const GridShape& shape) {
     clear_rows(shape, {0, shape.ny + 2}, field);
-}
-
-/// What is left of a cell's equation.
-template <bool Solids, bool Mixed, class Real>
-WEIR_ALWAYS_INLINE Real residual_of(const FaceWeights<Solids, Mixed, Real>& weights, const Real* p,
-                                    std::int32_t c, Real inverse, Real flow) {
-    const bool wide = bound_key(inverse) == bound_key(stored_quarter<Real>());
-    return (weights.weighted(p, c, inverse) - flow) -
-           (wide ? Real(4) * *p : over_inverse<Real>(*p, Solids ? absolute(inverse) : inverse));
-}
-
-/// Residuals of a patch's cells that are cut off: from its coarse cell, where all go at first.
-template <bool Solids, bool Mixed, class Real>
-WEIR_ALWAYS_INLINE void move_cut_off(const FaceWeights<Solids, Mixed, Real>& weights,
-                                     const PressureFields<Real>& fields, const Patch& patch,
-                                     const Targets& targets, CoarseGrid<Real>& coarse) {
-    if (!Solids || !is_parted(coarse, patch.q)) {
-        return;
-    }
-    const GridShape& s = weights.grid.shape;
-    for (std::uint32_t rest = coarse.cut_off[patch.q].cells; rest != 0; rest &= rest - 1) {
-        const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
-        const std::int32_t c = s.index(patch.i + bit % kCoarseEdge, patch.j + bit / kCoarseEdge);
-        const Real residual = residual_of(weights, fields.pressure + c, c,
-                                          Real(fields.inverse_diagonal[c]),
-                                          Real(fields.divergence[c]));
-        move_residual(patch.q, bit, residual, targets, coarse);
-    }
 }
 
 #if WEIR_HAS_LANES
@@ -248,6 +221,32 @@ void sweep(const Borders<Real>& borders, const Solve<Real>& solve, Work work,
     }
 }
 
+/// Centres of the patches' liquid, and what of them walls cut off.
+template <bool Solids, bool Mixed, class Real>
+void find_centres(const FaceWeights<Solids, Mixed, Real>& weights, PressureFields<Real>& fields,
+                  Work work) {
+    CoarseGrid<Real>& coarse = fields.coarse;
+    const GridShape& s = weights.grid.shape;
+    const GridShape& big = coarse.shape;
+    share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
+        if (find_centre<Solids>(s, fields, patch, coarse) && Solids) {
+            cut_patch(weights.walls, s, fields, patch, coarse);
+        }
+    });
+    if constexpr (Solids) {
+        if (work.once(big.size())) {
+            coarse.parted = any_cut_off(coarse);
+        }
+        if (coarse.parted || work.foreseeing()) {
+            share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
+                if (coarse.cut_off[patch.q].cells != 0) {
+                    join_cut_off(weights.walls, fields, s, patch);
+                }
+            });
+        }
+    }
+}
+
 }  // namespace
 
 template <bool Solids, bool Mixed, class Real>
@@ -271,23 +270,7 @@ void set_up_coarse(const FaceWeights<Solids, Mixed, Real>& weights, PressureFiel
             clear(coarse.cut_off, big);
         }
     }
-    share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
-        if (find_centre<Solids>(s, fields, patch, coarse) && Solids) {
-            cut_patch(weights.walls, s, fields, patch, coarse);
-        }
-    });
-    if constexpr (Solids) {
-        if (work.once(big.size())) {
-            coarse.parted = any_cut_off(coarse);
-        }
-        if (coarse.parted || work.foreseeing()) {
-            share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
-                if (coarse.cut_off[patch.q].cells != 0) {
-                    join_cut_off(weights.walls, fields, s, patch);
-                }
-            });
-        }
-    }
+    find_centres(weights, fields, work);
     if (work.once(3 * big.border())) {
         extend_cells(weights.borders, big, coarse.residual);
         extend_cells(weights.borders, big, coarse.centre_x);

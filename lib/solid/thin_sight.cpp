@@ -38,6 +38,13 @@ struct FacesAround {
     }
 };
 
+/// Not on the tank's walls.
+template <class Real>
+bool is_inside(const GridShape& s, Vec2<Real> point) {
+    return point.x > Real(0) && point.x < static_cast<Real>(s.nx) && point.y > Real(0) &&
+           point.y < static_cast<Real>(s.ny);
+}
+
 /// Which of four faces lie on the left of an edge, from the cross product of the edge and the way
 /// to the first one.
 template <class Number>
@@ -65,8 +72,8 @@ std::uint32_t seen_faces(const ThinWalls<Real>& thin, const GridShape& s, Vec2<R
         const std::uint32_t left = on_left(cross(edge, faces.first_u - a), right, up) |
                                    on_left(cross(edge, faces.first_v - a), right, up) << 4U;
         std::uint32_t beyond = (is_left_of(point, a, b) ? ~left : left) & seen;
-        // What goes all through the box parts it.
-        if (faces.holds(a) || faces.holds(b)) {
+        // What goes all through the box parts it, and what ends at the tank's wall does, too.
+        if ((faces.holds(a) && is_inside(s, a)) || (faces.holds(b) && is_inside(s, b))) {
             for (std::uint32_t bit = 0; bit < 8; ++bit) {
                 if ((beyond >> bit & 1U) != 0 && !cross_edge(point, faces.place(bit), a, b).found) {
                     beyond &= ~(1U << bit);
@@ -95,9 +102,7 @@ Vec2<Real> centre_seen(const GridShape& s, const Walls<Real>& walls, Vec2<Real> 
     const Vec2<Real> cells[] = {own, nearer ? beside : along, nearer ? along : beside,
                                 {beside.x, along.y}};
     for (const Vec2<Real> centre : cells) {
-        const bool inside = centre.x > Real(0) && centre.x < static_cast<Real>(s.nx) &&
-                            centre.y > Real(0) && centre.y < static_cast<Real>(s.ny);
-        if (inside && !hidden(*walls.thin, s, place, centre)) {
+        if (is_inside(s, centre) && !hidden(*walls.thin, s, place, centre)) {
             return centre;
         }
     }

@@ -1,0 +1,37 @@
+// Residuals of single cells, for the coarse grid: those of cells that are cut off go elsewhere.
+#pragma once
+
+#include "pressure/cut_off.hpp"
+#include "pressure/face_weights.hpp"
+
+namespace weir {
+
+/// What is left of a cell's equation.
+template <bool Solids, bool Mixed, class Real>
+WEIR_ALWAYS_INLINE Real residual_of(const FaceWeights<Solids, Mixed, Real>& weights, const Real* p,
+                                    std::int32_t c, Real inverse, Real flow) {
+    const bool wide = bound_key(inverse) == bound_key(stored_quarter<Real>());
+    return (weights.weighted(p, c, inverse) - flow) -
+           (wide ? Real(4) * *p : over_inverse<Real>(*p, Solids ? absolute(inverse) : inverse));
+}
+
+/// Residuals of a patch's cells that are cut off: from its coarse cell, where all go at first.
+template <bool Solids, bool Mixed, class Real>
+WEIR_ALWAYS_INLINE void move_cut_off(const FaceWeights<Solids, Mixed, Real>& weights,
+                                     const PressureFields<Real>& fields, const Patch& patch,
+                                     const Targets& targets, CoarseGrid<Real>& coarse) {
+    if (!Solids || !is_parted(coarse, patch.q)) {
+        return;
+    }
+    const GridShape& s = weights.grid.shape;
+    for (std::uint32_t rest = coarse.cut_off[patch.q].cells; rest != 0; rest &= rest - 1) {
+        const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
+        const std::int32_t c = s.index(patch.i + bit % kCoarseEdge, patch.j + bit / kCoarseEdge);
+        const Real residual = residual_of(weights, fields.pressure + c, c,
+                                          Real(fields.inverse_diagonal[c]),
+                                          Real(fields.divergence[c]));
+        move_residual(patch.q, bit, residual, targets, coarse);
+    }
+}
+
+}  // namespace weir
