@@ -24,6 +24,13 @@ struct Believed<FixedPoint<F, S>> {
     static constexpr FixedPoint<F, S> furthest_vertex = high;
 };
 
+/// Belts faster than twice what a definition may ask for are none: numbers of packed faces, to
+/// which they are written, are rounded without asking whether they saturate.
+template <class Real>
+inline constexpr float kFastestBelt =
+    2.0F * (Stored<Real>::coarse ? kMaxSpeedSmallFixed
+                                 : (std::is_floating_point_v<Real> ? kMaxSpeed : kMaxSpeedFixed));
+
 /// How much of the blocks there is.
 struct Extents {
     std::int32_t particles = 0;
@@ -55,7 +62,7 @@ void law_members(Stream& stream, SurfaceLaw<Real>& law) {
     auto& [restitution, friction, conveyor, no_slip] = law;
     stream.member(restitution, Real(0), Real(1));
     positive_member(stream, friction);
-    any_member(stream, conveyor);
+    stream.member(conveyor, Real(-kFastestBelt<Real>), Real(kFastestBelt<Real>));
     stream.member(no_slip, false, true);
 }
 

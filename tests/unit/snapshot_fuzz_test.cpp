@@ -1,5 +1,6 @@
 // Snapshots from an enemy: any bytes, also behind a checksum that fits. They are refused or
 // restored, and what was restored can be stepped, changed and removed; the sanitizers watch.
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
@@ -177,11 +178,7 @@ Bytes saved(World<Real>& world, const WorldDef& def, Dice& dice) {
         }
         live(world, dice, 25);
     }
-    Bytes bytes(snapshot_bytes<Real>(def.capacity));
-    std::size_t written = 0;
-    EXPECT_EQ(world.save(bytes.data(), bytes.size(), &written), Status::ok);
-    bytes.resize(written);
-    return bytes;
+    return saved(world, def.capacity);
 }
 
 template <class Real>
@@ -214,6 +211,37 @@ std::int64_t attack(std::int32_t kind, std::int64_t times, std::uint64_t seed) {
         }
     }
     return restored;
+}
+
+template <class Real>
+class ForgedBelts : public testing::Test {};
+using EveryReal = testing::Types<float, double, Fixed, SmallFixed>;
+TYPED_TEST_SUITE(ForgedBelts, EveryReal, ScalarNumber);
+
+// On packed faces twice the speed of one that had the largest number there is overflowed.
+TYPED_TEST(ForgedBelts, AreRefusedThatAreFasterThanAnything) {
+    WorldDef def = tank_def(8, 8, 40);
+    def.walls.bottom.no_slip = true;
+    def.walls.bottom.conveyor_mps = 37.25F * def.cell_m;
+    def.viscosity_m2ps = 1.0e-4F;
+    TestWorld<TypeParam> world(def);
+    const Bytes snapshot = saved(*world, def.capacity);
+    int found = 0;
+    for (std::size_t at = kHeadBytes; at + sizeof(TypeParam) < snapshot.size() - kChecksumBytes;
+         at += 4) {
+        TypeParam number;
+        std::memcpy(&number, snapshot.data() + at, sizeof number);
+        if (std::fabs(static_cast<double>(number) - 37.25) < 1e-4) {
+            Bytes bytes = snapshot;
+            number = TypeParam(std::is_floating_point_v<TypeParam> ? 3.0e6F : 32767.0F);
+            std::memcpy(bytes.data() + at, &number, sizeof number);
+            forge(bytes);
+            EXPECT_NE(world->restore(bytes.data(), bytes.size()), Status::ok);
+            ++found;
+        }
+    }
+    EXPECT_EQ(found, 1);
+    EXPECT_EQ(world->restore(snapshot.data(), snapshot.size()), Status::ok);
 }
 
 /// WEIR_SNAPSHOTS: how many are forged in all.
