@@ -238,10 +238,10 @@ void find_centres(const FaceWeights<Solids, Mixed, Real>& weights, PressureField
             coarse.parted = any_cut_off(coarse);
         }
         if (coarse.parted || work.foreseeing()) {
-            share_patches(s, big, work, [&](const Patch& patch, std::int32_t) {
-                if (coarse.cut_off[patch.q].cells != 0) {
+            work.share(work.take(big.ny, big.nx), big.nx, 1, [&](const Part& rows, std::int32_t) {
+                for_each_parted(s, coarse, rows, [&](const Patch& patch) {
                     join_cut_off(weights.walls, fields, s, patch);
-                }
+                });
             });
         }
     }

@@ -78,12 +78,12 @@ struct CellShare {
     Real of_beside;
     Real of_above;
 
-    CellShare(const CoarseGrid<Real>& coarse, std::int32_t q, std::int32_t bit) {
-        const CoarseShares<Real> shares(coarse, q);
+    CellShare(const CoarseShares<Real>& shares, std::int32_t q, std::int32_t up,
+              std::int32_t bit) {
         const std::int32_t x = bit % kCoarseEdge;
         const std::int32_t y = bit / kCoarseEdge;
         beside = x < shares.columns_before ? q - 1 : q + 1;
-        above = y < shares.rows_before ? q - coarse.shape.stride : q + coarse.shape.stride;
+        above = y < shares.rows_before ? q - up : q + up;
         of_beside = shares.of_beside[x];
         of_above = shares.of_above[y];
     }
@@ -163,7 +163,7 @@ void move_residual(std::int32_t patch, std::int32_t bit, Real residual, const Ta
             coarse.residual[q] += some;
         }
     };
-    const CellShare<Real> from(coarse, patch, bit);
+    const CellShare<Real> from(CoarseShares<Real>(coarse, patch), patch, coarse.shape.stride, bit);
     add(from.beside, -from.of_beside * residual);
     add(from.above, -from.of_above * residual);
     add(patch, -(residual - (from.of_beside * residual + from.of_above * residual)));
@@ -178,13 +178,14 @@ template <class Real>
 void correct_cut_off(const GridShape& s, const Part& rows, PressureFields<Real>& fields) {
     const CoarseGrid<Real>& coarse = fields.coarse;
     const Real* const e = coarse.correction;
-    for_each_patch(s, coarse.shape, rows, [&](const Patch& patch) {
-        if (!is_parted(coarse, patch.q) || is_zero(coarse.inverse_diagonal[patch.q])) {
+    for_each_parted(s, coarse, rows, [&](const Patch& patch) {
+        if (is_zero(coarse.inverse_diagonal[patch.q])) {
             return;
         }
+        const CoarseShares<Real> shares(coarse, patch.q);
         for (std::uint32_t rest = coarse.cut_off[patch.q].cells; rest != 0; rest &= rest - 1) {
             const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
-            const CellShare<Real> from(coarse, patch.q, bit);
+            const CellShare<Real> from(shares, patch.q, coarse.shape.stride, bit);
             const Real own = e[patch.q];
             const Real added = (own + from.of_above * (e[from.above] - own)) +
                                from.of_beside * (e[from.beside] - own);

@@ -39,6 +39,20 @@ bool is_parted(const CoarseGrid<Real>& coarse, std::int32_t q) {
     return coarse.parted && coarse.cut_off[q].cells != 0;
 }
 
+/// visit(patch) for those of some rows of which something is cut off.
+template <class Real, class Visit>
+void for_each_parted(const GridShape& s, const CoarseGrid<Real>& coarse, const Part& rows,
+                     const Visit& visit) {
+    for (std::int32_t row = rows.first; row < rows.end; ++row) {
+        const CutOff* const cut = coarse.cut_off + coarse.shape.index(0, row);
+        for (std::int32_t column = 0; column < coarse.shape.nx; ++column) {
+            if (WEIR_SELDOM(cut[column].cells != 0)) {
+                visit(patch_of(s, coarse.shape, column, row));
+            }
+        }
+    }
+}
+
 /// Faces before the cells of a patch that cells lie at which are cut off, in it or in the patches
 /// before it, a bit each.
 struct CutFaces {
