@@ -24,14 +24,14 @@ WEIR_ALWAYS_INLINE void move_cut_off(const FaceWeights<Solids, Mixed, Real>& wei
         return;
     }
     const GridShape& s = weights.grid.shape;
-    for (std::uint32_t rest = coarse.cut_off[patch.q].cells; rest != 0; rest &= rest - 1) {
-        const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
-        const std::int32_t c = s.index(patch.i + bit % kCoarseEdge, patch.j + bit / kCoarseEdge);
+    const std::uint32_t cells = coarse.cut_off[patch.q].cells;
+    for_each_of_patch(cells, [&](std::int32_t bit, std::int32_t x, std::int32_t y) {
+        const std::int32_t c = s.index(patch.i + x, patch.j + y);
         const Real residual = residual_of(weights, fields.pressure + c, c,
                                           Real(fields.inverse_diagonal[c]),
                                           Real(fields.divergence[c]));
         move_residual(patch.q, bit, residual, targets, coarse);
-    }
+    });
 }
 
 }  // namespace weir

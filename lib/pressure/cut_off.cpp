@@ -23,14 +23,12 @@ struct CutOffPart {
                        std::int32_t cell, std::int32_t q, std::int32_t bits) const {
         const std::uint32_t theirs = fields.coarse.cut_off[q].cells;
         std::int32_t count = 0;
-        for (std::uint32_t rest = cells & edge; rest != 0; rest &= rest - 1) {
-            const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
-            const std::int32_t c =
-                s.index(patch.i + bit % kCoarseEdge, patch.j + bit / kCoarseEdge);
+        for_each_of_patch(cells & edge, [&](std::int32_t bit, std::int32_t x, std::int32_t y) {
+            const std::int32_t c = s.index(patch.i + x, patch.j + y);
             const bool open_way = !is_zero(Real(open[c + face])) &&
                                   !is_zero(Real(fields.inverse_diagonal[c + cell]));
             count += open_way && !has_bit(theirs, bit + bits) ? 1 : 0;
-        }
+        });
         return count;
     }
 };
@@ -57,17 +55,16 @@ void join_part(const CutOffPart<Real>& part, CutOff& cut) {
         patch.j > 0 ? part.reach(0x000F, walls.open_v, 0, -s.stride, q - up, 4 * kBack) : 0;
     const std::int32_t above =
         last_row ? 0 : part.reach(0xF000, walls.open_v, s.stride, s.stride, q + up, -4 * kBack);
-    for (std::uint32_t rest = part.cells; rest != 0; rest &= rest - 1) {
-        const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
-        const bool on_left = static_cast<Real>(bit % kCoarseEdge) <= coarse.centre_x[q];
-        const bool lower = static_cast<Real>(bit / kCoarseEdge) <= coarse.centre_y[q];
+    for_each_of_patch(part.cells, [&](std::int32_t bit, std::int32_t x, std::int32_t y) {
+        const bool on_left = static_cast<Real>(x) <= coarse.centre_x[q];
+        const bool lower = static_cast<Real>(y) <= coarse.centre_y[q];
         const std::int32_t along_x = on_left ? left : right;
         const std::int32_t along_y = lower ? below : above;
         std::uint16_t& to = along_x >= along_y ? cut.beside : cut.above;
         if (maximum(along_x, along_y) > 0) {
-            to = static_cast<std::uint16_t>(to | (rest & (0U - rest)));
+            to = static_cast<std::uint16_t>(to | 1U << static_cast<std::uint32_t>(bit));
         }
-    }
+    });
 }
 
 /// How one cell of a patch shares in its own coarse cell's neighbours (`CoarseShares`).
@@ -135,11 +132,10 @@ void cut_patch(const Walls<Real>& walls, const GridShape& s, const PressureField
     std::int32_t columns = 0;
     std::int32_t rows = 0;
     const std::uint32_t own = links.liquid & ~cells;
-    for (std::uint32_t rest = own; rest != 0; rest &= rest - 1) {
-        const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
-        columns += bit % kCoarseEdge;
-        rows += bit / kCoarseEdge;
-    }
+    for_each_of_patch(own, [&](std::int32_t, std::int32_t x, std::int32_t y) {
+        columns += x;
+        rows += y;
+    });
     put_centre(patch.q, count_bits(own), columns, rows, coarse);
 }
 
@@ -183,8 +179,8 @@ void correct_cut_off(const GridShape& s, const Part& rows, PressureFields<Real>&
             return;
         }
         const CoarseShares<Real> shares(coarse, patch.q);
-        for (std::uint32_t rest = coarse.cut_off[patch.q].cells; rest != 0; rest &= rest - 1) {
-            const std::int32_t bit = WEIR_TRAILING_ZEROS(rest);
+        const std::uint32_t cells = coarse.cut_off[patch.q].cells;
+        for_each_of_patch(cells, [&](std::int32_t bit, std::int32_t x, std::int32_t y) {
             const CellShare<Real> from(shares, patch.q, coarse.shape.stride, bit);
             const Real own = e[patch.q];
             const Real added = (own + from.of_above * (e[from.above] - own)) +
@@ -192,9 +188,8 @@ void correct_cut_off(const GridShape& s, const Part& rows, PressureFields<Real>&
             const CutShare<Real> to(coarse, patch.q, bit);
             const Real wanted =
                 to.q < 0 ? Real(0) : e[to.q] + to.of_next * (e[to.next] - e[to.q]);
-            fields.pressure[s.index(patch.i + bit % kCoarseEdge, patch.j + bit / kCoarseEdge)] +=
-                wanted - added;
-        }
+            fields.pressure[s.index(patch.i + x, patch.j + y)] += wanted - added;
+        });
     });
 }
 

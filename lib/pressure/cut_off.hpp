@@ -24,6 +24,15 @@ inline bool has_bit(std::uint32_t bits, std::int32_t bit) {
     return (bits >> static_cast<std::uint32_t>(bit) & 1U) != 0;
 }
 
+/// visit(bit, column, row) for some cells of a patch, a bit each.
+template <class Visit>
+WEIR_ALWAYS_INLINE void for_each_of_patch(std::uint32_t cells, const Visit& visit) {
+    for (; cells != 0; cells &= cells - 1) {
+        const std::int32_t bit = WEIR_TRAILING_ZEROS(cells);
+        visit(bit, bit % kCoarseEdge, bit / kCoarseEdge);
+    }
+}
+
 template <class Real>
 bool any_cut_off(const CoarseGrid<Real>& coarse) {
     std::uint32_t all = 0;

@@ -40,7 +40,7 @@ struct FacesAround {
 
 /// Not on the tank's walls.
 template <class Real>
-bool is_inside(const GridShape& s, Vec2<Real> point) {
+bool is_within_tank(const GridShape& s, Vec2<Real> point) {
     return point.x > Real(0) && point.x < static_cast<Real>(s.nx) && point.y > Real(0) &&
            point.y < static_cast<Real>(s.ny);
 }
@@ -73,7 +73,7 @@ std::uint32_t seen_faces(const ThinWalls<Real>& thin, const GridShape& s, Vec2<R
                                    on_left(cross(edge, faces.first_v - a), right, up) << 4U;
         std::uint32_t beyond = (is_left_of(point, a, b) ? ~left : left) & seen;
         // What goes all through the box parts it, and what ends at the tank's wall does, too.
-        if ((faces.holds(a) && is_inside(s, a)) || (faces.holds(b) && is_inside(s, b))) {
+        if ((faces.holds(a) && is_within_tank(s, a)) || (faces.holds(b) && is_within_tank(s, b))) {
             for (std::uint32_t bit = 0; bit < 8; ++bit) {
                 if ((beyond >> bit & 1U) != 0 && !cross_edge(point, faces.place(bit), a, b).found) {
                     beyond &= ~(1U << bit);
@@ -102,7 +102,7 @@ Vec2<Real> centre_seen(const GridShape& s, const Walls<Real>& walls, Vec2<Real> 
     const Vec2<Real> cells[] = {own, nearer ? beside : along, nearer ? along : beside,
                                 {beside.x, along.y}};
     for (const Vec2<Real> centre : cells) {
-        if (is_inside(s, centre) && !hidden(*walls.thin, s, place, centre)) {
+        if (is_within_tank(s, centre) && !hidden(*walls.thin, s, place, centre)) {
             return centre;
         }
     }
