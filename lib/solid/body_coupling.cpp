@@ -21,6 +21,8 @@ template <class Real>
 Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::int32_t i,
                        std::int32_t j, bool films = true) {
     const Walls<Real>& walls = solve.walls;
+    const std::int32_t cell = solve.shape.index(i, j);
+    const PressureAtRest<Real> at_rest(solve.shape, walls, cell, solve.cells);
     Levers<Real> levers;
     for_each_closed_face(solve.shape, walls, i, j, [&](const ClosedFace<Real>& face) {
         if (face.slot != kNoBody && walls.load[face.slot].is_free()) {
@@ -28,15 +30,13 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::
             levers.of(face.slot)->add(reach);
             levers.before += spun_beyond_face(walls.load[face.slot], face, reach);
             if (face.slot == own) {
-                levers.own.add(reach);
-                levers.any_own = true;
+                levers.own.add(reach, at_rest.more_at(walls, face));
             }
         }
     });
     if (!films) {
         return levers;
     }
-    const std::int32_t cell = solve.shape.index(i, j);
     Meetings<Real>(solve.obstacles.bodies).for_each_film([&](const Meeting<Real>& meeting) {
         if (meeting.film_cell == cell) {
             add_film(solve, meeting, levers);
@@ -226,18 +226,14 @@ void keep_levers(const CoupledSolve<Real>& solve) {
     LeverCell<Real>* at = kept.first;
     bool fits = true;
     for_each_pressed(solve, [&](std::uint16_t slot, std::int32_t i, std::int32_t j,
-                                std::int32_t c, const Levers<Real>& levers, bool again) {
+                                std::int32_t, const Levers<Real>& levers, bool again) {
         const auto left = room_end - reinterpret_cast<const std::byte*>(at);
         fits = fits && left >= static_cast<std::ptrdiff_t>(sizeof *at + sizeof levers.lever);
         if (!fits || levers.count == 0) {
             return;
         }
         *at = {i, j, slot, static_cast<std::uint8_t>(levers.count), again, levers.before,
-               Face<Real>(0), CellReach<Real>{}, -1};
-        if (levers.any_own) {
-            at->own = {levers.own,
-                       beyond_cell(solve.shape, solve.walls, solve.cells, c), true};
-        }
+               Face<Real>(0), levers.own, -1};
         Lever<Real>* lever = reinterpret_cast<Lever<Real>*>(at + 1);
         for (std::int32_t k = 0; k < levers.count; ++k) {
             lever[k] = levers.lever[k];

@@ -22,29 +22,9 @@ Vec2<Real> middle_of_contour(const GridShape& s, const Walls<Real>& walls, std::
 
 namespace {
 
-template <class Real>
-Vec2<Real> at_corner(std::int32_t i, std::int32_t j) {
-    return {static_cast<Real>(i), static_cast<Real>(j)};
-}
-
-/// Of the pressure's way from a cell's centre to the contour that a body closes there.
-/// @param closed sum of the faces that it closes.
-template <class Real>
-Impulse<Real> contour_impulse(const GridShape& shape, const Walls<Real>& walls, std::int32_t i,
-                              std::int32_t j, Vec2<Real> closed, Vec2<Real> gravity_dt,
-                              Vec2<Face<Real>> centre) {
-    const Vec2<Real> middle = middle_of_contour(shape, walls, shape.index(i, j));
-    const Vec2<Real> half{Real(0.5), Real(0.5)};
-    const Real more = dot(gravity_dt, middle - half);
-    Impulse<Real> impulse;
-    impulse.add(convert<Face<Real>>(more * closed),
-                convert<Face<Real>>(at_corner<Real>(i, j) + middle) - centre);
-    return impulse;
-}
-
 /// Impulse of the pressure on a body within the last substep, about its centre of mass: cell
 /// pressure × closed parts of the faces, and the pressure's way from the cell's centre to the
-/// wall, as it is at rest. Without that the force would move in steps of a cell.
+/// wall, as it is at rest.
 /// Cost: a look at each cell of the body's rectangle, about 60 operations for each that it cuts.
 template <class Real>
 Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
@@ -52,27 +32,24 @@ Impulse<Real> pressure_impulse(const GridShape& shape, const Walls<Real>& walls,
     const Vec2<Face<Real>> centre = walls.load[slot].at;
     Impulse<Real> impulse;
     for_each_beside(shape, walls, slot, cells, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        Vec2<Real> closed;
-        const Vec2<Real> gradient = gradient_at_rest(shape, walls, cells, c);
+        const PressureAtRest<Real> at_rest(shape, walls, c, cells);
+        const Vec2<Face<Real>> arm = centre_of_cell<Real>(i, j) - centre;
         for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
             if (face.slot != slot) {
                 return;
             }
             const Real pressure = cells.pressure[c];
             if (face.thin) {
-                const Real there = pressure + Real(dot(gradient, face.behind));
+                const Real there = pressure + Real(dot(at_rest.gradient, face.behind));
                 impulse.add(convert<Face<Real>>(there * face.outward),
-                            (centre_of_cell<Real>(i, j) - centre) +
-                                convert<Face<Real>>(face.behind));
+                            arm + convert<Face<Real>>(face.behind));
                 return;
             }
-            closed = closed + face.outward;
             impulse.add(convert<Face<Real>>(pressure * face.outward),
                         convert<Face<Real>>(face.centre) - centre);
+            impulse.add(convert<Face<Real>>(at_rest.more_at(walls, face) * face.outward),
+                        arm + convert<Face<Real>>(at_rest.to_contour));
         });
-        if (closed.x != Real(0) || closed.y != Real(0)) {
-            impulse.add(contour_impulse(shape, walls, i, j, closed, gradient, centre));
-        }
     });
     return impulse;
 }

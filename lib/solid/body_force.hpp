@@ -191,6 +191,45 @@ void locate_bodies(BodyTable<Real>& table);
 template <class Real>
 Vec2<Real> middle_of_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node);
 
+/// Where the middle of a face's closed part, at one of its ends, stands along it from its own.
+template <class Real>
+inline Real middle_of_closed(const Walls<Real>& walls, const ClosedFace<Real>& face) {
+    const auto is_solid = [&](std::int32_t node) {
+        return !(Real(walls.distance[node]) > Real(0));
+    };
+    const Real open = Real(1) - (absolute(face.outward.x) + absolute(face.outward.y));
+    const Real half = Real(0.5) * open;
+    if (is_solid(face.node) == is_solid(face.next)) {
+        return Real(0);
+    }
+    return is_solid(face.node) ? Real(0) - half : half;
+}
+
+/// How the pressure at rest goes on from a cell's centre to where bodies close the cell. Without
+/// that their force would move in steps of a cell.
+template <class Real>
+struct PressureAtRest {
+    Vec2<Real> gradient;
+    Vec2<Real> to_contour;  ///< to the middle of the contour in the cell
+
+    PressureAtRest(const GridShape& s, const Walls<Real>& walls, std::int32_t cell, Vec2<Real> way)
+        : gradient(way),
+          to_contour(middle_of_contour(s, walls, cell) - Vec2<Real>{Real(0.5), Real(0.5)}) {}
+    PressureAtRest(const GridShape& s, const Walls<Real>& walls, std::int32_t cell,
+                   const PressedCells<Real>& cells)
+        : PressureAtRest(s, walls, cell, gradient_at_rest(s, walls, cells, cell)) {}
+
+    /// How much more there is at a closed face: along its normal the contour stands there, along
+    /// the face its closed part. With the contour's middle for both, what a sliver behind the face
+    /// adds to the closed part would be pressed at another height than in the cell beside it, and a
+    /// body that leans would be driven along level liquid.
+    Real more_at(const Walls<Real>& walls, const ClosedFace<Real>& face) const {
+        const Real along = middle_of_closed(walls, face);
+        return (face.bit & 3) != 0 ? dot(gradient, Vec2<Real>{to_contour.x, along})
+                                   : dot(gradient, Vec2<Real>{along, to_contour.y});
+    }
+};
+
 /// Adds what the pressure did in the last substep to the records of all bodies but free ones
 /// (solid/body_reach.hpp).
 template <class Real>

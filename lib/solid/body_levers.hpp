@@ -23,8 +23,7 @@ template <class Real>
 struct Levers {
     Lever<Real> lever[6];
     std::int32_t count = 0;
-    Impulse<Real> own;     ///< of the body that is asked for, without films
-    bool any_own = false;  ///< it closes a face
+    CellReach<Real> own;  ///< of the body that is asked for, without films
     /// What goes into films, and by spin beyond what `wall_flow` takes, as bodies are before the
     /// pressure.
     Face<Real> before = Face<Real>(0);

@@ -69,29 +69,20 @@ Impulse<Real> reach_of_face(const BodyTable<Real>& table, const Walls<Real>& wal
 }
 
 template <class Real>
-Face<Real> way_to_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node,
-                          Vec2<Real> gradient) {
-    const Vec2<Real> half{Real(0.5), Real(0.5)};
-    const Real beyond = dot(gradient, middle_of_contour(shape, walls, node) - half);
-    return static_cast<Face<Real>>(beyond);
-}
-
-template <class Real>
 Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& table,
                               const Walls<Real>& walls, std::uint16_t slot,
                               const PressedCells<Real>& cells) {
     Impulse<Real> impulse;
     for_each_beside(shape, walls, slot, cells, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        CellReach<Real> reach;
+        const PressureAtRest<Real> at_rest(shape, walls, c, cells);
+        CellReach<Real> cell;
         for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
             if (face.slot == slot) {
-                reach.sum.add(reach_of_face(table, walls, face));
-                reach.any = true;
+                cell.add(reach_of_face(table, walls, face), at_rest.more_at(walls, face));
             }
         });
-        if (reach.any) {
-            reach.beyond = beyond_cell(shape, walls, cells, c);
-            impulse.add(reach.impulse(cells.pressure[c]));
+        if (cell.any) {
+            impulse.add(cell.impulse(cells.pressure[c]));
         }
     });
     return impulse;
@@ -100,8 +91,6 @@ Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& tab
 #define WEIR_INSTANTIATE(Real)                                                              \
     template Impulse<Real> reach_of_face(const BodyTable<Real>&, const Walls<Real>&,        \
                                          const ClosedFace<Real>&);                          \
-    template Face<Real> way_to_contour(const GridShape&, const Walls<Real>&, std::int32_t,  \
-                                       Vec2<Real>);                                         \
     template Impulse<Real> impulse_on_free(const GridShape&, const BodyTable<Real>&,        \
                                            const Walls<Real>&, std::uint16_t,               \
                                            const PressedCells<Real>&);

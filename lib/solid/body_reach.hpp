@@ -27,28 +27,22 @@ inline Face<Real> spun_beyond_face(const BodyLoad<Real>& load, const ClosedFace<
 template <class Real>
 struct CellReach {
     Impulse<Real> sum;
-    /// The pressure's way from the cell's centre to the contour, as it is at rest. Without that the
-    /// force would move in steps of a cell.
-    Face<Real> beyond = Face<Real>(0);
+    Impulse<Real> beyond;  ///< of what the pressure at rest is more there than in the cell's centre
     bool any = false;
 
+    void add(const Impulse<Real>& face, Real more_there) {
+        const auto more = static_cast<Face<Real>>(more_there);
+        sum.add(face);
+        beyond.add(Impulse<Real>{more * face.linear, more * face.angular});
+        any = true;
+    }
     Impulse<Real> impulse(Real pressure) const {
-        const Face<Real> there = static_cast<Face<Real>>(pressure) + beyond;
-        return {there * sum.linear, there * sum.angular};
+        const Face<Real> in_cell = static_cast<Face<Real>>(pressure);
+        Impulse<Real> all{in_cell * sum.linear, in_cell * sum.angular};
+        all.add(beyond);
+        return all;
     }
 };
-
-/// Along a gradient, from a cell's centre to the contour in it.
-template <class Real>
-Face<Real> way_to_contour(const GridShape& shape, const Walls<Real>& walls, std::int32_t node,
-                          Vec2<Real> gradient);
-
-/// `beyond` of a cell, for bodies that close faces of it.
-template <class Real>
-inline Face<Real> beyond_cell(const GridShape& shape, const Walls<Real>& walls,
-                              const PressedCells<Real>& cells, std::int32_t cell) {
-    return way_to_contour(shape, walls, cell, gradient_at_rest(shape, walls, cells, cell));
-}
 
 /// Impulse of the pressure on a free body within the last substep, about its centre of mass.
 /// Cost: a look at each cell of the body's rectangle, and for each line that the contour crosses

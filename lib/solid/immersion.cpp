@@ -102,17 +102,17 @@ Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real
         return Number(0);
     }
     for_each_rim(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        if (!(cells.level[c] > Real(0))) {
+        if (!(cells.level[c] > Real(0)) || is_shut(s, walls, c)) {
             return;
         }
-        Wide<Real> closed{};
+        const PressureAtRest<Real> there(s, walls, c, cells.gravity_dt);
         for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
-            closed = closed + (face.slot == slot ? convert<Number>(face.outward) : Wide<Real>{});
+            if (face.slot == slot) {
+                rest.press(centre_of_cell<Real>(i, j),
+                           static_cast<Number>(there.more_at(walls, face)),
+                           convert<Number>(face.outward));
+            }
         });
-        if ((closed.x != Number(0) || closed.y != Number(0)) && !is_shut(s, walls, c)) {
-            rest.press(centre_of_cell<Real>(i, j), way_to_contour(s, walls, c, cells.gravity_dt),
-                       closed);
-        }
     });
     const bool all = absolute(rest.open.x) + absolute(rest.open.y) < Number(kClosed);
     return all ? rest.area() : Number(0);

@@ -111,5 +111,53 @@ TYPED_TEST(Buoyancy, LiftsInTheMiddle) {
     }
 }
 
+/// Level liquid drives nothing aside: a body that leans meets the grid's nodes on both sides in
+/// other ways, some with slivers, and sailed away by itself.
+TYPED_TEST(Buoyancy, DrivesNothingAside) {
+    constexpr double kBound = Stored<TypeParam>::coarse ? 5.0e-4 : 2.0e-4;
+    const Ring square = rectangle(0.24F, 0.24F);
+    constexpr int kSteps = 360;
+    for (const Vec2f at : {Vec2f{0.485F, 0.3F}, Vec2f{0.485F, 0.2F}, Vec2f{0.48F, 0.31F}}) {
+        WorldDef def = tank_def(48, 28, 4096, 1, 4);
+        def.capacity.two_way = true;
+        def.pressure_sweeps = 32;
+        TestWorld<TypeParam> world{def};
+        const BodyId id = put_static(*world, body_of(square, at, 0.4637F));
+        expect_ok(world->fill({{0, 0}, {0.96F, 0.32F}}));
+        double aside = 0.0;
+        double lift = 0.0;
+        for (int step = 0; step < kSteps; ++step) {
+            world->step(kDt);
+            const Vec2f force = force_of(*world, id);
+            aside += step < kSteps / 2 ? 0.0 : static_cast<double>(force.x);
+            lift += step < kSteps / 2 ? 0.0 : static_cast<double>(force.y);
+        }
+        EXPECT_NEAR(aside / lift, 0.0, kBound) << at.x << ", " << at.y;
+    }
+}
+
+WEIR_SUITE(FreeFloat, RoomyScalars);
+
+/// Nor a body that floats askew, as a square of three quarters of the density does.
+TYPED_TEST(FreeFloat, SailsNowhere) {
+    for (const float angle : {0.4637F, -0.4637F}) {
+        WorldDef def = tank_def(48, 24, 4608, 1, 4);
+        def.capacity.two_way = true;
+        TestWorld<TypeParam> world{def};
+        const Ring square = rectangle(0.16F, 0.16F);
+        BodyDef body = body_of(square, {0.48F, 0.2F}, angle);
+        body.density_ratio = 0.75F;
+        const BodyId id = put_free(*world, body);
+        expect_ok(world->fill({{0, 0}, {0.96F, 0.24F}}));
+        for (int step = 0; step < 640; ++step) {
+            world->step(kDt);
+        }
+        Motion motion;
+        expect_ok(world->motion(id, &motion));
+        EXPECT_NEAR(motion.position_m.x / def.cell_m, 24.0F, 0.5F) << angle;
+        EXPECT_NEAR(std::fabs(motion.angle_rad), 0.4637F, 0.1F) << angle;
+    }
+}
+
 }  // namespace
 }  // namespace weir
