@@ -8,10 +8,18 @@ namespace {
 template <class Real>
 void add_film(const CoupledSolve<Real>& solve, const Meeting<Real>& meeting,
               Levers<Real>& levers) {
-    Impulse<Real>* reach = levers.of(meeting.slot);
-    if (reach != nullptr) {
-        levers.before += flow(meeting.film, solve.walls.load[meeting.slot].unpressed);
-        reach->add(meeting.film);
+    const auto add = [&](std::uint16_t slot) {
+        Impulse<Real>* reach = levers.of(slot);
+        if (reach != nullptr) {
+            const Impulse<Real> film = felt_by(
+                solve.obstacles.bodies, slot, meeting, meeting.film);
+            levers.before += flow(film, solve.walls.load[slot].unpressed);
+            reach->add(film);
+        }
+    };
+    add(meeting.slot);
+    if (meeting.other_is_free) {
+        add(meeting.other);
     }
 }
 

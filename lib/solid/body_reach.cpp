@@ -69,6 +69,49 @@ Impulse<Real> reach_of_face(const BodyTable<Real>& table, const Walls<Real>& wal
 }
 
 template <class Real>
+Impulse<Real> closed_by_free(const BodyTable<Real>& table, const GridShape& shape,
+                             const Walls<Real>& walls, std::uint16_t slot, std::uint16_t other,
+                             std::int32_t i, std::int32_t j) {
+    using Number = Face<Real>;
+    Impulse<Real> own;
+    Impulse<Real> its;
+    Impulse<Real> all;
+    std::uint16_t met[4];
+    std::int32_t bodies = 0;
+    bool here = false;
+    bool its_here = other == kNoBody;
+    for_each_closed_face(shape, walls, i, j, [&](const ClosedFace<Real>& face) {
+        if (face.slot == kNoBody || !walls.load[face.slot].is_free()) {
+            return;
+        }
+        std::int32_t k = 0;
+        while (k < bodies && met[k] != face.slot) {
+            ++k;
+        }
+        met[k] = face.slot;
+        bodies = maximum(bodies, k + 1);
+        Impulse<Real> reach = reach_of_face(table, walls, face);
+        reach.angular += cross(table.load[face.slot].at - table.load[slot].at, reach.linear);
+        all.add(reach);
+        if (face.slot == slot) {
+            own.add(reach);
+            here = true;
+        } else if (face.slot == other) {
+            its.add(reach);
+            its_here = true;
+        }
+    });
+    if (bodies < 2 || !here || !its_here) {
+        return {};
+    }
+    const Number share = Number(1) / static_cast<Number>(bodies);
+    if (other == kNoBody) {
+        return {own.linear - share * all.linear, own.angular - share * all.angular};
+    }
+    return {share * (own.linear - its.linear), share * (own.angular - its.angular)};
+}
+
+template <class Real>
 Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& table,
                               const Walls<Real>& walls, std::uint16_t slot,
                               const PressedCells<Real>& cells) {
@@ -91,6 +134,9 @@ Impulse<Real> impulse_on_free(const GridShape& shape, const BodyTable<Real>& tab
 #define WEIR_INSTANTIATE(Real)                                                              \
     template Impulse<Real> reach_of_face(const BodyTable<Real>&, const Walls<Real>&,        \
                                          const ClosedFace<Real>&);                          \
+    template Impulse<Real> closed_by_free(const BodyTable<Real>&, const GridShape&,         \
+                                          const Walls<Real>&, std::uint16_t, std::uint16_t, \
+                                          std::int32_t, std::int32_t);                      \
     template Impulse<Real> impulse_on_free(const GridShape&, const BodyTable<Real>&,        \
                                            const Walls<Real>&, std::uint16_t,               \
                                            const PressedCells<Real>&);

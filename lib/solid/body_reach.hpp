@@ -23,6 +23,14 @@ inline Face<Real> spun_beyond_face(const BodyLoad<Real>& load, const ClosedFace<
     return (reach.angular - cross(arm, reach.linear)) * load.unpressed.spin;
 }
 
+/// What another free body closes of a free one, or all others (kNoBody), in a cell without a
+/// pressure: each of them has alike of what they close together, which is nothing where nothing
+/// else is. The other one has the opposite.
+template <class Real>
+Impulse<Real> closed_by_free(const BodyTable<Real>& table, const GridShape& shape,
+                             const Walls<Real>& walls, std::uint16_t slot, std::uint16_t other,
+                             std::int32_t i, std::int32_t j);
+
 /// Of all faces that a body closes of one cell.
 template <class Real>
 struct CellReach {

@@ -1,5 +1,6 @@
 #include "solid/films.hpp"
 
+#include "solid/at_rest.hpp"
 #include "solid/body_reach.hpp"
 #include "solid/contour_hit.hpp"
 
@@ -20,8 +21,8 @@ public:
     Films(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells)
         : obstacles_(obstacles), cells_(cells), list_(obstacles.bodies) {}
 
-    /// Between free bodies there is none: those that come and go pumped liquid together there (ten
-    /// crates of 0.9 in a pool lost a quarter of its volume).
+    /// Under what lies on walls and bodies that do as told, and between free ones that both do:
+    /// those that come and go pump liquid together there.
     void lay() const {
         std::int32_t* link = list_.first_film;
         if (*link != kFilmsNotLaid) {
@@ -37,14 +38,20 @@ public:
                 while (last + 1 != list_.end() && list_.of_one_face(*first, last[1])) {
                     ++last;
                 }
-                const bool free =
-                    first->other != kNoBody && is_free_body(obstacles_.bodies, first->other);
-                if (!free && minimum(first->gap, last->gap) < kWidestFilm<Real>) {
+                if (is_free(first->other)) {
+                    while (last + 1 != list_.end() && last[1].slot == slot &&
+                           last[1].other == first->other) {
+                        ++last;
+                    }
+                    if (rests(slot) && rests(first->other)) {
+                        lay_between(first, link);
+                    }
+                } else if (minimum(first->gap, last->gap) < kWidestFilm<Real>) {
                     lay(first, last, link, laid);
                 }
                 first = last + 1;
             }
-            if (*begun >= 0) {
+            if (*begun >= 0 && laid.size > Number(0)) {
                 put_right(slot, *begun, laid);
             }
         }
@@ -52,6 +59,24 @@ public:
 
 private:
     using Number = Face<Real>;
+
+    bool is_free(std::uint16_t slot) const {
+        return slot != kNoBody && is_free_body(obstacles_.bodies, slot);
+    }
+    /// Whether a body lies on what does as told.
+    bool rests(std::uint16_t slot) const {
+        const Wide<Real> gravity = convert<Number>(cells_.gravity_dt);
+        for (const Meeting<Real>& point : list_) {
+            if (point.slot > slot) {
+                break;
+            }
+            if (point.slot == slot && point.gap < kWidestFilm<Real> && !is_free(point.other) &&
+                dot(point.normal, gravity) < Number(0)) {
+                return true;
+            }
+        }
+        return false;
+    }
 
     /// Cell of a place, if that is in the tank and not all solid; otherwise negative.
     std::int32_t open_cell_at(Wide<Real> x) const {
@@ -209,49 +234,98 @@ private:
             if (cell[k] < 0) {
                 continue;
             }
-            point.film = film;
-            point.film_cell = cell[k];
-            const Vec2<Real> gradient =
-                gradient_at_rest(obstacles_.tank, obstacles_.walls, cells_, cell[k]);
-            point.beyond = dot(convert<Number>(gradient),
-                               middle - centre_of_cell<Real>(obstacles_.tank, cell[k]));
+            give(film, middle, cell[k], point);
             *link = static_cast<std::int32_t>(&point - list_.entry);
             link = &point.next_film;
             *link = -1;
         }
     }
 
+    /// As much pressed as that cell, and as much more as the film lies deeper.
+    void give(const Impulse<Real>& film, Wide<Real> at, std::int32_t cell,
+              Meeting<Real>& point) const {
+        const Vec2<Real> gradient =
+            gradient_at_rest(obstacles_.tank, obstacles_.walls, cells_, cell);
+        point.film = film;
+        point.film_cell = cell;
+        point.beyond = dot(convert<Number>(gradient),
+                           at - centre_of_cell<Real>(obstacles_.tank, cell));
+    }
+
+    /// Between two free bodies: what they close of each other.
+    void lay_between(Meeting<Real>* first, std::int32_t*& link) const {
+        const GridShape& s = obstacles_.tank;
+        const Walls<Real>& walls = obstacles_.walls;
+        const bool both = first + 1 != list_.end() && list_.of_one_face(*first, first[1]);
+        const Strip strip = strip_of(first, both ? first + 1 : first);
+        const std::int32_t before = cell_beside(strip, *first, Number(-1));
+        const std::int32_t cell =
+            before >= 0 ? before : cell_beside(strip, *first, Number(1));
+        if (cell < 0) {
+            return;
+        }
+        Impulse<Real> film;
+        for_each_rim(s, walls, first->slot, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
+            if (is_shut(s, walls, c)) {
+                film.add(closed_by_free(obstacles_.bodies, s, walls, first->slot, first->other,
+                                        i, j));
+            }
+        });
+        give(film, strip.middle, cell, *first);
+        *link = static_cast<std::int32_t>(first - list_.entry);
+        link = &first->next_film;
+        *link = -1;
+    }
+
     /// Along the faces, too, and in what turns the body, films close what cells show of all of it:
-    /// each has as much of what is lacking as it is long. What another free body hides is not
-    /// theirs: they would push both away. That is seen before most of what is lacking is summed up.
+    /// each has as much of what is lacking as it is long. What another free body closes is not
+    /// theirs: they would push both away.
     void put_right(std::uint16_t slot, std::int32_t begun, const Laid& laid) const {
         const GridShape& s = obstacles_.tank;
         const Walls<Real>& walls = obstacles_.walls;
         Impulse<Real> over = laid.sum;
-        bool alone = true;
         for_each_rim(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t cell) {
-            if (!alone) {
+            if (is_shut(s, walls, cell)) {
+                over.add(closed_by_free(obstacles_.bodies, s, walls, slot, kNoBody, i, j));
                 return;
             }
-            const bool shut = is_shut(s, walls, cell);
             for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
-                if (face.slot != slot) {
-                    alone = alone && (face.slot == kNoBody ||
-                                      !is_free_body(obstacles_.bodies, face.slot));
-                } else if (!shut) {
+                if (face.slot == slot) {
                     over.add(reach_of_face(obstacles_.bodies, walls, face));
                 }
             });
         });
-        if (!alone) {
-            return;
-        }
+        Meeting<Real>* own = nullptr;
         for (std::int32_t k = begun; k >= 0; k = list_.entry[k].next_film) {
             Meeting<Real>& point = list_.entry[k];
+            if (point.other_is_free) {
+                continue;
+            }
             const Number share = dot(point.film.linear, point.normal) / laid.size;
             point.film.linear = point.film.linear - share * over.linear;
             point.film.angular -= share * over.angular;
+            own = own == nullptr ? &point : own;
         }
+        if (own != nullptr && list_.has_film_between(slot)) {
+            take_away(slot, *own);
+        }
+    }
+
+    /// Which part of a face is whose where two bodies touch is a guess. But what liquid at rest
+    /// does to a body is known if cells and films close it: what is wrong of that a film takes
+    /// away. What is not lifted `immerse` does, with what it takes along.
+    void take_away(std::uint16_t slot, Meeting<Real>& own) const {
+        const Wide<Real> gravity = convert<Number>(cells_.gravity_dt);
+        const AtRest<Real> rest = at_rest(obstacles_, cells_, slot, Turning::asked);
+        if (!rest.is_closed()) {
+            return;
+        }
+        const Number lifted = rest.lifted(gravity);
+        const Number most = obstacles_.bodies.load[slot].area;
+        const Wide<Real> wrong = rest.push.linear + minimum(lifted, most) * gravity;
+        const auto density = static_cast<Number>(
+            density_at_rest(obstacles_.tank, obstacles_.walls, cells_, own.film_cell));
+        own.besides = {-density * wrong, -density * rest.push.angular};
     }
 
     const Obstacles<Real>& obstacles_;
@@ -274,7 +348,9 @@ Impulse<Real> film_impulse(const Obstacles<Real>& obstacles, const PressedCells<
     Meetings<Real>(obstacles.bodies).for_each_film_of(slot, [&](const Meeting<Real>& meeting) {
         const Number pressure =
             static_cast<Number>(cells.pressure[meeting.film_cell]) + meeting.beyond;
-        sum.add(Impulse<Real>{pressure * meeting.film.linear, pressure * meeting.film.angular});
+        Impulse<Real> done{pressure * meeting.film.linear, pressure * meeting.film.angular};
+        done.add(meeting.besides);
+        sum.add(felt_by(obstacles.bodies, slot, meeting, done));
     });
     return sum;
 }

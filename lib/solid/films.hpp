@@ -1,5 +1,5 @@
-// Films of liquid under free bodies that lie on something that is not free: a cell shows nothing of
-// so narrow a gap, or counts as air.
+// Films of liquid under free bodies that lie on something that is not free, and between those and
+// free ones that touch them: a cell shows nothing of so narrow a gap, or counts as air.
 //
 // A body is closed: what cells press on from above and from below is the same, in whichever
 // direction. What is missing below, where it lies, has the pressure of the next cells of liquid on

@@ -2,7 +2,7 @@
 
 #include "contour/marching_squares.hpp"
 #include "geometry/outline.hpp"
-#include "solid/body_reach.hpp"
+#include "solid/at_rest.hpp"
 
 namespace weir {
 
@@ -17,9 +17,6 @@ constexpr double kMostLift = 0.5;
 
 /// A cell with less room than this tells nothing of the liquid.
 constexpr double kLeastRoom = 1.0 / 16.0;
-
-/// An outline that lacks less than so much of a face is closed.
-constexpr double kClosed = 1.0 / 64.0;
 
 /// Most looks along an edge.
 constexpr std::int32_t kMostLooks = 64;
@@ -60,62 +57,6 @@ Shown<Real> shown_of(const Obstacles<Real>& obstacles, std::uint16_t slot) {
         }
     }
     return shown;
-}
-
-/// What the pressure of liquid at rest does to a body, cell by cell.
-template <class Real>
-struct AtRest {
-    using Number = Face<Real>;
-    Wide<Real> from;     ///< no pressure there
-    Wide<Real> gravity;  ///< the pressure's gradient
-    Wide<Real> open{};   ///< what is lacking to a closed outline
-    Wide<Real> push{};
-
-    void press(Wide<Real> centre, Number beyond, Wide<Real> reach) {
-        open = open + reach;
-        push = push + (dot(gravity, centre - from) + beyond) * reach;
-    }
-    /// Of the body that is lifted.
-    Number area() const {
-        const Number square = dot(gravity, gravity);
-        return square > Number(0) ? absolute(dot(gravity, push)) / square : Number(0);
-    }
-};
-
-/// Where cells and films close a body in liquid, the area that they lift of it; else 0. Beside
-/// what it lies on the contour shows more of it than they reach.
-template <class Real>
-Face<Real> lifted_area(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells,
-                       std::uint16_t slot) {
-    using Number = Face<Real>;
-    const GridShape& s = obstacles.tank;
-    const Walls<Real>& walls = obstacles.walls;
-    AtRest<Real> rest{obstacles.bodies.load[slot].at, convert<Number>(cells.gravity_dt)};
-    bool any = false;
-    Meetings<Real>(obstacles.bodies).for_each_film_of(slot, [&](const Meeting<Real>& film) {
-        const std::int32_t c = film.film_cell;
-        const auto density = static_cast<Number>(density_at_rest(s, walls, cells, c));
-        rest.press(centre_of_cell<Real>(s, c), film.beyond / density, film.film.linear);
-        any = true;
-    });
-    if (!any) {
-        return Number(0);
-    }
-    for_each_rim(s, walls, slot, [&](std::int32_t i, std::int32_t j, std::int32_t c) {
-        if (!(cells.level[c] > Real(0)) || is_shut(s, walls, c)) {
-            return;
-        }
-        const PressureAtRest<Real> there(s, walls, c, cells.gravity_dt);
-        for_each_closed_face(s, walls, i, j, [&](const ClosedFace<Real>& face) {
-            if (face.slot == slot) {
-                rest.press(centre_of_cell<Real>(i, j),
-                           static_cast<Number>(there.more_at(walls, face)),
-                           convert<Number>(face.outward));
-            }
-        });
-    });
-    const bool all = absolute(rest.open.x) + absolute(rest.open.y) < Number(kClosed);
-    return all ? rest.area() : Number(0);
 }
 
 /// The liquid along an outline.
@@ -209,9 +150,16 @@ void immerse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, 
     using Number = Face<Real>;
     BodyLoad<Real>& load = obstacles.bodies.load[slot];
     load.ease = Number(1);
-    const Number lifted = lifted_area(obstacles, cells, slot);
-    const Shown<Real> shown =
-        lifted > Number(0) ? Shown<Real>{lifted} : shown_of(obstacles, slot);
+    // Beside what a body lies on the contour shows more of it than cells and films reach.
+    const Number lifted = at_rest(obstacles, cells, slot, Turning::left_out)
+                              .lifted(convert<Number>(cells.gravity_dt));
+    const bool closed = lifted > Number(0);
+    const bool beside = Meetings<Real>(obstacles.bodies).has_film_between(slot);
+    Shown<Real> shown;
+    if (!closed || beside) {
+        shown = shown_of(obstacles, slot);
+    }
+    shown.area = closed ? lifted : shown.area;
     const Number missing = load.area - shown.area;
     // Which part of a cell is whose where bodies share it is a guess: that much may be there.
     const Number most = Number(kMissed) * load.area;
@@ -231,7 +179,10 @@ void immerse(const Obstacles<Real>& obstacles, const PressedCells<Real>& cells, 
     load.ease = load.mass / (load.mass + carried);
     lift(obstacles.bodies, minimum(displaced(guessed) - carried, Number(kMostLift) * load.mass),
          obstacles.fall, load);
-    const Wide<Real> arm = (Number(1) / around.wet) * around.place - load.at;
+    // Films beside another leave nothing that turns a body in liquid at rest.
+    const Wide<Real> arm = closed && beside
+                               ? Wide<Real>{}
+                               : (Number(1) / around.wet) * around.place - load.at;
     const Twist<Real> turned =
         answer(load, Impulse<Real>{{}, cross(arm, (-carried) * obstacles.fall)});
     twist.velocity = twist.velocity + turned.velocity;

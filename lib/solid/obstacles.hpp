@@ -44,7 +44,8 @@ struct Meeting {
     std::int32_t next_film = -1;  ///< number of the next one with a film, negative: none
     std::int32_t film_cell = 0;         ///< whose pressure that film has,
     Face<Real> beyond = Face<Real>(0);  ///< and so much more, as it lies elsewhere
-    Impulse<Real> film{};               ///< what it does to the free body, per pressure
+    Impulse<Real> film{};               ///< what it does to the free body, per pressure,
+    Impulse<Real> besides{};            ///< and whatever that is
     HeldWay<Real> ahead{};       ///< along the normal
     HeldWay<Real> aside{};       ///< along the surface, the normal's right
     bool other_is_free = false;
@@ -124,14 +125,31 @@ struct Meetings {
     void for_each_film_of(std::uint16_t slot, Visit visit) const {
         for (std::int32_t k = *first_film; k >= 0 && entry[k].slot <= slot;
              k = entry[k].next_film) {
-            if (entry[k].slot == slot) {
+            if (entry[k].slot == slot || entry[k].other == slot) {
                 visit(entry[k]);
             }
         }
     }
+    /// Whether there is one between a body and another free one.
+    bool has_film_between(std::uint16_t slot) const {
+        bool has = false;
+        for_each_film_of(slot, [&](const Meeting<Real>& film) { has = has || film.other_is_free; });
+        return has;
+    }
     Meeting<Real>* begin() const { return entry; }
     Meeting<Real>* end() const { return entry + *used; }
 };
+
+/// What is done to the free body at a point, as either of the two bodies there feels it.
+template <class Real>
+Impulse<Real> felt_by(const BodyTable<Real>& table, std::uint16_t slot,
+                      const Meeting<Real>& meeting, const Impulse<Real>& done) {
+    if (slot == meeting.slot) {
+        return done;
+    }
+    const Vec2<Face<Real>> arm = table.load[meeting.slot].at - table.load[slot].at;
+    return {Face<Real>(-1) * done.linear, -(done.angular + cross(arm, done.linear))};
+}
 
 template <class Real>
 struct Obstacles {

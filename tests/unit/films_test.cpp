@@ -65,6 +65,33 @@ public:
         return up / static_cast<double>(kCell);
     }
 
+    /// How far either of two like stones that touch each other goes up at most in five seconds,
+    /// cells.
+    double rise_of_pair(float width, float height, Vec2f at, float density, float angle) {
+        const Ring stone = rectangle(width, height);
+        const Vec2f way{std::cos(angle), std::sin(angle)};
+        BodyId id[2];
+        Vec2f from[2];
+        for (const int side : {0, 1}) {
+            const float along = (0.5F * width + 0.001F * kCell) * (side == 0 ? -1.0F : 1.0F);
+            from[side] = {at.x + along * way.x, at.y + along * way.y};
+            BodyDef body = body_of(stone, from[side], angle);
+            body.density_ratio = density;
+            body.surface.friction = angle != 0.0F ? 2.0F : body.surface.friction;
+            id[side] = put_free(*world_, body);
+        }
+        expect_ok(world_->fill({{0, 0}, {24 * kCell, 12 * kCell}}));
+        double highest = 0.0;
+        for (int step = 0; step < 300; ++step) {
+            world_->step(kDt);
+            for (const int side : {0, 1}) {
+                const float up = motion_of(*world_, id[side]).position_m.y - from[side].y;
+                highest = std::max(highest, static_cast<double>(up / kCell));
+            }
+        }
+        return highest;
+    }
+
     /// And at most.
     double highest() const { return highest_; }
 
@@ -176,6 +203,29 @@ TYPED_TEST(Films, LiftNothingHeavyFromANotch) {
             const Ring stone = rectangle(width, 0.04F);
             tank.rise(stone, tank.put_notch(angle, width, 0.04F), 2.0F);
             EXPECT_LT(tank.highest(), 0.05) << width << " at " << angle;
+        }
+    }
+}
+
+/// Nor from beside each other: what each hid of the other was closed by nothing, or by films along
+/// the ledge, and stones of 1.1 leapt by up to 1.9 cells from a leaning ledge and by 0.7 from a
+/// level one.
+TYPED_TEST(Films, LiftNothingHeavyThatTouchesAnother) {
+    struct Size {
+        float width;
+        float height;
+    };
+    for (const Size size : {Size{0.02F, 0.04F}, Size{0.04F, 0.04F}, Size{0.03F, 0.02F}}) {
+        for (const float density : {1.1F, 2.0F}) {
+            for (const float angle : {0.0F, 0.3F}) {
+                Tank<TypeParam> tank;
+                Vec2f at = tank.put_leaning_ledge(angle, size.height);
+                at.x += 0.37F * kCell * std::cos(angle);
+                at.y += 0.37F * kCell * std::sin(angle);
+                EXPECT_LT(tank.rise_of_pair(size.width, size.height, at, density, angle), 0.05)
+                    << size.width << " by " << size.height << " of " << density << " at "
+                    << angle;
+            }
         }
     }
 }

@@ -123,8 +123,8 @@ inline constexpr std::size_t kThinBodyBytes = 16 + 2 * sizeof(Real);
 template <class Real>
 inline constexpr std::size_t kBodyLoadBytes = sizeof(Real) == 4 ? 120 : 240;
 template <class Real>
-inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 96 : 184;
-/// How a body pushes into its cells, where there is room to keep it: for some 60 cells a body.
+inline constexpr std::size_t kMeetingBytes = sizeof(Real) == 4 ? 108 : 208;
+/// How a body pushes into its cells, where there is room to keep it: for some 50 cells a body.
 template <class Real>
 inline constexpr std::size_t kLeverBytes = sizeof(Real) == 4 ? 4096 : 8192;
 /// What is kept of each until the next substep.
