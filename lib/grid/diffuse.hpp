@@ -1,9 +1,12 @@
-// A five-point Laplacian on the faces that hold liquid.
+// Viscous stress on the faces that hold liquid.
 #pragma once
 
 #include "grid/staggered_grid.hpp"
 
 namespace weir {
+
+/// From this density of their cells on faces count as full.
+inline constexpr double kHalfFull = 0.5;
 
 /// How much mass a component's faces carry, as far as it matters to what rubs on them.
 template <class Real>
@@ -14,16 +17,21 @@ struct FaceShare {
     const VelocityOf<Real>* light = nullptr;  ///< 1/density of the faces; null: 1 everywhere
 
     /// From half full on faces count as full, so that the noise between particles does not.
-    Real at(std::int32_t face) const {
+    Real volume(std::int32_t face) const {
         const Real before = density[face - back];
         const Real after = density[face];
-        if (!(before > Real(0)) || !(after > Real(0))) {
+        return before > Real(0) && after > Real(0) ? minimum(before + after, Real(1)) : Real(0);
+    }
+    Real mass_of(std::int32_t face, Real of_volume) const {
+        return Stored<Real>::shares_momentum || light == nullptr ? of_volume
+                                                                 : of_volume / Real(light[face]);
+    }
+    Real at(std::int32_t face) const {
+        const Real full = volume(face);
+        if (!(full > Real(0))) {
             return Real(0);
         }
-        const Real full = minimum(before + after, Real(1));
-        const Real volume = open == nullptr ? full : full * Real(open[face]);
-        return Stored<Real>::shares_momentum || light == nullptr ? volume
-                                                                 : volume / Real(light[face]);
+        return mass_of(face, open == nullptr ? full : full * Real(open[face]));
     }
 };
 
@@ -51,15 +59,27 @@ inline Real changed([[maybe_unused]] VelocityOf<Real> here, Real then,
     }
 }
 
-/// out = field + amount ∇²field on one component's faces; `first_i`, `first_j`: the first face
-/// that is no wall. Each face and its neighbour pull one another by the mass of the lesser of
-/// both: what one gains the other loses, and a drop that rushes by does not drag a pool along. A
-/// face counts if both its cells have seen a particle; one that does not exerts nothing. Ghost
-/// lines of the field have been extended. `out` keeps its value where no liquid is.
+/// One component as it was, and which of its faces move.
+template <class Real>
+struct Rubbing {
+    FaceShare<Real> share;
+    const VelocityOf<Real>* field;  ///< ghost lines extended
+    std::int32_t first_i;           ///< the first face that is no wall
+    std::int32_t first_j;
+    bool between_walls;             ///< of the tank, on its two sides across the component
+};
+
+/// out = field + amount ∇·(∇u + (∇u)ᵀ) on one component's faces, less its trace; `other` is the
+/// other component. The stress in a cell, and that at a node, pulls at the four faces around by
+/// no more than the mass of the least of them: what one gains the other loses, a drop that rushes
+/// by does not drag a pool along, and what adds up is symmetric, so that kinetic energy falls
+/// while amount ≤ ¼. A face counts if both its cells have seen a particle; one that does not
+/// exerts nothing. `out` keeps its value where no liquid is.
+/// In a liquid's midst the second part adds up to none, and each face and its neighbour pull one
+/// another by the mass of the lesser of both.
 /// `from`: as `rounded_from` says.
 template <class Real>
-void diffuse(const GridShape& shape, const FaceShare<Real>& share, std::int32_t first_i,
-             std::int32_t first_j, const Part& rows, Real amount, std::int32_t from,
-             const VelocityOf<Real>* field, VelocityOf<Real>* out);
+void diffuse(const GridShape& shape, const Rubbing<Real>& faces, const Rubbing<Real>& other,
+             const Part& rows, Real amount, std::int32_t from, VelocityOf<Real>* out);
 
 }  // namespace weir

@@ -64,6 +64,7 @@ void let_images_fall(const Borders<Real>& b, const GridShape& s, Vec2<Real> fall
 }
 
 /// Over what `diffuse` did beside thin walls: liquid on one side does not rub on that of the other.
+/// Faces next to those, too: cells that a thin wall cuts look half empty, and are not.
 template <class Real>
 void diffuse_beside(const ThinWalls<Real>& thin, const GridShape& s, const FaceShare<Real>& share,
                     std::int32_t first_i, std::int32_t first_j, Real amount,
@@ -73,7 +74,11 @@ void diffuse_beside(const ThinWalls<Real>& thin, const GridShape& s, const FaceS
     for (std::int32_t j = first_j; j < s.ny; ++j) {
         for (std::int32_t i = first_i; i < s.nx; ++i) {
             const std::int32_t face = s.index(i, j);
-            const Real own = (thin.mark[face] & kNear) != 0 ? share.at(face) : Real(0);
+            std::uint32_t marks = thin.mark[face];
+            for (const std::int32_t way : ways) {
+                marks |= thin.mark[face + way];
+            }
+            const Real own = (marks & kNear) != 0 ? share.at(face) : Real(0);
             if (!(own > Real(0))) {
                 continue;
             }
@@ -118,9 +123,11 @@ void diffuse_faces(const Domain<Real>& domain, Real amount, Vec2<Real> fall, Imp
                                grid.inverse_density_v};
     const Part rows = work.take(s.ny, s.nx);
     const std::int32_t from = fields.settling ? kNearest : rounded_from(fields.quiet_turn);
-    diffuse(s, on_u, borders.wrap_x ? 0 : 1, 0, rows, amount, from, fields.divergence, grid.u);
-    diffuse(s, on_v, 0, borders.wrap_y ? 0 : 1, rows, amount, from, fields.inverse_diagonal,
-            grid.v);
+    const Rubbing<Real> of_u{on_u, fields.divergence, borders.wrap_x ? 0 : 1, 0, !borders.wrap_y};
+    const Rubbing<Real> of_v{on_v, fields.inverse_diagonal, 0, borders.wrap_y ? 0 : 1,
+                             !borders.wrap_x};
+    diffuse(s, of_u, of_v, rows, amount, from, grid.u);
+    diffuse(s, of_v, of_u, rows, amount, from, grid.v);
     if constexpr (Solids && kHasThinWalls<Real>) {
         if (walls.thin != nullptr && work.once(s.size())) {
             diffuse_beside(*walls.thin, s, on_u, 1, 0, amount, fields.divergence, grid.u);

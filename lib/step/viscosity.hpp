@@ -6,9 +6,10 @@
 
 namespace weir {
 
-/// Newtonian shear viscosity, explicit: u += ν dt ∇²u on faces that hold liquid; a face without
-/// liquid, or closed by a solid, exerts no stress, one that is less than half full or open in part
-/// as much as it holds: momentum is kept and kinetic energy falls, in spray and in gaps, too.
+/// Newtonian shear viscosity, explicit: u += ν dt ∇·(∇u + (∇u)ᵀ) on faces that hold liquid, beside
+/// walls that it sticks to and thin ones ν dt ∇²u; a face without liquid, or closed by a solid,
+/// exerts no stress, one that is less than half full or open in part as much as it holds, or less:
+/// momentum is kept and kinetic energy falls, in spray and in gaps, too.
 /// Stable while ν dt ≤ ¼ cell², which the plan of substeps keeps. `amount` = ν dt, cells².
 /// `fall`: what gravity has given, which the pressure has not held yet: walls of the tank without
 /// slip pull by what is slower or faster than that. What they pull, `tank` receives; null: nobody
