@@ -191,6 +191,9 @@ private:
             furthest = one.gap > furthest->gap ? &one : furthest;
         }
         if (meeting.gap < furthest->gap) {
+            for (; furthest + 1 != list_.end(); ++furthest) {  // the order of the slots stays
+                furthest[0] = furthest[1];
+            }
             *furthest = meeting;
         }
     }
