@@ -165,7 +165,15 @@ void volume_correction(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> f
                        std::int32_t& overfull, Work work) {
     const auto stage = Stored<Real>::coarse || domain.walls.active ? keep_volume<Solids, Real>
                                                                    : keep_volume<false, Real>;
+    // What pays for the drift is what moves: not liquid that all goes round a periodic tank.
+    const detail::OddBorders<Real>* const odd = Solids ? nullptr : domain.borders.odd;
+    if (odd != nullptr) {
+        odd->leave_common_flow(domain.borders, domain.fields.level, domain.grid, work);
+    }
     stage(domain, gain_per_s, fall, overfull, work);
+    if (odd != nullptr) {
+        odd->join_common_flow(domain.borders, domain.fields.level, domain.grid, work);
+    }
 }
 
 #define WEIR_INSTANTIATE_VOLUME(Solids, Real)                                      \
