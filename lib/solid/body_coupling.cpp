@@ -30,7 +30,6 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::
                        std::int32_t j, bool films = true) {
     const Walls<Real>& walls = solve.walls;
     const std::int32_t cell = solve.shape.index(i, j);
-    const PressureAtRest<Real> at_rest(solve.shape, walls, cell, solve.cells);
     Levers<Real> levers;
     for_each_closed_face(solve.shape, walls, i, j, [&](const ClosedFace<Real>& face) {
         if (face.slot != kNoBody && walls.load[face.slot].is_free()) {
@@ -38,6 +37,7 @@ Levers<Real> levers_of(const CoupledSolve<Real>& solve, std::uint16_t own, std::
             levers.of(face.slot)->add(reach);
             levers.before += spun_beyond_face(walls.load[face.slot], face, reach);
             if (face.slot == own) {
+                const PressureAtRest<Real> at_rest(solve.shape, walls, cell, solve.cells);
                 levers.own.add(reach, at_rest.more_at(walls, face));
             }
         }
