@@ -1,6 +1,5 @@
 #include "grid/borders.hpp"
 
-#include "grid/common_flow.hpp"
 #include "math/packed_arithmetic.hpp"
 
 namespace weir {
@@ -178,9 +177,7 @@ void extend_one(const Borders<Real>& b, const GridShape& s, bool is_u, VelocityO
 
 template <class Real>
 const detail::OddBorders<Real>& detail::odd_borders() {
-    static constexpr OddBorders<Real> kBorders{fold_component<true, Real>, extend_one<true, Real>,
-                                               weir::leave_common_flow<Real>,
-                                               weir::join_common_flow<Real>};
+    static constexpr OddBorders<Real> kBorders{fold_component<true, Real>, extend_one<true, Real>};
     return kBorders;
 }
 

@@ -1,7 +1,6 @@
 // What lies beyond the tank: a wall that mirrors the liquid, or the tank's other side.
 #pragma once
 
-#include "base/work.hpp"
 #include "grid/lines.hpp"
 #include "grid/surface_law.hpp"
 #include "weir/features.hpp"
@@ -41,10 +40,6 @@ struct detail::OddBorders {
                            VelocityOf<Real>* mass, Real* momentum);
     void (*extend_component)(const Borders<Real>& borders, const GridShape& shape, bool is_u,
                              VelocityOf<Real>* field);
-    void (*leave_common_flow)(const Borders<Real>& borders, const LevelOf<Real>* level,
-                              StaggeredGrid<Real>& grid, Work work);
-    void (*join_common_flow)(const Borders<Real>& borders, const LevelOf<Real>* level,
-                             StaggeredGrid<Real>& grid, Work work);
 };
 
 /// After the scatter: ghost rows are folded back onto the rows that they mirror or repeat.

@@ -166,13 +166,6 @@ inline Real reached_velocity(Real velocity, Real unreached) {
     return kMarksUnreached<Real> && absolute(velocity) == unreached ? Real(0) : velocity;
 }
 
-/// What all liquid does along periodic axes, cells/s (grid/common_flow.hpp).
-template <class Real>
-struct CommonFlow {
-    Vec2<VelocityOf<Real>> flow{};
-    Vec2<VelocityOf<Real>> gain{};  ///< in a substep
-};
-
 template <class Real>
 struct StaggeredGrid {
     GridShape shape;
@@ -187,7 +180,6 @@ struct StaggeredGrid {
     /// volume over mass. A particle of the first liquid has mass and volume 1. Null: one liquid.
     VelocityOf<Real>* inverse_density_u = nullptr;
     VelocityOf<Real>* inverse_density_v = nullptr;
-    CommonFlow<Real> common{};  ///< taken off velocities while they drift
     /// Of the whole tank's numbering, the entry that arrays begin with: 0, or that of the window
     /// which is stored. Pointers stand so far before their arrays.
     std::int32_t origin = 0;

@@ -6,6 +6,7 @@
 #include "math/packed_arithmetic.hpp"
 #include "math/quotient_packed.hpp"
 #include "math/sum_of_products.hpp"
+#include "pressure/drift_price.hpp"
 #include "pressure/patches.hpp"
 #include "solid/walls.hpp"
 
@@ -49,6 +50,10 @@ inline constexpr std::int32_t kCrowded = 20;
 
 inline bool is_crowded(std::int32_t mean, std::int32_t least) {
     return mean >= least && mean != kSolidPatch;
+}
+
+inline std::int32_t in_64ths(SmallFixed share) {
+    return rounded_shift(share.raw, SmallFixed::fraction - 6);
 }
 
 /// What a patch's drift does.
@@ -95,6 +100,8 @@ struct Drift {
     const PressureFields<SmallFixed>& fields;
     StaggeredGrid<SmallFixed>& grid;
     std::int32_t speed;  ///< where the excess rises by 1 from cell to cell, 128ths of a cell/s
+    std::int32_t falling_x;  ///< `share_of_falling`, 64ths
+    std::int32_t falling_y;
     std::int32_t along_x[kCoarseEdge] = {};
     std::int32_t along_y[kCoarseEdge] = {};
 
@@ -107,13 +114,15 @@ struct Drift {
         const std::int32_t disorder = disorder_of(patch.q);
         const std::int32_t price =
             pays && disorder > kOrderly ? deeds(patch).price(speed, disorder) : 0;
+        const std::int32_t of_u = price * falling_x / 64;
+        const std::int32_t of_v = price * falling_y / 64;
         for_each_face(
             patch,
             [&](std::int32_t face, std::int32_t more) {
-                push(grid.u[face], grid.mass_u[face], more, price);
+                push(grid.u[face], grid.mass_u[face], more, of_u);
             },
             [&](std::int32_t face, std::int32_t more) {
-                push(grid.v[face], grid.mass_v[face], more, price);
+                push(grid.v[face], grid.mass_v[face], more, of_v);
             });
     }
 
@@ -170,17 +179,17 @@ private:
     [[gnu::noinline]] Deeds deeds(const Patch& patch) const {
         Deeds sums;
         const auto add = [&](const Speed& velocity, const SmallFixed* p, std::int32_t back,
-                             std::int32_t more) {
+                             std::int32_t more, std::int32_t counts) {
             sums.lifted.add(more, short_of((p[0].raw - p[-back].raw) >> 9));
-            sums.moving.add(velocity.raw, velocity.raw);
+            sums.moving.add(velocity.raw, counts * velocity.raw / 64);
         };
         for_each_face<2>(
             patch,
             [&](std::int32_t face, std::int32_t more) {
-                add(grid.u[face], fields.pressure + face, 1, more);
+                add(grid.u[face], fields.pressure + face, 1, more, falling_x);
             },
             [&](std::int32_t face, std::int32_t more) {
-                add(grid.v[face], fields.pressure + face, grid.shape.stride, more);
+                add(grid.v[face], fields.pressure + face, grid.shape.stride, more, falling_y);
             });
         return sums;
     }

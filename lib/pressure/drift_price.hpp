@@ -11,6 +11,21 @@ namespace weir {
 template <class Real>
 inline constexpr Real kStirred = Real(0.01 * kOfDisorder<Real>);
 
+/// What of a velocity's square along each axis is that of rising and falling, out of which patches
+/// pay: currents, which no height can be taken from, go on.
+/// @param fall what gravity gives, in any unit
+template <class Real>
+inline Vec2<Real> share_of_falling(Vec2<Real> fall) {
+    const Real most = maximum(absolute(fall.x), absolute(fall.y));
+    if (!(most > Real(0))) {
+        return {};
+    }
+    const Real x = fall.x / most;
+    const Real y = fall.y / most;
+    const Real square = x * x + y * y;
+    return {x * x / square, y * y / square};
+}
+
 /// A patch's velocity over the most that it pays of it: impacts keep their pressure.
 template <class Real>
 inline constexpr Real kMostPrice = Real(64);
@@ -41,7 +56,7 @@ template <class Real>
 inline Real share_of_drift(const Weights<Real>& sums, bool pressed) {
     const Real torn = clamp<Real>(in_turn(sums.disorder) - kTorn<Real>, Real(0), kStirred<Real>);
     const Real due = kMostPrice<Real> * (in_turn(sums.raised) * (torn / kStirred<Real>));
-    const Real moving = in_turn(sums.moving);
+    const Real moving = Real(2) * in_turn(sums.moving);  // half of what stirs rises or falls
     return !pressed && due > Real(0) ? moving / (moving + due) : Real(1);
 }
 

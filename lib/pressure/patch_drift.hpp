@@ -67,6 +67,7 @@ struct Drift {
     const Patch& patch;
     Real speed;  ///< where the excess rises by 1 from cell to cell, cells/s
     Vec2<Real> weight;  ///< what gravity makes of a velocity in the step
+    Vec2<Real> falling;  ///< of which it pays, `share_of_falling`
     Real along_x[kCoarseEdge];
     Real along_y[kCoarseEdge];
 
@@ -122,6 +123,7 @@ template <bool Weighed, bool Solids, class Real>
     const VelocityOf<Real>* v = grid.v;
     const Real speed = drift.speed;
     const Vec2<Real> gravity = drift.weight;
+    const Vec2<Real> falling = drift.falling;
     Real* way = ways.of;
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         SumOf<Real> lifted{};
@@ -134,23 +136,23 @@ template <bool Weighed, bool Solids, class Real>
         Real below = here;
         Real pressure = p[under];
         Real pressure_below = pressure;
-        const auto add = [&](Real way_here, Real rise, Real weight, Real velocity) {
+        const auto add = [&](Real way_here, Real rise, Real weight, Real velocity, Real counts) {
             *way++ = way_here;
             if (Weighed) {
                 lifted += summand(way_here, rise);
                 raised += summand(weight, way_here);
-                moving += summand(velocity, velocity);
+                moving += summand(velocity, counts * velocity);
             }
         };
         drift.for_each_face(
             x,
             [&](std::int32_t face, std::int32_t) {
                 add(speed * ((here - e[face - 1]) + along_x), pressure - p[face - 1],
-                    gravity.x, u[face]);
+                    gravity.x, u[face], falling.x);
             },
             [&](std::int32_t face, std::int32_t y) {
                 add(speed * ((here - below) + drift.along_y[y]), pressure - pressure_below,
-                    gravity.y, v[face]);
+                    gravity.y, v[face], falling.y);
             },
             [&](std::int32_t c) {
                 below = here;
@@ -222,18 +224,19 @@ inline void drift_columns(const Drift<Solids, Real>& drift, const Ways<Real>& wa
     VelocityOf<Real>* const v = grid.v;
     VelocityOf<Real>* const u_before = grid.mass_u;
     VelocityOf<Real>* const v_before = grid.mass_v;
-    const auto move = [&](VelocityOf<Real>& velocity, VelocityOf<Real>& before) {
+    const Vec2<Real> falling = drift.falling;
+    const auto move = [&](VelocityOf<Real>& velocity, VelocityOf<Real>& before, Real pays) {
         const Real now = velocity;
         if constexpr (Pays) {
-            before -= price * now;
+            before -= price * (pays * now);
         }
         velocity = now - *way++;
     };
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
         drift.for_each_face(
             x,
-            [&](std::int32_t face, std::int32_t) { move(u[face], u_before[face]); },
-            [&](std::int32_t face, std::int32_t) { move(v[face], v_before[face]); },
+            [&](std::int32_t face, std::int32_t) { move(u[face], u_before[face], falling.x); },
+            [&](std::int32_t face, std::int32_t) { move(v[face], v_before[face], falling.y); },
             [](std::int32_t) {});
     }
 }

@@ -106,6 +106,7 @@ void correct(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall, std::
     const GridShape& s = grid.shape;
     const GridShape& big = fields.coarse.shape;
     const bool pays = fields.cell_weight > Real(0);
+    const Vec2<Real> falling = share_of_falling(fall);
     const Held<Real> held = held_by(fields.cell_weight, fields, grid);
     work.share(work.take(s.ny, s.nx), s.nx, 1,
                [&](const Part& rows, std::int32_t) { find_excess(s, rows, held, fields); });
@@ -138,7 +139,8 @@ void correct(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall, std::
         if (kHasLanes<Real> && is_still(fields, patch.q)) {
             return;
         }
-        Drift<Solids, Real> drift{borders, walls, fields, s, patch, gain_per_s, fall, {}, {}};
+        Drift<Solids, Real> drift{borders, walls, fields, s, patch, gain_per_s, fall, falling,
+                                  {}, {}};
         rises(fields.coarse.correction, patch.q, 1, drift.along_x);
         rises(fields.coarse.correction, patch.q, big.stride, drift.along_y);
         drift_apart(drift, pays, grid);
@@ -146,10 +148,10 @@ void correct(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall, std::
 }
 
 template <bool Solids, class Real>
-void keep_volume(const Domain<Real>& domain, Real gain_per_s, [[maybe_unused]] Vec2<Real> fall,
+void keep_volume(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> fall,
                  std::int32_t& overfull, Work work) {
     if constexpr (Stored<Real>::coarse) {
-        correct_packed<Solids>(domain, gain_per_s, overfull, work);
+        correct_packed<Solids>(domain, gain_per_s, fall, overfull, work);
     } else {
         if (work.once(1)) {
             overfull = 0;
@@ -165,15 +167,7 @@ void volume_correction(const Domain<Real>& domain, Real gain_per_s, Vec2<Real> f
                        std::int32_t& overfull, Work work) {
     const auto stage = Stored<Real>::coarse || domain.walls.active ? keep_volume<Solids, Real>
                                                                    : keep_volume<false, Real>;
-    // What pays for the drift is what moves: not liquid that all goes round a periodic tank.
-    const detail::OddBorders<Real>* const odd = Solids ? nullptr : domain.borders.odd;
-    if (odd != nullptr) {
-        odd->leave_common_flow(domain.borders, domain.fields.level, domain.grid, work);
-    }
     stage(domain, gain_per_s, fall, overfull, work);
-    if (odd != nullptr) {
-        odd->join_common_flow(domain.borders, domain.fields.level, domain.grid, work);
-    }
 }
 
 #define WEIR_INSTANTIATE_VOLUME(Solids, Real)                                      \

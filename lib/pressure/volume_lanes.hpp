@@ -150,9 +150,10 @@ inline void weigh_rows(const Drift& drift, const StaggeredGrid<float>& grid,
     Lanes moving = zero;
     for_each_four(drift, [&](std::int32_t c, DriftOfFour of, std::int32_t back, bool on_u) {
         const Lanes now = load_lanes((on_u ? grid.u : grid.v) + c);
+        const Lanes counts = all_lanes(on_u ? drift.falling.x : drift.falling.y);
         lifted = lifted + of.way * (load_lanes(p + c) - load_lanes(p + c - back));
         raised = raised + all_lanes(on_u ? drift.weight.x : drift.weight.y) * of.way;
-        moving = moving + (of.moves ? now * now : zero);
+        moving = moving + (of.moves ? now * (counts * now) : zero);
     });
     Lanes disorder = zero;
     for (std::int32_t y = 0; y < drift.patch.height; ++y) {
@@ -174,7 +175,8 @@ inline void drift_rows(const Drift& drift, float price, StaggeredGrid<float>& gr
         const Lanes now = load_lanes(velocity);
         if (price != 0.0F) {
             const Lanes before = load_lanes(change);
-            store_lanes(change, of.moves ? before - all_lanes(price) * now : before);
+            const Lanes pays = all_lanes(on_u ? drift.falling.x : drift.falling.y);
+            store_lanes(change, of.moves ? before - all_lanes(price) * (pays * now) : before);
         }
         store_lanes(velocity, of.moves ? now - of.way : now);
     });
@@ -247,7 +249,8 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
             lifted = lifted + way.v[y] * (held - p_below);
             raised = raised + all_lanes(drift.weight.x) * way.u[y];
             raised = raised + all_lanes(drift.weight.y) * way.v[y];
-            moving = (moving + u * u) + v * v;
+            moving = (moving + u * (all_lanes(drift.falling.x) * u)) +
+                     v * (all_lanes(drift.falling.y) * v);
             disorder = disorder + here * here;
             p_below = held;
             p += stride;
@@ -274,10 +277,12 @@ inline void apply_drift(const Drift& drift, const DriftOfPatch& way, float price
         if (price != 0.0F) {
             const float* open_u = Closed ? drift.walls.open_u + c : nullptr;
             const float* open_v = Closed ? drift.walls.open_v + c : nullptr;
-            store_lanes(grid.mass_u + c, load_lanes(grid.mass_u + c) -
-                                             if_open<Closed>(open_u, all_lanes(price) * u));
-            store_lanes(grid.mass_v + c, load_lanes(grid.mass_v + c) -
-                                             if_open<Closed>(open_v, all_lanes(price) * v));
+            const Lanes pays_u = all_lanes(price) * (all_lanes(drift.falling.x) * u);
+            const Lanes pays_v = all_lanes(price) * (all_lanes(drift.falling.y) * v);
+            store_lanes(grid.mass_u + c,
+                        load_lanes(grid.mass_u + c) - if_open<Closed>(open_u, pays_u));
+            store_lanes(grid.mass_v + c,
+                        load_lanes(grid.mass_v + c) - if_open<Closed>(open_v, pays_v));
         }
         store_lanes(grid.u + c, u - way.u[y]);
         store_lanes(grid.v + c, v - way.v[y]);

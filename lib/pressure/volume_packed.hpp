@@ -86,7 +86,7 @@ std::int32_t average(const GridShape& s, const Walls<SmallFixed>& walls, const P
 /// Every other substep twice as far: nothing that was tried tells the difference.
 template <bool Solids>
 void correct_packed(const Domain<SmallFixed>& domain, SmallFixed gain_per_s,
-                    std::int32_t& overfull, Work work) {
+                    Vec2<SmallFixed> fall, std::int32_t& overfull, Work work) {
     const Borders<SmallFixed>& borders = domain.borders;
     const Walls<SmallFixed>& walls = domain.walls;
     PressureFields<SmallFixed>& fields = domain.fields;
@@ -120,7 +120,9 @@ void correct_packed(const Domain<SmallFixed>& domain, SmallFixed gain_per_s,
         mirror_cells(borders, big, fields.coarse.correction);
         mirror_cells(borders, big, fields.coarse.residual);
     }
-    packed::Drift<Solids> drift{borders, walls, fields, domain.grid, speed};
+    const Vec2<SmallFixed> falling = share_of_falling(fall);
+    packed::Drift<Solids> drift{borders, walls, fields, domain.grid, speed,
+                                packed::in_64ths(falling.x), packed::in_64ths(falling.y)};
     const bool pays = fields.cell_weight > SmallFixed(0) && (fields.quiet_turn & 2) != 0;
     for_each_patch(s, big, work, [&](const Patch& patch) { drift.patch(patch, pays); });
 }

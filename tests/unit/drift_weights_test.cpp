@@ -44,7 +44,7 @@ TEST(DriftWeights, DisorderHasItsDigits) {
 /// down, or pressed, all of it.
 TEST(DriftWeights, WhatIsTornIsDrawnUpAsFarAsItPays) {
     Weights<float> weights;
-    weights.moving[0] = 64.0F;
+    weights.moving[0] = 32.0F;
     weights.raised[0] = 3.0F;
     weights.disorder[0] = kTorn<float> + kStirred<float>;
     EXPECT_FLOAT_EQ(share_of_drift(weights, false), 0.25F);
@@ -56,6 +56,20 @@ TEST(DriftWeights, WhatIsTornIsDrawnUpAsFarAsItPays) {
     weights.disorder[0] = 1.0F;
     weights.raised[0] = -3.0F;
     EXPECT_EQ(share_of_drift(weights, false), 1.0F);
+}
+
+/// Of a current along a floor a patch pays nothing, whatever gravity's unit is.
+TEST(DriftWeights, OnlyWhatRisesOrFallsPays) {
+    for (const double fall : {-9.81, 0.01, 5.0e-4}) {
+        const Vec2<Fixed> upright = share_of_falling(Vec2<Fixed>{Fixed(0), Fixed(fall)});
+        EXPECT_EQ(upright.x, Fixed(0)) << fall;
+        EXPECT_EQ(upright.y, Fixed(1)) << fall;
+    }
+    const Vec2<float> leaning = share_of_falling(Vec2<float>{-3.0F, 4.0F});
+    EXPECT_NEAR(leaning.x, 0.36F, 1.0e-6F);
+    EXPECT_NEAR(leaning.y, 0.64F, 1.0e-6F);
+    const Vec2<float> nowhere = share_of_falling(Vec2<float>{});
+    EXPECT_EQ(nowhere.x + nowhere.y, 0.0F);
 }
 
 }  // namespace

@@ -109,10 +109,10 @@ template <class Real>
 inline constexpr std::size_t kWorldStateBytes =
     kEmptyMemberBytes +
     (sizeof(Real) == 4
-        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 960 : 920) : 1312) +
+        ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 952 : 912) : 1312) +
               (std::is_same_v<Real, Fixed> ? 16 : 0) +
-              (std::is_same_v<Real, SmallFixed> ? 0 : 80 + 4 * sizeof(void*))
-        : 1728);
+              (std::is_same_v<Real, SmallFixed> ? 0 : 72 + 4 * sizeof(void*))
+        : 1696);
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
 inline constexpr std::size_t kWallEdgeBytes = 16;
