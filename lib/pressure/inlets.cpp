@@ -179,6 +179,7 @@ template <class Real>
 void link_inlets([[maybe_unused]] PressureFields<Real>& fields) {
     if constexpr (kHasInlets<Real>) {
         fields.inlets.make_room = make_room<Real>;
+        link_make_room(fields);
     }
 }
 
@@ -197,8 +198,12 @@ void note_inlet([[maybe_unused]] const GridShape& tank, [[maybe_unused]] const W
         }
         link_inlets(fields);
         Inlet<Real>* const inlet = inlet_for(i, j, fields.inlets);
+        const Real owed = inlet != nullptr ? inlet->owed + volume : kMostOwed<Real> + volume;
         if (inlet != nullptr) {
-            inlet->owed = minimum(inlet->owed + volume, kMostOwed<Real>);
+            inlet->owed = minimum(owed, kMostOwed<Real>);
+        }
+        if (owed > kMostOwed<Real>) {  // nobody remembers where: all that is too dense asks
+            fields.room_turns = kRoomTurns;
         }
     }
 }

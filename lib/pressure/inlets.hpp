@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "base/work.hpp"
 #include "math/vec2.hpp"
 #include "weir/blocks.hpp"
 
@@ -34,6 +35,9 @@ struct Inlets {
     /// Between the equations and their solve, or behind a step of the equation of state. Set where
     /// there are any: who neither adds particles one by one nor restores links nothing of it.
     void (*make_room)(const Domain<Real>& domain) = nullptr;
+    /// `make_room` (pressure/make_room.hpp), for what no inlet takes.
+    void (*make_room_around)(const GridShape& s, Real gain, Work work,
+                             PressureFields<Real>& fields) = nullptr;
     std::int32_t count = 0;
     Inlet<Real> at[kMostInlets];
 };

@@ -38,4 +38,13 @@ inline void ask_for_outflow(std::int32_t c, Real outflow, PressureFields<Real>& 
 template <class Real>
 void make_room(const GridShape& s, Real gain, Work work, PressureFields<Real>& fields);
 
+/// From now on it can be asked for without solids, too: who has no bodies nor adds liquid links
+/// nothing of it.
+template <class Real>
+inline void link_make_room([[maybe_unused]] PressureFields<Real>& fields) {
+    if constexpr (kHasInlets<Real>) {
+        fields.inlets.make_room_around = make_room<Real>;
+    }
+}
+
 }  // namespace weir

@@ -165,6 +165,26 @@ void advance(const Domain<Real>& domain, Work work) {
     fields.elasticity->compress(domain, work);
 }
 
+/// Of what free bodies, a body that was put into the liquid, or more than inlets take have pressed
+/// together. Packed worlds know but the last two, and ask otherwise.
+template <bool Solids, class Real>
+void make_room_of_crowds(const GridShape& s, bool among_free, Work work,
+                         PressureFields<Real>& fields) {
+    if constexpr (!Stored<Real>::coarse) {
+        if (!among_free && !fields.solve.makes_room && !work.foreseeing()) {
+            return;
+        }
+        const Real gain = among_free ? kRoomGain<Real> : kRoomGainAround<Real>;
+        if constexpr (Solids) {
+            make_room(s, gain, work, fields);
+        } else if (fields.inlets.make_room_around != nullptr) {
+            fields.inlets.make_room_around(s, gain, work, fields);
+        } else {
+            for_each_patch(s, fields.coarse.shape, work, [](const Patch&) {});
+        }
+    }
+}
+
 /// The pressure of an incompressible liquid, as near as so many sweeps bring it.
 template <bool Solids, bool Mixed, class Real>
 void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<Real>* free_bodies,
@@ -175,12 +195,7 @@ void solve(const Domain<Real>& domain, std::int32_t sweeps, const CoupledSolve<R
     const Borders<Real>& borders = domain.borders;
     PressureFields<Real>& fields = domain.fields;
     build(weights, fields, work);
-    if constexpr (Solids && !Stored<Real>::coarse) {  // packed worlds have no free bodies
-        if (coupled != nullptr || fields.solve.makes_room || work.foreseeing()) {
-            const Real gain = coupled != nullptr ? kRoomGain<Real> : kRoomGainAround<Real>;
-            make_room(s, gain, work, fields);
-        }
-    }
+    make_room_of_crowds<Solids>(s, coupled != nullptr, work, fields);
     if (work.once(s.border())) {
         make_room_at_inlets(domain);
         extend_cells<!Solids>(borders, s, fields.pressure);

@@ -106,7 +106,7 @@ void region_members(Stream& stream, std::int32_t particles, Regions<Real>& recor
 template <class Real, class Stream>
 void inlet_members(Stream& stream, const GridShape& tank, Inlets<Real>& inlets) {
     const auto last = [](std::int32_t cells) { return static_cast<std::int16_t>(cells - 1); };
-    [[maybe_unused]] auto& [make_room, noted, at] = inlets;
+    [[maybe_unused]] auto& [make_room, make_room_around, noted, at] = inlets;
     const std::int32_t count = stream.member(noted, 0, kMostInlets);
     for (std::int32_t k = 0; k < count && k < kMostInlets; ++k) {
         auto& [i, j, owed] = at[k];

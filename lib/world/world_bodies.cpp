@@ -2,6 +2,7 @@
 #include "world/world_bodies.hpp"
 
 #include "geometry/convex_decomposition.hpp"
+#include "pressure/make_room.hpp"
 #include "step/regions.hpp"
 #include "step/substep.hpp"
 #include "step/two_way.hpp"
@@ -81,6 +82,7 @@ template <class Real>
         }
     }
     place(table, body);
+    link_make_room(state.simulation.pressure);
     const bool comes_in = kind != BodyKind::fixed && set_free == nullptr;  // as it is told to
     if (!comes_in && box_of(state.simulation, body).empty()) {
         table.vertices_used -= body.room;

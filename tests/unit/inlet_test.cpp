@@ -36,9 +36,11 @@ constexpr Place kPlaces[] = {
 template <class Real>
 class InletPool : public TestWorld<Real> {
 public:
-    explicit InletPool(const WorldDef& def) : TestWorld<Real>(def) {
+    explicit InletPool(const WorldDef& def, bool solid = true) : TestWorld<Real>(def) {
         World<Real>& world = **this;
-        put_static(world, body_of(rectangle(4 * kCell, 4 * kCell), {14 * kCell, 2 * kCell}));
+        if (solid) {
+            put_static(world, body_of(rectangle(4 * kCell, 4 * kCell), {14 * kCell, 2 * kCell}));
+        }
         expect_ok(world.fill({{0, 0}, {kWide * kCell, 8 * kCell}}));
         this->run(10);
     }
@@ -102,6 +104,22 @@ TYPED_TEST(EveryInletOf, FillMakesRoom) {
         EXPECT_NEAR(volume_left(*pool), 1.0, 0.05) << every;
         pool.run(240);
         EXPECT_NEAR(volume_left(*pool), 1.0, 0.02) << every;
+    }
+}
+
+/// As much as is there within half a second, into two cells: more than inlets remember.
+TYPED_TEST(InletOf, MoreThanInletsRememberMakesRoomWhereItIsTooDense) {
+    for (const bool solid : {true, false}) {
+        InletPool<TypeParam> pool(pool_def(Pressure::projection), solid);
+        const Place places[] = {{"lower", {6, 2}, 0}, {"upper", {7, 3}, 0}};
+        for (int step = 0; step < 30; ++step) {
+            for (int k = 0; k < 16; ++k) {
+                pool.pour(places[k % 2]);
+            }
+            pool.run(1);
+        }
+        pool.run(60);
+        EXPECT_NEAR(volume_left(*pool), 1.0, 0.04) << solid;
     }
 }
 

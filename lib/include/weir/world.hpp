@@ -120,10 +120,11 @@ public:
     /// Particles in the same place with the same velocity stay together for ever: an inlet spreads
     /// them, or gives them a speed. Where liquid stood all around in the last step, the pressure is
     /// asked for the room of what is added: an inlet beneath the surface lifts it. At a time four
-    /// cells' worth in a place, in eight places more than four cells apart. What is more presses
-    /// together what is there, which takes tens of seconds to spread; so does all that is added in
-    /// a tank that is full, in still liquid without gravity and, in SmallFixed, with an equation of
-    /// state.
+    /// cells' worth in a place, in eight places more than four cells apart; for what is more, room
+    /// is asked wherever liquid is too dense, for 128 substeps. Not by an equation of state: there
+    /// that presses together what is there, which takes tens of seconds to spread; so does all that
+    /// is added in a tank that is full, in still liquid without gravity and, in SmallFixed, with an
+    /// equation of state.
     /// Rates, of an inlet or an outlet, go by `StepReport::dt_s`: a step may simulate less than it
     /// was asked for.
     Status add_particle(Vec2f position_m, Vec2f velocity_mps, Liquid kind = Liquid::first);
