@@ -41,7 +41,7 @@ inline constexpr std::int32_t kMostDisorder = kOrderly + kStirred;  ///< more te
 /// Over a patch's velocity, the most that it pays of it, and the most that comes back, for a drift:
 /// twice what others do in a substep (drift_price.hpp), since it drifts every other one. It pays
 /// for two of them at once.
-inline constexpr std::int32_t kMostPrice = 32;
+inline constexpr std::int32_t kMostPrice = 16;
 inline constexpr std::int32_t kMostRefund = 76;
 
 /// Mean excess from which on a patch is crowded. While there is such a one packed liquid is not led
@@ -56,15 +56,21 @@ inline std::int32_t in_64ths(SmallFixed share) {
     return rounded_shift(share.raw, SmallFixed::fraction - 6);
 }
 
+/// What gravity gives, 128ths of a cell/s: so that 32 products with rises of the excess fit.
+inline std::int32_t pull_of(SmallFixed fall) {
+    constexpr std::int32_t kMostPull = 1 << 13;
+    return clamp(fall.raw >> 9, -kMostPull, kMostPull);
+}
+
 /// What a patch's drift does.
 struct Deeds {
-    SumOfProducts lifted;  ///< rises of the excess × those of the pressure, 2^−25
+    std::int32_t raised = 0;  ///< rises of the excess × gravity's share, 2^−25
     SumOfProducts moving;  ///< squares of velocities, 2^−14
 
     /// Part of its velocity that the patch gives for it, or gets if negative, 2^−14.
     std::int32_t price(std::int32_t speed, std::int32_t disorder) const {
         constexpr std::int32_t kMostWork = 1 << 20;
-        std::int64_t lift = lifted.whole();
+        std::int32_t lift = raised;
         std::int64_t energy = moving.whole();
         while (energy >= 1 << 25 || lift >= 1 << 25 || -lift >= 1 << 25) {
             energy >>= 4;
@@ -72,7 +78,7 @@ struct Deeds {
         }
         const std::int32_t own = static_cast<std::int32_t>(energy);
         const std::int32_t stirred = minimum(disorder - kOrderly, kStirred);
-        const std::int32_t done = scaled(stirred, static_cast<std::int32_t>(lift));
+        const std::int32_t done = scaled(stirred, lift);
         const std::int32_t work = clamp(scaled(speed >> 2, done) >> 2, -kMostWork, kMostWork);
         if (work > 0) {
             return 2 * share(work, own + kMostPrice * work);
@@ -100,6 +106,8 @@ struct Drift {
     const PressureFields<SmallFixed>& fields;
     StaggeredGrid<SmallFixed>& grid;
     std::int32_t speed;  ///< where the excess rises by 1 from cell to cell, 128ths of a cell/s
+    std::int32_t pull_x;     ///< `pull_of`
+    std::int32_t pull_y;
     std::int32_t falling_x;  ///< `share_of_falling`, 64ths
     std::int32_t falling_y;
     std::int32_t along_x[kCoarseEdge] = {};
@@ -114,8 +122,8 @@ struct Drift {
         const std::int32_t disorder = disorder_of(patch.q);
         const std::int32_t price =
             pays && disorder > kOrderly ? deeds(patch).price(speed, disorder) : 0;
-        const std::int32_t of_u = price * falling_x / 64;
-        const std::int32_t of_v = price * falling_y / 64;
+        const std::int32_t of_u = (price * falling_x) >> 6;
+        const std::int32_t of_v = (price * falling_y) >> 6;
         for_each_face(
             patch,
             [&](std::int32_t face, std::int32_t more) {
@@ -178,18 +186,18 @@ private:
     /// Of every other row: a sample tells as well.
     [[gnu::noinline]] Deeds deeds(const Patch& patch) const {
         Deeds sums;
-        const auto add = [&](const Speed& velocity, const SmallFixed* p, std::int32_t back,
-                             std::int32_t more, std::int32_t counts) {
-            sums.lifted.add(more, short_of((p[0].raw - p[-back].raw) >> 9));
-            sums.moving.add(velocity.raw, counts * velocity.raw / 64);
+        const auto add = [&](const Speed& velocity, std::int32_t more, std::int32_t pull,
+                             std::int32_t counts) {
+            sums.raised += more * pull;
+            sums.moving.add(velocity.raw, (counts * velocity.raw) >> 6);
         };
         for_each_face<2>(
             patch,
             [&](std::int32_t face, std::int32_t more) {
-                add(grid.u[face], fields.pressure + face, 1, more, falling_x);
+                add(grid.u[face], more, pull_x, falling_x);
             },
             [&](std::int32_t face, std::int32_t more) {
-                add(grid.v[face], fields.pressure + face, grid.shape.stride, more, falling_y);
+                add(grid.v[face], more, pull_y, falling_y);
             });
         return sums;
     }

@@ -15,7 +15,7 @@ inline constexpr Real kStirred = Real(0.01 * kOfDisorder<Real>);
 /// pay: currents, which no height can be taken from, go on.
 /// @param fall what gravity gives, in any unit
 template <class Real>
-inline Vec2<Real> share_of_falling(Vec2<Real> fall) {
+[[gnu::noinline]] Vec2<Real> share_of_falling(Vec2<Real> fall) {
     const Real most = maximum(absolute(fall.x), absolute(fall.y));
     if (!(most > Real(0))) {
         return {};
@@ -26,23 +26,16 @@ inline Vec2<Real> share_of_falling(Vec2<Real> fall) {
     return {x * x / square, y * y / square};
 }
 
-/// A patch's velocity over the most that it pays of it: impacts keep their pressure.
+/// What of a patch's velocity rises or falls over the most that it pays of it: impacts keep their
+/// pressure.
 template <class Real>
-inline constexpr Real kMostPrice = Real(64);
+inline constexpr Real kMostPrice = Real(32);
 
 /// The same of the most that comes back: what is at rest stays so. Drops, and what is compressible,
 /// are stirred by less.
 template <class Real>
 inline Real most_refund(const PressureFields<Real>& fields) {
     return Real(fields.on_surface || fields.sound_speed > Real(0) ? 256 : 152);
-}
-
-/// Work of a patch's drift: against the pressure, or, where it gives way to that, against gravity,
-/// if that is more. Only what falls pays: the pressure of a blow rises in any direction.
-template <class Real>
-inline Real work_of_drift(const Weights<Real>& sums) {
-    const Real lifted = in_turn(sums.lifted);
-    return lifted < Real(0) ? maximum<Real>(lifted, in_turn(sums.raised)) : lifted;
 }
 
 /// From this sum of squares of its excess on a patch counts as torn: liquid that does not reach a
@@ -56,7 +49,7 @@ template <class Real>
 inline Real share_of_drift(const Weights<Real>& sums, bool pressed) {
     const Real torn = clamp<Real>(in_turn(sums.disorder) - kTorn<Real>, Real(0), kStirred<Real>);
     const Real due = kMostPrice<Real> * (in_turn(sums.raised) * (torn / kStirred<Real>));
-    const Real moving = Real(2) * in_turn(sums.moving);  // half of what stirs rises or falls
+    const Real moving = in_turn(sums.moving);
     return !pressed && due > Real(0) ? moving / (moving + due) : Real(1);
 }
 
@@ -65,7 +58,7 @@ inline Real share_of_drift(const Weights<Real>& sums, bool pressed) {
 template <class Real>
 inline Ratio<Real> price_of(const Weights<Real>& sums, Real most_refund) {
     const Real disorder = minimum<Real>(in_turn(sums.disorder), kStirred<Real>);
-    const Real work = work_of_drift(sums) * (disorder / kStirred<Real>);
+    const Real work = in_turn(sums.raised) * (disorder / kStirred<Real>);
     const Real moving = in_turn(sums.moving);
     if (work > Real(0)) {
         return share_of(work, moving + kMostPrice<Real> * work);

@@ -49,12 +49,10 @@ inline Weights<Real> weights_of(const Weights<SumOf<Real>>& sums) {
         return sums;
     } else {
         constexpr std::int64_t kLargest = std::int64_t{32} << 16;
-        std::int64_t lifted = in_turn(sums.lifted);
         std::int64_t raised = in_turn(sums.raised);
         std::int64_t moving = in_turn(sums.moving);
         const auto size = [](std::int64_t sum) { return sum < 0 ? -sum : sum; };
-        while ((size(lifted) | size(raised) | moving) >= kLargest) {
-            lifted >>= 3;
+        while ((size(raised) | moving) >= kLargest) {
             raised >>= 3;
             moving >>= 3;
         }
@@ -62,7 +60,6 @@ inline Weights<Real> weights_of(const Weights<SumOf<Real>>& sums) {
             return Real::of_raw(static_cast<std::int32_t>(sum));
         };
         Weights<Real> weights;
-        weights.lifted[0] = number(lifted);
         weights.raised[0] = number(raised);
         weights.moving[0] = number(moving);
         weights.disorder[0] = Real::of_raw(fixed::saturate(in_turn(sums.disorder)));

@@ -118,101 +118,46 @@ template <bool Weighed, bool Solids, class Real>
 [[gnu::noinline]] void find_ways(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid,
                                  Ways<Real>& ways, Weights<SumOf<Real>>& sums) {
     const VelocityOf<Real>* e = drift.fields.divergence;
-    const Real* p = drift.fields.pressure;
     const VelocityOf<Real>* u = grid.u;
     const VelocityOf<Real>* v = grid.v;
     const Real speed = drift.speed;
-    const Vec2<Real> gravity = drift.weight;
     const Vec2<Real> falling = drift.falling;
     Real* way = ways.of;
     for (std::int32_t x = 0; x < drift.patch.width; ++x) {
-        SumOf<Real> lifted{};
-        SumOf<Real> raised{};
+        Vec2<Real> went{};
         SumOf<Real> moving{};
         SumOf<Real> disorder{};
         const Real along_x = drift.along_x[x];
         const std::int32_t under = drift.shape.index(drift.patch.i + x, drift.patch.j - 1);
         Real here = e[under];
         Real below = here;
-        Real pressure = p[under];
-        Real pressure_below = pressure;
-        const auto add = [&](Real way_here, Real rise, Real weight, Real velocity, Real counts) {
+        const auto add = [&](Real way_here, Real& sum, Real velocity, Real counts) {
             *way++ = way_here;
             if (Weighed) {
-                lifted += summand(way_here, rise);
-                raised += summand(weight, way_here);
+                sum = sum + way_here;
                 moving += summand(velocity, counts * velocity);
             }
         };
         drift.for_each_face(
             x,
             [&](std::int32_t face, std::int32_t) {
-                add(speed * ((here - e[face - 1]) + along_x), pressure - p[face - 1],
-                    gravity.x, u[face], falling.x);
+                add(speed * ((here - e[face - 1]) + along_x), went.x, u[face], falling.x);
             },
             [&](std::int32_t face, std::int32_t y) {
-                add(speed * ((here - below) + drift.along_y[y]), pressure - pressure_below,
-                    gravity.y, v[face], falling.y);
+                add(speed * ((here - below) + drift.along_y[y]), went.y, v[face], falling.y);
             },
             [&](std::int32_t c) {
                 below = here;
                 here = e[c];
-                pressure_below = pressure;
-                pressure = p[c];
                 if (Weighed) {
                     disorder += summand(here, here);
                 }
             });
         if (Weighed) {
-            sums.lifted[x] = lifted;
-            sums.raised[x] = raised;
+            sums.raised[x] = summand(drift.weight.x, went.x) + summand(drift.weight.y, went.y);
             sums.moving[x] = moving;
             sums.disorder[x] = disorder;
         }
-    }
-}
-
-/// With two liquids: the same work by unit of mass, as that against gravity and the squares of
-/// velocities are. By unit of volume what is as heavy as mercury beside water would pay 13.6 times
-/// as much as water does, and its waves would be gone in seconds.
-template <bool Solids, class Real>
-[[gnu::noinline]] void lift_by_mass(const Drift<Solids, Real>& drift,
-                                    const StaggeredGrid<Real>& grid,
-                                    Weights<SumOf<Real>>& sums) {
-    const VelocityOf<Real>* e = drift.fields.divergence;
-    const Real* p = drift.fields.pressure;
-    for (std::int32_t x = 0; x < drift.patch.width; ++x) {
-        SumOf<Real> lifted{};
-        const auto add = [&](std::int32_t face, std::int32_t before, Real along, Real light) {
-            const Real way = drift.speed * ((Real(e[face]) - e[before]) + along);
-            lifted += summand(way, light * (p[face] - p[before]));
-        };
-        drift.for_each_face(
-            x,
-            [&](std::int32_t face, std::int32_t) {
-                add(face, face - 1, drift.along_x[x], grid.inverse_density_u[face]);
-            },
-            [&](std::int32_t face, std::int32_t y) {
-                add(face, face - drift.shape.stride, drift.along_y[y],
-                    grid.inverse_density_v[face]);
-            },
-            [](std::int32_t) {});
-        sums.lifted[x] = lifted;
-    }
-}
-
-/// By way of the table that worlds with two liquids have: others do not link it.
-template <bool Solids, class Real>
-inline void know_two_liquids(const Drift<Solids, Real>& drift, const StaggeredGrid<Real>& grid,
-                             Weights<SumOf<Real>>& sums) {
-    const detail::SecondLiquid<Real>* const second = drift.fields.second_liquid;
-    if (second == nullptr) {
-        return;
-    }
-    if constexpr (Solids) {
-        second->lift_among_solids(drift, grid, sums);
-    } else {
-        second->lift_in_open(drift, grid, sums);
     }
 }
 
@@ -268,7 +213,6 @@ inline void drift_any(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Real>
         return;
     }
     find_ways<true>(drift, grid, ways, sums);
-    know_two_liquids(drift, grid, sums);
     const Weights<Real> weights = weights_of<Real>(sums);
     const Ratio<Real> price = price_of(weights, most_refund(drift.fields));
     if (slows_down(drift, weights)) {
@@ -290,8 +234,7 @@ inline void drift_at_once(Drift& drift, bool pays, StaggeredGrid<float>& grid) {
     if (pays) {
         Weights<float> sums;
         find_drift<true, Closed>(drift, grid, way, sums);
-        know_two_liquids(drift, grid, sums);
-        price = price_of(sums, most_refund(drift.fields));
+            price = price_of(sums, most_refund(drift.fields));
         pays = !slows_down(drift, sums);
     }
     if (!pays) {
@@ -327,8 +270,7 @@ inline void drift_apart(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Rea
             if (pays) {
                 Weights<Real> sums;
                 weigh_rows(drift, grid, sums);
-                know_two_liquids(drift, grid, sums);
-                price = price_of(sums, most_refund(drift.fields));
+                            price = price_of(sums, most_refund(drift.fields));
                 slows_down(drift, sums);
             }
             drift_rows(drift, price, grid);

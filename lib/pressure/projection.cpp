@@ -266,11 +266,9 @@ constexpr detail::SecondLiquid<Real> stages_of_two() {
     detail::SecondLiquid<Real> stages{};
     if constexpr (!Stored<Real>::shares_momentum) {
         stages.in_open = solve_and_project<false, true, Real>;
-        stages.lift_in_open = lift_by_mass<false, Real>;
         stages.sharpen_between = sharpen_between<Real>;
         if constexpr (Solids) {
             stages.among_solids = solve_and_project<true, true, Real>;
-            stages.lift_among_solids = lift_by_mass<true, Real>;
         }
     }
     return stages;

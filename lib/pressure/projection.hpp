@@ -5,7 +5,6 @@
 #include "math/packed_arithmetic.hpp"
 #include "math/quotient_packed.hpp"
 #include "pressure/domain.hpp"
-#include "pressure/drift_weights.hpp"
 #include "solid/free_body.hpp"
 #include "weir/features.hpp"
 
@@ -45,26 +44,16 @@ inline Real width_of(Real open) {
     return minimum(Real(1), Real(4) * open);
 }
 
-template <bool Solids, class Real>
-struct Drift;
-template <class Sum>
-struct Weights;
-
 /// The same with two liquids: a program whose definition has room for one links nothing of it.
 template <class Real>
 struct detail::SecondLiquid {
     using Solver = void (*)(const Domain<Real>& domain, std::int32_t sweeps,
                             const CoupledSolve<Real>* coupled, Work work);
-    template <bool Solids>
-    using Lift = void (*)(const Drift<Solids, Real>&, const StaggeredGrid<Real>&,
-                          Weights<SumOf<Real>>&);
     Solver in_open;
-    Lift<false> lift_in_open;      ///< work of its drift (pressure/patch_drift.hpp)
     /// Of velocities between the transfers (pressure/sharpen_between.hpp).
     void (*sharpen_between)(const Domain<Real>& domain, Real smoothing, VelocityOf<Real>* sharp_u,
                             VelocityOf<Real>* sharp_v, Work work);
     Solver among_solids = nullptr;  ///< null: there is room for none
-    Lift<true> lift_among_solids = nullptr;
 };
 
 /// Way from a liquid cell's centre to the surface, over that to its air neighbour's centre. The

@@ -17,9 +17,8 @@ struct PatchLimits {
 /// What decides what a patch pays, summed by column.
 template <class Real>
 struct Weights {
-    Real lifted[kCoarseEdge] = {};    ///< work of the drift against the pressure
-    Real raised[kCoarseEdge] = {};    ///< the same against gravity
-    Real moving[kCoarseEdge] = {};    ///< squares of the velocity
+    Real raised[kCoarseEdge] = {};    ///< work of the drift against gravity
+    Real moving[kCoarseEdge] = {};    ///< squares of the velocity along it
     Real disorder[kCoarseEdge] = {};  ///< squares of the excess
 };
 
@@ -118,7 +117,7 @@ inline DriftOfFour drift_lanes(const float* excess, std::int32_t back, float spe
     return {moves ? all_lanes(speed) * rise : all_lanes(0.0F), moves};
 }
 
-/// visit(face, its drift, from a face to the one before, on u) for a patch four cells wide: both
+/// visit(face, its drift, on u) for a patch four cells wide: both
 /// kinds of faces, row by row.
 template <class Drift, class Visit>
 inline void for_each_four(const Drift& drift, const Visit& visit) {
@@ -130,29 +129,33 @@ inline void for_each_four(const Drift& drift, const Visit& visit) {
     const Lanes along_x = load_lanes(drift.along_x);
     for (std::int32_t y = 0; y < drift.patch.height; ++y) {
         const std::int32_t c = drift.shape.index(drift.patch.i, drift.patch.j + y);
-        visit(c, drift_lanes(e, 1, drift.speed, along_x, open_u, drift.first_moves_x(), c), 1,
-              true);
+        visit(c, drift_lanes(e, 1, drift.speed, along_x, open_u, drift.first_moves_x(), c), true);
         if (drift.moves_y(y)) {
             visit(c,
                   drift_lanes(e, stride, drift.speed, all_lanes(drift.along_y[y]), open_v, true, c),
-                  stride, false);
+                  false);
         }
     }
+}
+
+/// Work of a drift that is so much in a column.
+template <class Drift>
+inline Lanes raised_by(const Drift& drift, Lanes went_x, Lanes went_y) {
+    return all_lanes(drift.weight.x) * went_x + all_lanes(drift.weight.y) * went_y;
 }
 
 template <class Drift>
 inline void weigh_rows(const Drift& drift, const StaggeredGrid<float>& grid,
                        Weights<float>& sums) {
-    const float* p = drift.fields.pressure;
     const Lanes zero = all_lanes(0.0F);
-    Lanes lifted = zero;
-    Lanes raised = zero;
+    Lanes went_x = zero;
+    Lanes went_y = zero;
     Lanes moving = zero;
-    for_each_four(drift, [&](std::int32_t c, DriftOfFour of, std::int32_t back, bool on_u) {
+    for_each_four(drift, [&](std::int32_t c, DriftOfFour of, bool on_u) {
         const Lanes now = load_lanes((on_u ? grid.u : grid.v) + c);
         const Lanes counts = all_lanes(on_u ? drift.falling.x : drift.falling.y);
-        lifted = lifted + of.way * (load_lanes(p + c) - load_lanes(p + c - back));
-        raised = raised + all_lanes(on_u ? drift.weight.x : drift.weight.y) * of.way;
+        Lanes& went = on_u ? went_x : went_y;
+        went = went + of.way;
         moving = moving + (of.moves ? now * (counts * now) : zero);
     });
     Lanes disorder = zero;
@@ -161,15 +164,14 @@ inline void weigh_rows(const Drift& drift, const StaggeredGrid<float>& grid,
                                       drift.shape.index(drift.patch.i, drift.patch.j + y));
         disorder = disorder + here * here;
     }
-    store_lanes(sums.lifted, lifted);
-    store_lanes(sums.raised, raised);
+    store_lanes(sums.raised, raised_by(drift, went_x, went_y));
     store_lanes(sums.moving, moving);
     store_lanes(sums.disorder, disorder);
 }
 
 template <class Drift>
 inline void drift_rows(const Drift& drift, float price, StaggeredGrid<float>& grid) {
-    for_each_four(drift, [&](std::int32_t c, DriftOfFour of, std::int32_t, bool on_u) {
+    for_each_four(drift, [&](std::int32_t c, DriftOfFour of, bool on_u) {
         float* velocity = (on_u ? grid.u : grid.v) + c;
         float* change = (on_u ? grid.mass_u : grid.mass_v) + c;
         const Lanes now = load_lanes(velocity);
@@ -224,15 +226,13 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
     const std::int32_t stride = drift.shape.stride;
     const std::int32_t first = drift.shape.index(drift.patch.i, drift.patch.j);
     const float* e = drift.fields.divergence + first;
-    const float* p = drift.fields.pressure + first;
     const Lanes along_x = load_lanes(drift.along_x);
     const Lanes speed = all_lanes(drift.speed);
-    [[maybe_unused]] Lanes lifted = all_lanes(0.0F);
-    [[maybe_unused]] Lanes raised = lifted;
-    [[maybe_unused]] Lanes moving = lifted;
-    [[maybe_unused]] Lanes disorder = lifted;
+    [[maybe_unused]] Lanes went_x = all_lanes(0.0F);
+    [[maybe_unused]] Lanes went_y = went_x;
+    [[maybe_unused]] Lanes moving = went_x;
+    [[maybe_unused]] Lanes disorder = went_x;
     Lanes e_below = load_lanes(e - stride);
-    [[maybe_unused]] Lanes p_below = load_lanes(p - stride);
     std::int32_t c = first;
     for (std::int32_t y = 0; y < kCoarseEdge; ++y) {
         const Lanes here = load_lanes(e);
@@ -242,26 +242,20 @@ inline void find_drift(const Drift& drift, const StaggeredGrid<float>& grid, Dri
         way.v[y] = if_open<Closed>(open_v, speed * ((here - e_below) +
                                                     all_lanes(drift.along_y[y])));
         if constexpr (Weighed) {
-            const Lanes held = load_lanes(p);
             const Lanes u = if_open<Closed>(open_u, load_lanes(grid.u + c));
             const Lanes v = if_open<Closed>(open_v, load_lanes(grid.v + c));
-            lifted = lifted + way.u[y] * (held - load_lanes(p - 1));
-            lifted = lifted + way.v[y] * (held - p_below);
-            raised = raised + all_lanes(drift.weight.x) * way.u[y];
-            raised = raised + all_lanes(drift.weight.y) * way.v[y];
+            went_x = went_x + way.u[y];
+            went_y = went_y + way.v[y];
             moving = (moving + u * (all_lanes(drift.falling.x) * u)) +
                      v * (all_lanes(drift.falling.y) * v);
             disorder = disorder + here * here;
-            p_below = held;
-            p += stride;
         }
         e_below = here;
         e += stride;
         c += stride;
     }
     if constexpr (Weighed) {
-        store_lanes(sums.lifted, lifted);
-        store_lanes(sums.raised, raised);
+        store_lanes(sums.raised, raised_by(drift, went_x, went_y));
         store_lanes(sums.moving, moving);
         store_lanes(sums.disorder, disorder);
     }

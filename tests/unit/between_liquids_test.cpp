@@ -65,7 +65,7 @@ TYPED_TEST(BetweenLiquids, SmallSquaresDisplaceTheirMass) {
 }
 
 /// How high a body of half the liquid's density has come that lay on the floor, cells, in liquid
-/// so many times as dense as the first: it bobs, so the mean of 40 steps.
+/// so many times as dense as the first: it bobs, so the mean of 100 steps.
 template <class Real>
 double height_in_alone(float size, float liquid) {
     WorldDef def = tank_def(24, 24, 1600, 1, 4);
@@ -80,10 +80,10 @@ double height_in_alone(float size, float liquid) {
     expect_ok(world->fill({{0, 0}, {24 * kCell, 16 * kCell}}, nullptr,
                           liquid == 1.0F ? Liquid::first : Liquid::second));
     double height = 0;
-    for (int step = 0; step < 100; ++step) {
+    for (int step = 0; step < 160; ++step) {
         world->step(1.0F / 64.0F);
         const float now = motion_of(*world, id).position_m.y / kCell;
-        height += step < 60 ? 0 : static_cast<double>(now) / 40;
+        height += step < 60 ? 0 : static_cast<double>(now) / 100;
     }
     return height;
 }

@@ -49,13 +49,14 @@ public:
         return {12 * kCell, 5 * kCell + up};
     }
     /// How far a body goes up in five seconds, cells.
-    double rise(const Ring& ring, Vec2f at, float density, float angle = 0.0F) {
+    double rise(const Ring& ring, Vec2f at, float density, float angle = 0.0F,
+                int steps = 300) {
         BodyDef body = body_of(ring, at, angle);
         body.density_ratio = density;
         body.surface.friction = angle != 0.0F ? 2.0F : body.surface.friction;
         const BodyId id = put_free(*world_, body);
         expect_ok(world_->fill({{0, 0}, {24 * kCell, 12 * kCell}}));
-        for (int step = 0; step < 300; ++step) {
+        for (int step = 0; step < steps; ++step) {
             world_->step(kDt);
             const float up = motion_of(*world_, id).position_m.y - at.y;
             highest_ = std::max(highest_, static_cast<double>(up / kCell));
@@ -230,11 +231,12 @@ TYPED_TEST(Films, LiftNothingHeavyThatTouchesAnother) {
     }
 }
 
-/// Also what hardly is lighter, which corners that the contour cuts decide over.
+/// Also what hardly is lighter, which corners that the contour cuts decide over. When it leaves is
+/// chance: some only after five seconds.
 TYPED_TEST(Films, LiftCratesAlmostAsHeavyAsTheLiquid) {
     const Ring box = rectangle(0.1F, 0.06F);
     for (const float x : {0.24F, 0.2337F, 0.245F}) {
-        EXPECT_GT(Tank<TypeParam>().rise(box, {x, 0.03F}, 0.95F), 1.0) << x;
+        EXPECT_GT(Tank<TypeParam>().rise(box, {x, 0.03F}, 0.95F, 0.0F, 600), 8.0) << x;
         EXPECT_NEAR(Tank<TypeParam>().rise(box, {x, 0.03F}, 1.05F), 0.0, 0.05) << x;
     }
 }

@@ -110,8 +110,8 @@ inline constexpr std::size_t kWorldStateBytes =
     kEmptyMemberBytes +
     (sizeof(Real) == 4
         ? (sizeof(void*) == 4 ? (WEIR_PARALLEL ? 952 : 912) : 1312) +
-              (std::is_same_v<Real, Fixed> ? 16 : 0) +
-              (std::is_same_v<Real, SmallFixed> ? 0 : 72 + 4 * sizeof(void*))
+              (std::is_same_v<Real, Fixed> ? 24 : 0) +
+              (std::is_same_v<Real, SmallFixed> ? 0 : 72 + 5 * sizeof(void*))
         : 1696);
 template <class Real>
 inline constexpr std::size_t kBodyBytes = sizeof(Real) == 4 ? 116 : 176;
