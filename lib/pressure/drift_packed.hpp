@@ -6,7 +6,6 @@
 #include "math/packed_arithmetic.hpp"
 #include "math/quotient_packed.hpp"
 #include "math/sum_of_products.hpp"
-#include "pressure/drift_price.hpp"
 #include "pressure/patches.hpp"
 #include "solid/walls.hpp"
 
@@ -52,14 +51,17 @@ inline bool is_crowded(std::int32_t mean, std::int32_t least) {
     return mean >= least && mean != kSolidPatch;
 }
 
-inline std::int32_t in_64ths(SmallFixed share) {
-    return rounded_shift(share.raw, SmallFixed::fraction - 6);
-}
-
 /// What gravity gives, 128ths of a cell/s: so that 32 products with rises of the excess fit.
 inline std::int32_t pull_of(SmallFixed fall) {
-    constexpr std::int32_t kMostPull = 1 << 13;
+    constexpr std::int32_t kMostPull = (1 << 13) - 1;
     return clamp(fall.raw >> 9, -kMostPull, kMostPull);
+}
+
+/// The x of `share_of_falling`, 64ths: y has the rest.
+inline std::int32_t falling_along_x(std::int32_t pull_x, std::int32_t pull_y) {
+    const auto x = static_cast<std::uint32_t>(pull_x * pull_x);
+    const std::uint32_t square = x + static_cast<std::uint32_t>(pull_y * pull_y);
+    return static_cast<std::int32_t>(quotient_of(64 * x, square | 1U));
 }
 
 /// What a patch's drift does.
@@ -108,8 +110,8 @@ struct Drift {
     std::int32_t speed;  ///< where the excess rises by 1 from cell to cell, 128ths of a cell/s
     std::int32_t pull_x;     ///< `pull_of`
     std::int32_t pull_y;
-    std::int32_t falling_x;  ///< `share_of_falling`, 64ths
-    std::int32_t falling_y;
+    std::int32_t falling_x = falling_along_x(pull_x, pull_y);
+    std::int32_t falling_y = 64 - falling_x;
     std::int32_t along_x[kCoarseEdge] = {};
     std::int32_t along_y[kCoarseEdge] = {};
 

@@ -15,7 +15,7 @@ inline constexpr Real kStirred = Real(0.01 * kOfDisorder<Real>);
 /// pay: currents, which no height can be taken from, go on.
 /// @param fall what gravity gives, in any unit
 template <class Real>
-[[gnu::noinline]] Vec2<Real> share_of_falling(Vec2<Real> fall) {
+inline Vec2<Real> share_of_falling(Vec2<Real> fall) {
     const Real most = maximum(absolute(fall.x), absolute(fall.y));
     if (!(most > Real(0))) {
         return {};

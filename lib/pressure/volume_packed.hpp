@@ -120,10 +120,8 @@ void correct_packed(const Domain<SmallFixed>& domain, SmallFixed gain_per_s,
         mirror_cells(borders, big, fields.coarse.correction);
         mirror_cells(borders, big, fields.coarse.residual);
     }
-    const Vec2<SmallFixed> falling = share_of_falling(fall);
     packed::Drift<Solids> drift{borders, walls, fields, domain.grid, speed,
-                                packed::pull_of(fall.x), packed::pull_of(fall.y),
-                                packed::in_64ths(falling.x), packed::in_64ths(falling.y)};
+                                packed::pull_of(fall.x), packed::pull_of(fall.y)};
     const bool pays = fields.cell_weight > SmallFixed(0) && (fields.quiet_turn & 2) != 0;
     for_each_patch(s, big, work, [&](const Patch& patch) { drift.patch(patch, pays); });
 }
