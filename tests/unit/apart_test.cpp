@@ -61,15 +61,14 @@ TEST(ApartPacked, ParticlesOverABelt) {
     EXPECT_LE(met(*world), 2);
 }
 
-/// Crates and balls, thrown in and taken out again: what is between two of them is pressed by one
-/// and the other: 16 and 25 had met.
-TYPED_TEST(ApartInCrowdOf, ParticlesBetweenFreeBodies) {
-    using Real = TypeParam;
+/// How many have met once crates and balls were thrown in and taken out again three times.
+template <class Real>
+int met_among_crates(unsigned seed) {
     WorldDef def = tank_def(32, 40, 1800, 12, 120);
     def.capacity.two_way = true;
     TestWorld<Real> world(def);
     expect_ok(world->fill({{0.0F, 0.0F}, {0.64F, 0.24F}}));
-    std::mt19937 random(5);
+    std::mt19937 random(seed);
     const auto between = [&](float least, float most) {
         return least + (most - least) * 1e-3F * static_cast<float>(random() % 1001U);
     };
@@ -89,7 +88,17 @@ TYPED_TEST(ApartInCrowdOf, ParticlesBetweenFreeBodies) {
             expect_ok(world->remove_body(id));
         }
     }
-    EXPECT_LE(met(*world), 7);
+    return met(*world);
+}
+
+/// What is between two of them is pressed by one and the other: 16 and 25 had met. Of three crowds,
+/// as single ones differ by chance.
+TYPED_TEST(ApartInCrowdOf, ParticlesBetweenFreeBodies) {
+    int all = 0;
+    for (const unsigned seed : {5U, 6U, 7U}) {
+        all += met_among_crates<TypeParam>(seed);
+    }
+    EXPECT_LE(all, 3 * 7);
 }
 
 }  // namespace
