@@ -108,7 +108,7 @@ struct Drift {
     const PressureFields<SmallFixed>& fields;
     StaggeredGrid<SmallFixed>& grid;
     std::int32_t speed;  ///< where the excess rises by 1 from cell to cell, 128ths of a cell/s
-    std::int32_t pull_x;     ///< `pull_of`
+    std::int32_t pull_x;  ///< `pull_of`
     std::int32_t pull_y;
     std::int32_t falling_x = falling_along_x(pull_x, pull_y);
     std::int32_t falling_y = 64 - falling_x;

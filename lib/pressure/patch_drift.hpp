@@ -234,7 +234,7 @@ inline void drift_at_once(Drift& drift, bool pays, StaggeredGrid<float>& grid) {
     if (pays) {
         Weights<float> sums;
         find_drift<true, Closed>(drift, grid, way, sums);
-            price = price_of(sums, most_refund(drift.fields));
+        price = price_of(sums, most_refund(drift.fields));
         pays = !slows_down(drift, sums);
     }
     if (!pays) {
@@ -270,7 +270,7 @@ inline void drift_apart(Drift<Solids, Real>& drift, bool pays, StaggeredGrid<Rea
             if (pays) {
                 Weights<Real> sums;
                 weigh_rows(drift, grid, sums);
-                            price = price_of(sums, most_refund(drift.fields));
+                price = price_of(sums, most_refund(drift.fields));
                 slows_down(drift, sums);
             }
             drift_rows(drift, price, grid);

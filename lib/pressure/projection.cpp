@@ -179,7 +179,7 @@ void make_room_of_crowds(const GridShape& s, bool among_free, Work work,
             make_room(s, gain, work, fields);
         } else if (fields.inlets.make_room_around != nullptr) {
             fields.inlets.make_room_around(s, gain, work, fields);
-        } else {
+        } else {  // foreseen, though nobody asks before something was added
             for_each_patch(s, fields.coarse.shape, work, [](const Patch&) {});
         }
     }

@@ -117,8 +117,7 @@ inline DriftOfFour drift_lanes(const float* excess, std::int32_t back, float spe
     return {moves ? all_lanes(speed) * rise : all_lanes(0.0F), moves};
 }
 
-/// visit(face, its drift, on u) for a patch four cells wide: both
-/// kinds of faces, row by row.
+/// visit(face, its drift, on u) for a patch four cells wide: both kinds of faces, row by row.
 template <class Drift, class Visit>
 inline void for_each_four(const Drift& drift, const Visit& visit) {
     const float* e = drift.fields.divergence;
